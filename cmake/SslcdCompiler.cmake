@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Warnings, sanitizers and ccache: for our own targets only, never part of what an installed target hands on.
+add_library(sslcd_compiler INTERFACE)
+target_compile_options(sslcd_compiler INTERFACE -Wall -Wextra -Wshadow -Wno-unused-parameter)
+if(SSLCD_WARNINGS_AS_ERRORS)
+  target_compile_options(sslcd_compiler INTERFACE -Werror)
+endif()
+if(SSLCD_SANITIZE)
+  add_compile_options(-fsanitize=${SSLCD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${SSLCD_SANITIZE})
+endif()
+find_program(SSLCD_CCACHE ccache)
+if(SSLCD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SSLCD_CCACHE})
+endif()

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/association/gallery.h"
+#include "sslcd/core/detection.h"
+#include "sslcd/core/fields.h"
+
+namespace sslcd {
+
+/// Data association, paper III-B.
+struct AssociationOptions {
+  enum class Method {
+    kRobust,  ///< gate by 3D distance, geometry joins the score, one-to-one by maximum total score
+    kPaper,   ///< Eqs. 2-6 as printed: label gate and appearance score only
+  };
+  Method method = Method::kRobust;
+  double lambda = 0.5;           ///< Eq. 3: balance between box overlap, colour and embedding
+  double min_score = 0.1;        ///< pairs below this are never matched
+  double geometry_weight = 0.6;  ///< robust: share of the 3D distance in the score
+  double gate_sigmas = 4.;       ///< robust: horizontal Mahalanobis distance allowed
+  double gate_m = 4.;            ///< robust: horizontal distance allowed, whatever the covariance says
+  double gate_vertical_m = 2.;   ///< robust: vertical distance allowed
+};
+void DescribeFields(FieldVisitor& visitor, AssociationOptions& options);
+
+/// Where something is in the horizontal plane of the world. [m, m^2]
+struct PlanarBelief {
+  Vec2 position{0, 0};
+  Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
+};
+
+/// A detection d_i as association sees it.
+struct AssociationQuery {
+  const Detection* detection = nullptr;
+  PlanarBelief place;
+  double height = 0;  ///< of the centre above the world's origin [m]
+  double viewpoint_rad = 0;  ///< bearing of the camera in the object frame
+};
+
+/// A landmark o_k as association sees it in this frame.
+struct AssociationCandidate {
+  std::string label;
+  std::vector<PlanarBelief> beliefs;  ///< where it may be, the more plausible first (parked, driving); >= 1
+  double height = 0;
+  double viewpoint_rad = 0;
+  std::optional<Box2d> projected_box;  ///< Eq. 1
+  const Gallery* colour = nullptr;
+  const Gallery* embedding = nullptr;
+};
+
+/// W_d of Eq. 2 (queries x candidates); 0 = must not match.
+Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
+                                  const std::vector<AssociationCandidate>& candidates,
+                                  const AssociationOptions& options);
+
+/// Index of the candidate for each query, -1 for none; one-to-one with the largest total score.
+std::vector<int> Associate(const std::vector<AssociationQuery>& queries,
+                           const std::vector<AssociationCandidate>& candidates, const AssociationOptions& options);
+
+}  // namespace sslcd

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace sslcd {
+
+/// What a landmark has looked like: the paper's H_k and E_k, bounded.
+/// Eqs. 5 and 6 average the dot product with every past vector: O(n), and dominated by the side seen most. The average of
+/// dot products is the dot product with the average, so `kMean` keeps just that (same value, O(1)); `kByViewpoint` keeps
+/// one average per viewing direction and compares with the bin nearest to the current one.
+class Gallery {
+ public:
+  enum class Mode { kMean, kByViewpoint };
+
+  explicit Gallery(Mode mode = Mode::kByViewpoint) : mode_(mode) {}
+
+  /// Adds a vector seen from `viewpoint_rad`: the bearing of the camera in the object frame, 0 = from the front.
+  /// Vectors of one gallery have one length; an empty vector is ignored.
+  void Add(const std::vector<float>& vector, double viewpoint_rad);
+
+  /// Similarity of a vector seen from `viewpoint_rad` in [0, 1] (negative dot products count as 0). None while either is empty.
+  std::optional<double> Compare(const std::vector<float>& vector, double viewpoint_rad) const;
+
+  /// Takes over what another gallery has seen (fusion of two landmarks), its viewpoints turned by `turn_rad`.
+  void Merge(const Gallery& other, double turn_rad = 0.);
+
+ private:
+  static constexpr int kBins = 8;  // 45 degrees each: what a change of viewpoint leaves recognisable
+  struct Bin {
+    std::vector<float> sum;
+    int count = 0;
+  };
+  int BinOf(double viewpoint_rad) const;
+  const Bin* NearestFilled(int bin) const;
+
+  Mode mode_;
+  std::vector<Bin> bins_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace sslcd {
+
+/// Hash grid over the horizontal plane. Finding what lies near a point costs as much as there is near that point,
+/// however large the map is. Not thread-safe.
+class SpatialIndex {
+ public:
+  explicit SpatialIndex(double cell_m = 10.) : cell_m_(cell_m) {}
+
+  /// Inserts `id`, or moves it if it is there already. Coordinates in metres.
+  void Put(int id, double x, double y);
+  void Remove(int id);
+
+  /// Ids within `radius_m` of the point, ascending (so that callers are deterministic).
+  std::vector<int> Near(double x, double y, double radius_m) const;
+
+  std::size_t size() const { return place_.size(); }
+
+ private:
+  struct Entry {
+    double x, y;
+    std::int64_t cell;
+  };
+  std::int64_t CellOf(std::int64_t column, std::int64_t row) const;
+  std::int64_t Index(double coordinate) const;
+
+  double cell_m_;
+  std::unordered_map<int, Entry> place_;
+  std::unordered_map<std::int64_t, std::vector<int>> cells_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// Rectified pinhole camera as a 3x4 projection P = K [I | t], the rows of KITTI's calib.txt. [px, m]
+struct Camera {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+  Vec3 offset{0, 0, 0};  ///< K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
+  int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
+};
+
+/// Axis-aligned box in the image. [px]
+struct Box2d {
+  double left = 0, top = 0, right = 0, bottom = 0;
+  double Area() const { return right > left && bottom > top ? (right - left) * (bottom - top) : 0.; }
+};
+
+/// Intersection over union, in [0, 1]; 0 when either box is empty.
+double Iou(const Box2d& a, const Box2d& b);
+
+}  // namespace sslcd

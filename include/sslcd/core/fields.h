@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sslcd {
+
+/// One options struct = one function `void DescribeFields(FieldVisitor&, XOptions&)` that names every field once.
+/// Loading from YAML, `--set`, dumping, range checks and docs/configuration.md are all visitors over that one table.
+class FieldVisitor {
+ public:
+  virtual ~FieldVisitor() = default;
+
+  /// Inclusive range [low, high]; the unit is the key's suffix (_m, _s, _rad, _px).
+  virtual void Real(const char* key, double& value, double low, double high, const char* meaning) = 0;
+  virtual void Integer(const char* key, int& value, int low, int high, const char* meaning) = 0;
+  virtual void Flag(const char* key, bool& value, const char* meaning) = 0;
+  virtual void Text(const char* key, std::string& value, const char* meaning) = 0;
+
+  /// `value` is an index into `names`. Use the Enum() helper below for enum types.
+  virtual void Choice(const char* key, int& value, const std::vector<const char*>& names, const char* meaning) = 0;
+
+  /// A nested section; `describe` visits its fields with the same visitor.
+  virtual void Section(const char* key, const char* meaning, const std::function<void(FieldVisitor&)>& describe) = 0;
+
+  /// An enum whose enumerators are 0, 1, 2, ... in the order of `names`.
+  template <class E>
+  void Enum(const char* key, E& value, const std::vector<const char*>& names, const char* meaning) {
+    int index = static_cast<int>(value);
+    Choice(key, index, names, meaning);
+    value = static_cast<E>(index);
+  }
+
+  /// A nested options struct that has a DescribeFields of its own.
+  template <class Options>
+  void Nested(const char* key, Options& options, const char* meaning) {
+    Section(key, meaning, [&options](FieldVisitor& visitor) { DescribeFields(visitor, options); });
+  }
+};
+
+}  // namespace sslcd

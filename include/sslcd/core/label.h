@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace sslcd {
+
+/// Which turns about the vertical leave an object looking the same.
+enum class Symmetry {
+  kNone,  ///< front and back differ (car)
+  kPi,    ///< front and back are not told apart
+  kFull,  ///< no yaw at all (pole, tree)
+};
+
+/// "none", "pi" or "full".
+const char* ToString(Symmetry symmetry);
+std::optional<Symmetry> ParseSymmetry(const std::string& text);
+
+/// Period of the yaw in rad: 2 pi, pi, or 0 for "no yaw".
+double YawPeriod(Symmetry symmetry);
+
+/// What is known about a class of objects.
+struct LabelInfo {
+  Symmetry symmetry = Symmetry::kNone;
+};
+
+/// Label -> what is known. Labels that are not listed behave like a default LabelInfo.
+class LabelTable {
+ public:
+  const LabelInfo& operator[](const std::string& label) const;
+  void Set(const std::string& label, const LabelInfo& info) { table_[label] = info; }
+  const std::map<std::string, LabelInfo>& entries() const { return table_; }
+
+ private:
+  std::map<std::string, LabelInfo> table_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <lie/se3.h>
+
+namespace sslcd {
+
+/// Rigid transform. `T_a_b` maps points of frame b to frame a.
+/// Storage [qx qy qz qw tx ty tz], tangent order [rho (translation), phi (rotation)], right perturbation `T * Exp(d)`.
+using Pose = lie::SE3<double>;
+using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
+using Vec3 = Eigen::Vector3d;
+using Vec6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
+
+/// Angle wrapped to (-pi, pi]. [rad]
+double WrapAngle(double angle_rad);
+
+/// Angle wrapped to (-period/2, period/2]; period > 0. [rad]
+double WrapAngle(double angle_rad, double period_rad);
+
+/// A gravity-aligned frame: which way is up, and the two horizontal axes that yaw is measured in.
+/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up x forward).
+/// KITTI camera axes: up = -y; VINS worlds: up = +z.
+struct GravityFrame {
+  Vec3 up{0, -1, 0};
+  Vec3 forward{1, 0, 0};
+  Vec3 left{0, 0, 1};
+
+  /// The frame for a given up direction (any non-zero vector; normalised here). For an axis-aligned `up`, `forward` is
+  /// another axis of the world: x for up = -y or +z.
+  static GravityFrame FromUp(const Vec3& up);
+
+  /// Columns [forward left up]: turns components in this frame into world components.
+  Eigen::Matrix3d Basis() const;
+
+  /// Object-frame axes (x along its length, z up) in the world for a yaw. [rad]
+  lie::SO3<double> Upright(double yaw_rad) const;
+
+  /// Yaw of a rotation: direction of its x axis projected to the horizontal. [rad]
+  double YawOf(const lie::SO3<double>& R_world_object) const;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// Parked or driving? Two models explain an object's horizontal positions in the world: one that stands still and one
+/// that drives at nearly constant velocity. The log Bayes factor between them is the stationarity test: the driving
+/// model can follow anything, and pays for that with a wide prediction whenever standing still would have done.
+struct MotionTestOptions {
+  double speed_prior_mps = 8.;      ///< standard deviation of an unknown object's speed, per axis
+  double acceleration_mps2 = 2.;    ///< of the driving model
+  double wander_m_per_sqrt_s = 0.02;  ///< of the standing model: what camera drift does to it
+  double decide_at = 6.;            ///< log Bayes factor at which an object is called driving (and, negated, parked)
+  double memory = 10.;              ///< the factor's limit: how much evidence a change of mind has to overcome
+  double forget_after_s = 5.;       ///< unseen for longer: start again
+};
+void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
+
+class MotionTest {
+ public:
+  using Point = Vec2;
+  using Covariance = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>;
+  struct Prediction {
+    Point position;
+    Covariance covariance;
+  };
+
+  /// Horizontal position [m] with its covariance at `stamp` [s].
+  void Add(const Point& position, const Covariance& covariance, double stamp, const MotionTestOptions& options);
+
+  Prediction PredictParked(double stamp, const MotionTestOptions& options) const;
+  Prediction PredictDriving(double stamp, const MotionTestOptions& options) const;
+
+  /// > 0: driving explains the positions better.
+  double log_bayes_factor() const { return log_bayes_factor_; }
+  int count() const { return count_; }
+  Point velocity() const { return state_.tail<2>(); }  ///< of the driving model [m/s]
+
+  /// Moves both models, e.g. after an optimisation has moved the landmark. [m]
+  void Shift(const Point& by);
+
+ private:
+  int count_ = 0;
+  double stamp_ = 0;
+  double log_bayes_factor_ = 0;
+  Point parked_{0, 0};
+  Covariance parked_covariance_ = Covariance::Zero();
+  Eigen::Matrix<double, 4, 1, Eigen::DontAlign> state_ = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>::Zero();
+  Eigen::Matrix<double, 4, 4, Eigen::DontAlign> state_covariance_ = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();
+};
+
+}  // namespace sslcd

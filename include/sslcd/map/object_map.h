@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "sslcd/association/associate.h"
+#include "sslcd/association/spatial_index.h"
+#include "sslcd/core/detection_noise.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/map/map_landmark.h"
+
+namespace sslcd {
+
+/// Life cycle of landmarks.
+struct MapOptions {
+  int confirm_sightings = 3;       ///< sightings that turn tentative into confirmed
+  double birth_score = 0.5;        ///< a detection less certain than this makes no new landmark
+  double stale_after_s = 2.;       ///< a tentative or driving object unseen for longer is given up
+  double search_radius_m = 12.;    ///< how far from a detection its landmark is looked for
+  bool learn_noise = true;         ///< learn the detector's noise scale from the scatter of its detections
+  MotionTestOptions motion;
+};
+void DescribeFields(FieldVisitor& visitor, MapOptions& options);
+
+/// What one frame did to the map.
+struct MapUpdate {
+  std::vector<LandmarkId> matched;  ///< landmark of each detection; value -1: none
+  int born = 0, confirmed = 0, turned_dynamic = 0;
+};
+
+/// The objects known so far, and the bookkeeping that associates detections with them. All state of the mapping stage.
+class ObjectMap {
+ public:
+  ObjectMap(const GravityFrame& gravity, const LabelTable& labels, const DetectionNoise& noise,
+            const AssociationOptions& association, const MapOptions& options);
+
+  /// Associates the detections of a frame seen from T_world_cam, and updates, creates and retires landmarks.
+  /// `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must increase from call to call.
+  MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
+                     const Camera* camera);
+
+  const std::map<int, MapLandmark>& landmarks() const { return landmarks_; }
+  const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id.value); }
+  const GravityFrame& gravity() const { return gravity_; }
+  const NoiseScale& noise_scale() const { return noise_scale_; }
+
+  /// Puts back what an optimisation has found.
+  void SetPose(LandmarkId id, const UprightPose& pose);
+  void SetState(LandmarkId id, LandmarkState state);
+  void SetNoiseScale(const NoiseScale& scale) { noise_scale_ = scale; }
+
+  /// `drop` becomes part of `keep`: sightings and galleries merge, where both were seen in one frame `keep`'s stays.
+  void Fuse(LandmarkId keep, LandmarkId drop);
+
+  /// Replaces a landmark's sightings, e.g. after they were associated anew; an empty list removes the landmark.
+  void SetSightings(LandmarkId id, std::vector<Sighting> sightings);
+
+  /// Adds landmarks that somebody else has mapped (a loaded map, a benchmark's ballast). Returns the new id.
+  LandmarkId Insert(MapLandmark landmark);
+
+  /// Ids of landmarks within a horizontal distance of a point, ascending.
+  std::vector<LandmarkId> Near(const Vec3& point_world, double radius_m) const;
+
+ private:
+  struct View;  // what is the same for all detections of a frame
+  AssociationQuery QueryOf(const Detection& detection, const View& view) const;
+  AssociationCandidate CandidateOf(const MapLandmark& landmark, const View& view) const;
+  std::vector<int> CandidateIds(const std::vector<AssociationQuery>& queries) const;
+  void Create(const AssociationQuery& query, const View& view);
+  void Update(MapLandmark& landmark, const AssociationQuery& query, const View& view);
+  void LearnNoise(const MapLandmark& landmark, const Detection& detection, const View& view);
+  void Judge(MapLandmark& landmark, MapUpdate& update);
+  void Retire(double stamp);
+  void Reindex(const MapLandmark& landmark, double stamp);
+  Vec2 Horizontal(const Vec3& world) const { return {world.dot(gravity_.forward), world.dot(gravity_.left)}; }
+  bool Movable(const MapLandmark& landmark) const { return landmark.symmetry != Symmetry::kFull; }
+
+  GravityFrame gravity_;
+  LabelTable labels_;
+  DetectionNoise noise_;
+  AssociationOptions association_;
+  MapOptions options_;
+  NoiseScale noise_scale_;
+  std::map<int, MapLandmark> landmarks_;
+  std::vector<int> open_;  ///< tentative and driving ones: the only ones that can grow stale
+  SpatialIndex index_;
+  int next_id_ = 1;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/association/spatial_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sslcd {
+
+std::int64_t SpatialIndex::Index(double coordinate) const {
+  return static_cast<std::int64_t>(std::floor(coordinate / cell_m_));
+}
+
+std::int64_t SpatialIndex::CellOf(std::int64_t column, std::int64_t row) const {
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(column) << 32) ^
+                                   (static_cast<std::uint64_t>(row) & 0xffffffffu));
+}
+
+void SpatialIndex::Put(int id, double x, double y) {
+  const std::int64_t cell = CellOf(Index(x), Index(y));
+  const auto known = place_.find(id);
+  if (known != place_.end()) {
+    if (known->second.cell == cell) {
+      known->second = {x, y, cell};
+      return;
+    }
+    Remove(id);
+  }
+  place_[id] = {x, y, cell};
+  cells_[cell].push_back(id);
+}
+
+void SpatialIndex::Remove(int id) {
+  const auto known = place_.find(id);
+  if (known == place_.end()) return;
+  const auto cell = cells_.find(known->second.cell);
+  auto& ids = cell->second;
+  ids.erase(std::find(ids.begin(), ids.end(), id));
+  if (ids.empty()) cells_.erase(cell);
+  place_.erase(known);
+}
+
+std::vector<int> SpatialIndex::Near(double x, double y, double radius_m) const {
+  std::vector<int> found;
+  for (std::int64_t column = Index(x - radius_m); column <= Index(x + radius_m); ++column) {
+    for (std::int64_t row = Index(y - radius_m); row <= Index(y + radius_m); ++row) {
+      const auto cell = cells_.find(CellOf(column, row));
+      if (cell == cells_.end()) continue;
+      for (const int id : cell->second) {
+        const Entry& entry = place_.at(id);
+        if (std::hypot(entry.x - x, entry.y - y) <= radius_m) found.push_back(id);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace sslcd

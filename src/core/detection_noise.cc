@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/core/detection_noise.h"
+
+#include <Eigen/Geometry>
+
+namespace sslcd {
+
+void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise) {
+  visitor.Real("radial_m", noise.radial_m, 1e-4, 100, "standard deviation along the viewing ray at range 0");
+  visitor.Real("radial_per_m", noise.radial_per_m, 0, 1, "its growth per metre of range");
+  visitor.Real("lateral_m", noise.lateral_m, 1e-4, 100, "standard deviation across the viewing ray at range 0");
+  visitor.Real("lateral_per_m", noise.lateral_per_m, 0, 1, "its growth per metre of range");
+  visitor.Real("vertical_m", noise.vertical_m, 1e-4, 100, "vertical standard deviation at range 0");
+  visitor.Real("vertical_per_m", noise.vertical_per_m, 0, 1, "its growth per metre of range");
+  visitor.Real("yaw_rad", noise.yaw_rad, 1e-4, 4, "standard deviation of the heading at range 0");
+  visitor.Real("yaw_per_m", noise.yaw_per_m, 0, 1, "its growth per metre of range");
+  visitor.Real("size_relative", noise.size_relative, 1e-4, 1, "standard deviation of each dimension, relative to itself");
+  visitor.Real("initial_scale", noise.initial_scale, 0.1, 100,
+               "factor on all standard deviations before the run has learnt its own");
+}
+
+DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale) {
+  return {(noise.radial_m + noise.radial_per_m * range_m) * scale.radial,
+          (noise.lateral_m + noise.lateral_per_m * range_m) * scale.lateral,
+          (noise.vertical_m + noise.vertical_per_m * range_m) * scale.vertical,
+          (noise.yaw_rad + noise.yaw_per_m * range_m) * scale.yaw};
+}
+
+Eigen::Matrix3d RayFrame(const Vec3& point_cam) {
+  const double range = point_cam.norm();
+  const Vec3 ray = range > 1e-9 ? Vec3(point_cam / range) : Vec3(Vec3::UnitZ());
+  Vec3 across = Vec3::UnitY().cross(ray);  // y points down in the image, so this one is horizontal
+  if (across.norm() < 1e-6) across = Vec3::UnitX();
+  across.normalize();
+  Eigen::Matrix3d rows;
+  rows << ray.transpose(), across.transpose(), ray.cross(across).transpose();
+  return rows;
+}
+
+Eigen::Matrix3d PositionCovariance(const Vec3& point_cam, const DetectionSigmas& sigmas) {
+  const Eigen::Matrix3d rows = RayFrame(point_cam);
+  const Vec3 variance(sigmas.radial * sigmas.radial, sigmas.lateral * sigmas.lateral, sigmas.vertical * sigmas.vertical);
+  return rows.transpose() * variance.asDiagonal() * rows;
+}
+
+}  // namespace sslcd

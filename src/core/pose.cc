@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/core/pose.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace sslcd {
+
+double WrapAngle(double angle_rad, double period_rad) {
+  double wrapped = std::fmod(angle_rad + 0.5 * period_rad, period_rad);
+  if (wrapped <= 0) wrapped += period_rad;
+  return wrapped - 0.5 * period_rad;
+}
+
+double WrapAngle(double angle_rad) { return WrapAngle(angle_rad, 2 * M_PI); }
+
+GravityFrame GravityFrame::FromUp(const Vec3& up) {
+  GravityFrame frame;
+  frame.up = up.normalized();
+  // x unless up is (nearly) x: so KITTI gets (x, z) and VINS (x, y) as its horizontal axes.
+  const Vec3 candidate = std::abs(frame.up.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  frame.forward = (candidate - frame.up * frame.up.dot(candidate)).normalized();
+  frame.left = frame.up.cross(frame.forward);
+  return frame;
+}
+
+Eigen::Matrix3d GravityFrame::Basis() const {
+  Eigen::Matrix3d basis;
+  basis << forward, left, up;
+  return basis;
+}
+
+lie::SO3<double> GravityFrame::Upright(double yaw_rad) const {
+  const Eigen::Matrix3d R = Basis() * Eigen::AngleAxisd(yaw_rad, Vec3::UnitZ()).toRotationMatrix();
+  return lie::SO3<double>::FromMatrix(R);
+}
+
+double GravityFrame::YawOf(const lie::SO3<double>& R_world_object) const {
+  const Vec3 heading = R_world_object * Vec3(Vec3::UnitX());
+  return std::atan2(heading.dot(left), heading.dot(forward));
+}
+
+}  // namespace sslcd

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/map/motion_test.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace sslcd {
+namespace {
+
+using Matrix2 = Eigen::Matrix2d;
+using Matrix4 = Eigen::Matrix4d;
+
+// Constant velocity over dt, driven by white acceleration.
+Matrix4 Transition(double dt) {
+  Matrix4 F = Matrix4::Identity();
+  F.topRightCorner<2, 2>() = dt * Matrix2::Identity();
+  return F;
+}
+
+Matrix4 ProcessNoise(double dt, double acceleration) {
+  const double q = acceleration * acceleration;
+  Matrix4 Q = Matrix4::Zero();
+  Q.topLeftCorner<2, 2>() = 0.25 * dt * dt * dt * dt * q * Matrix2::Identity();
+  Q.topRightCorner<2, 2>() = 0.5 * dt * dt * dt * q * Matrix2::Identity();
+  Q.bottomLeftCorner<2, 2>() = Q.topRightCorner<2, 2>();
+  Q.bottomRightCorner<2, 2>() = dt * dt * q * Matrix2::Identity();
+  return Q;
+}
+
+// Gaussian log density up to a constant. The distance is capped: one wild detection decides nothing.
+double LogLikelihood(const Eigen::Vector2d& innovation, const Matrix2& covariance) {
+  const double distance = innovation.dot(covariance.inverse() * innovation);
+  return -0.5 * (std::min(distance, 16.) + std::log(covariance.determinant()));
+}
+
+}  // namespace
+
+void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options) {
+  visitor.Real("speed_prior_mps", options.speed_prior_mps, 0.01, 100, "standard deviation of an unknown object's speed");
+  visitor.Real("acceleration_mps2", options.acceleration_mps2, 0.01, 100, "acceleration of driving objects");
+  visitor.Real("wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
+               "how far a parked object may seem to wander in one second, because the camera drifts");
+  visitor.Real("decide_at", options.decide_at, 0.1, 100, "log Bayes factor at which an object is called driving");
+  visitor.Real("memory", options.memory, 0.1, 1000, "limit of the log Bayes factor; small: quick to change its mind");
+  visitor.Real("forget_after_s", options.forget_after_s, 0.01, 1e6, "an object unseen for longer is tested anew");
+}
+
+void MotionTest::Add(const Point& position, const Covariance& covariance, double stamp,
+                     const MotionTestOptions& options) {
+  if (count_ > 0 && stamp - stamp_ <= options.forget_after_s) {
+    const Prediction parked = PredictParked(stamp, options);
+    const Prediction driving = PredictDriving(stamp, options);
+    const Matrix2 parked_innovation = parked.covariance + covariance;
+    const Matrix2 driving_innovation = driving.covariance + covariance;
+    const Eigen::Vector2d parked_error = position - parked.position, driving_error = position - driving.position;
+    log_bayes_factor_ +=
+        LogLikelihood(driving_error, driving_innovation) - LogLikelihood(parked_error, parked_innovation);
+    log_bayes_factor_ = std::clamp(log_bayes_factor_, -options.memory, options.memory);
+
+    const Matrix2 parked_gain = parked.covariance * parked_innovation.inverse();
+    parked_ = parked.position + parked_gain * parked_error;
+    parked_covariance_ = (Matrix2::Identity() - parked_gain) * parked.covariance;
+
+    const double dt = stamp - stamp_;
+    const Matrix4 predicted = Transition(dt) * state_covariance_ * Transition(dt).transpose() +
+                              ProcessNoise(dt, options.acceleration_mps2);
+    const Eigen::Matrix<double, 4, 2> gain = predicted.leftCols<2>() * driving_innovation.inverse();
+    state_ = Transition(dt) * state_ + gain * driving_error;
+    state_covariance_ = predicted - gain * predicted.topRows<2>();
+  } else {
+    parked_ = position;
+    parked_covariance_ = covariance;
+    state_ << position, 0, 0;
+    state_covariance_.setZero();
+    state_covariance_.topLeftCorner<2, 2>() = covariance;
+    state_covariance_.bottomRightCorner<2, 2>() =
+        options.speed_prior_mps * options.speed_prior_mps * Matrix2::Identity();
+  }
+  stamp_ = stamp;
+  ++count_;
+}
+
+MotionTest::Prediction MotionTest::PredictParked(double stamp, const MotionTestOptions& options) const {
+  const double dt = std::max(0., stamp - stamp_);
+  const double wander = options.wander_m_per_sqrt_s * options.wander_m_per_sqrt_s * std::min(dt, options.forget_after_s);
+  return {parked_, parked_covariance_ + wander * Matrix2::Identity()};
+}
+
+MotionTest::Prediction MotionTest::PredictDriving(double stamp, const MotionTestOptions& options) const {
+  const double dt = std::clamp(stamp - stamp_, 0., options.forget_after_s);
+  const Matrix4 covariance =
+      Transition(dt) * state_covariance_ * Transition(dt).transpose() + ProcessNoise(dt, options.acceleration_mps2);
+  return {state_.head<2>() + dt * state_.tail<2>(), covariance.topLeftCorner<2, 2>()};
+}
+
+void MotionTest::Shift(const Point& by) {
+  parked_ += by;
+  state_.head<2>() += by;
+}
+
+}  // namespace sslcd
