@@ -33,6 +33,8 @@ void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
                "a tentative or driving object unseen for longer is given up");
   visitor.Real("search_radius_m", options.search_radius_m, 0.1, 1000,
                "how far from a detection its landmark is looked for");
+  visitor.Real("caution", options.caution, 1, 100,
+               "factor on the learnt detection sigmas in gates and in the motion test, for errors that drift");
   visitor.Flag("learn_noise", options.learn_noise, "learn the detector's noise scale from its detections' scatter");
   visitor.Nested("motion", options.motion, "parked or driving");
 }
@@ -51,17 +53,13 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
   const View view{frame, stamp, T_world_cam, camera};
   for (const int id : open_) Reindex(landmarks_.at(id), stamp);
 
-  std::vector<AssociationQuery> queries;
-  for (const Detection& detection : detections) queries.push_back(QueryOf(detection, view));
-  const std::vector<int> ids = CandidateIds(queries);
-  std::vector<AssociationCandidate> candidates;
-  for (const int id : ids) candidates.push_back(CandidateOf(landmarks_.at(id), view));
-  const std::vector<int> match = Associate(queries, candidates, association_);
+  const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
+  const std::vector<int> match = MatchIds(queries, CandidateIds(queries), view);
 
   MapUpdate update;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (match[i] >= 0) {
-      MapLandmark& landmark = landmarks_.at(ids[match[i]]);
+      MapLandmark& landmark = landmarks_.at(match[i]);
       Update(landmark, queries[i], view);
       Judge(landmark, update);
       update.matched.push_back(landmark.id);
@@ -77,6 +75,34 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
   return update;
 }
 
+std::vector<LandmarkId> ObjectMap::Match(double stamp, const Pose& T_world_cam,
+                                         const std::vector<Detection>& detections, const Camera* camera) const {
+  const View view{0, stamp, T_world_cam, camera};
+  const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
+  std::vector<int> ids;
+  for (const int id : CandidateIds(queries))
+    if (landmarks_.at(id).state == LandmarkState::kConfirmed) ids.push_back(id);
+  std::vector<LandmarkId> matched;
+  for (const int id : MatchIds(queries, ids, view)) matched.push_back({id});
+  return matched;
+}
+
+// The landmark of each query among `ids`; -1 for none.
+std::vector<int> ObjectMap::MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids,
+                                     const View& view) const {
+  std::vector<AssociationCandidate> candidates;
+  for (const int id : ids) candidates.push_back(CandidateOf(landmarks_.at(id), view));
+  std::vector<int> match = Associate(queries, candidates, association_);
+  for (int& k : match) k = k >= 0 ? ids[k] : -1;
+  return match;
+}
+
+std::vector<AssociationQuery> ObjectMap::QueriesOf(const std::vector<Detection>& detections, const View& view) const {
+  std::vector<AssociationQuery> queries;
+  for (const Detection& detection : detections) queries.push_back(QueryOf(detection, view));
+  return queries;
+}
+
 AssociationQuery ObjectMap::QueryOf(const Detection& detection, const View& view) const {
   AssociationQuery query;
   query.detection = &detection;
@@ -84,7 +110,10 @@ AssociationQuery ObjectMap::QueryOf(const Detection& detection, const View& view
   const Vec3 point_world = view.T_world_cam * point_cam;
   query.place.position = Horizontal(point_world);
   query.height = point_world.dot(gravity_.up);
-  const DetectionSigmas sigmas = SigmasAt(point_cam.norm(), noise_, noise_scale_);
+  NoiseScale cautious = noise_scale_;
+  cautious.radial *= options_.caution;
+  cautious.lateral *= options_.caution;
+  const DetectionSigmas sigmas = SigmasAt(point_cam.norm(), noise_, cautious);
   const Eigen::Matrix3d R = view.T_world_cam.so3().matrix();
   Eigen::Matrix<double, 2, 3> to_plane;
   to_plane << gravity_.forward.transpose(), gravity_.left.transpose();

@@ -112,7 +112,8 @@ inline Eigen::Vector3d LogNear(const SO3d& R, const Eigen::Vector3d& reference) 
 inline SE3d::Tangent LogNear(const SE3d& T, const SE3d::Tangent& reference) {
   const Eigen::Vector3d phi = LogNear(T.so3(), Eigen::Vector3d(reference.tail<3>()));
   SE3d::Tangent xi;
-  xi << SO3d::LeftJacobianInverse(phi) * T.translation(), phi;
+  xi.head<3>() = SO3d::LeftJacobianInverse(phi) * T.translation();
+  xi.tail<3>() = phi;
   return xi;
 }
 

@@ -15,7 +15,7 @@ struct DetectionNoise {
   double vertical_m = 0.05, vertical_per_m = 0.0005;
   double yaw_rad = 0.02, yaw_per_m = 0.0005;
   double size_relative = 0.05;                       ///< each dimension, relative to itself
-  double initial_scale = 4.;                         ///< of every component, before anything has been learnt
+  double initial_scale = 2.;                         ///< of every component, before anything has been learnt
 };
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise);
 

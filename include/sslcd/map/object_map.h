@@ -18,6 +18,8 @@ struct MapOptions {
   double birth_score = 0.5;        ///< a detection less certain than this makes no new landmark
   double stale_after_s = 2.;       ///< a tentative or driving object unseen for longer is given up
   double search_radius_m = 12.;    ///< how far from a detection its landmark is looked for
+  double caution = 3.;             ///< factor on the learnt detection sigmas in gates and in the motion test: a detector's
+                                   ///< errors drift with range and viewpoint, so successive ones say less than they seem to
   bool learn_noise = true;         ///< learn the detector's noise scale from the scatter of its detections
   MotionTestOptions motion;
 };
@@ -39,6 +41,10 @@ class ObjectMap {
   /// `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must increase from call to call.
   MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
                      const Camera* camera);
+
+  /// Association alone, against the confirmed landmarks as they stand: the landmark of each detection (-1: none).
+  std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
+                                const Camera* camera) const;
 
   const std::map<int, MapLandmark>& landmarks() const { return landmarks_; }
   const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id.value); }
@@ -67,6 +73,8 @@ class ObjectMap {
   AssociationQuery QueryOf(const Detection& detection, const View& view) const;
   AssociationCandidate CandidateOf(const MapLandmark& landmark, const View& view) const;
   std::vector<int> CandidateIds(const std::vector<AssociationQuery>& queries) const;
+  std::vector<int> MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids, const View& view) const;
+  std::vector<AssociationQuery> QueriesOf(const std::vector<Detection>& detections, const View& view) const;
   void Create(const AssociationQuery& query, const View& view);
   void Update(MapLandmark& landmark, const AssociationQuery& query, const View& view);
   void LearnNoise(const MapLandmark& landmark, const Detection& detection, const View& view);

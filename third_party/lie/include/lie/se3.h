@@ -115,9 +115,7 @@ class SE3 {
   /// T Exp(d) T^-1 = Exp(Adj d), Adj = [R  t^ R; 0  R]: [B] sec. 7.1, [S] app. D.
   Matrix6 Adj() const {
     const Matrix3 R = R_.matrix();
-    Matrix6 A;
-    A << R, SO3<T>::hat(t_) * R, Matrix3::Zero(), R;
-    return A;
+    return BlockTriangular(R, SO3<T>::hat(t_) * R);
   }
 
   /// The scalars in storage order. Who writes them keeps the quaternion's length at one, or
@@ -149,17 +147,13 @@ class SE3 {
   /// J_l = [J  Q; 0  J] with J = SO3::LeftJacobian(phi): [B] eq. 7.85, [S] eq. 179.
   static Matrix6 LeftJacobian(const Tangent& xi) {
     const Matrix3 J = SO3<T>::LeftJacobian(xi.template tail<3>());
-    Matrix6 result;
-    result << J, LeftQ(xi), Matrix3::Zero(), J;
-    return result;
+    return BlockTriangular(J, LeftQ(xi));
   }
 
   /// J_l^-1 = [J^-1  -J^-1 Q J^-1; 0  J^-1]: [B] eq. 7.95. Singular at |phi| = 2 pi k, k > 0.
   static Matrix6 LeftJacobianInverse(const Tangent& xi) {
     const Matrix3 J_inverse = SO3<T>::LeftJacobianInverse(xi.template tail<3>());
-    Matrix6 result;
-    result << J_inverse, -J_inverse * LeftQ(xi) * J_inverse, Matrix3::Zero(), J_inverse;
-    return result;
+    return BlockTriangular(J_inverse, -J_inverse * LeftQ(xi) * J_inverse);
   }
 
   /// J_r(xi) = J_l(-xi).
@@ -167,6 +161,15 @@ class SE3 {
   static Matrix6 RightJacobianInverse(const Tangent& xi) { return LeftJacobianInverse(-xi); }
 
  private:
+  /// [A B; 0 A]
+  static Matrix6 BlockTriangular(const Matrix3& A, const Matrix3& B) {
+    Matrix6 M = Matrix6::Zero();
+    M.template block<3, 3>(0, 0) = A;
+    M.template block<3, 3>(0, 3) = B;
+    M.template block<3, 3>(3, 3) = A;
+    return M;
+  }
+
   /// Q of [B] eq. 7.86, [S] eq. 180. Its last coefficient,
   /// (2 theta - 3 sin + theta cos) / (2 theta^5), is (c4 - 3 c5) / 2 in Stumpff functions.
   static Matrix3 LeftQ(const Tangent& xi) {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sslcd/core/detection_noise.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/upright.h"
+
+namespace sslcd {
+
+/// How far the odometry is off: a random walk, so variances grow with the distance d between two frames:
+/// var = floor^2 + walk^2 d.
+struct OdometryNoise {
+  double translation_floor_m = 0.003;
+  double translation_walk = 0.01;     ///< [m per sqrt(m)]
+  double rotation_floor_rad = 2e-4;
+  double rotation_walk = 5e-4;        ///< [rad per sqrt(m)]
+  double scale_prior = 0.05;          ///< standard deviation of the log scale; 0 keeps the scale at one
+};
+void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
+
+/// Object bundle adjustment, paper III-C.
+struct BaOptions {
+  enum class Residual { kRobust, kPaper };
+  enum class Solver { kLevenbergMarquardt, kGaussNewton };
+  Residual residual = Residual::kRobust;
+  Solver solver = Solver::kLevenbergMarquardt;
+  int max_iterations = 30;
+  double loss_scale = 3.;      ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
+  double correlation = 2.;     ///< robust: factor on detection sigmas, because errors of successive frames are alike
+  OdometryNoise odometry;
+};
+void DescribeFields(FieldVisitor& visitor, BaOptions& options);
+
+struct BaCamera {
+  int frame = 0;
+  Pose T_world_cam;
+};
+
+struct BaObject {
+  int id = 0;
+  Symmetry symmetry = Symmetry::kNone;
+  UprightPose pose;
+};
+
+/// Object `object` was seen from camera `camera` (indices into the problem's lists).
+struct BaSighting {
+  int camera = 0, object = 0;
+  Pose T_cam_object;
+};
+
+/// Odometry between two cameras, translation as measured (before scaling).
+struct BaOdometry {
+  int from = 0, to = 0;
+  Pose T_from_to;
+};
+
+/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order is
+/// cameras (6 each, tangent at x0), objects (4 each), log scale (1).
+struct BaPrior {
+  std::vector<int> frames, object_ids;  ///< whose states it talks about, by name
+  std::vector<Pose> cameras;            ///< x0
+  std::vector<UprightPose> objects;     ///< x0
+  double log_scale = 0;                 ///< x0
+  Eigen::MatrixXd J;
+  Eigen::VectorXd r0;
+  bool empty() const { return J.rows() == 0; }
+};
+
+struct BaProblem {
+  GravityFrame gravity;
+  std::vector<BaCamera> cameras;
+  std::vector<BaObject> objects;
+  std::vector<BaSighting> sightings;
+  std::vector<BaOdometry> odometry;
+  double log_scale = 0;
+  BaPrior prior;  ///< empty: the first camera and the scale get their own
+  DetectionNoise noise;
+  NoiseScale noise_scale;
+};
+
+struct BaSummary {
+  bool usable = false;  ///< false: the problem is left as it was
+  bool converged = false;
+  int iterations = 0;
+  double initial_cost = 0, final_cost = 0;
+  std::string message;  ///< one line
+};
+
+/// Eq. 7: moves cameras, objects and scale to the minimum. Deterministic for any thread count. Never throws on odd
+/// geometry: a problem without sightings or with non-finite input comes back unchanged with `usable` false.
+BaSummary SolveBa(BaProblem& problem, const BaOptions& options);
+
+/// The prior that replaces the given cameras and objects (sorted indices) and every residual that touches them, linearised
+/// where the problem stands (Schur complement). Objects not named must not be seen from a dropped camera only.
+BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, const std::vector<int>& objects,
+                    const BaOptions& options);
+
+/// Factor between the detector's real scatter about the map and `problem.noise`, per component, from the median of the
+/// absolute residuals. Keeps the present scale where there are fewer than 20 residuals.
+NoiseScale EstimateNoiseScale(const BaProblem& problem);
+
+}  // namespace sslcd

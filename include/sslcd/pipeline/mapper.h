@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sslcd/core/detection.h"
+#include "sslcd/core/timing.h"
+#include "sslcd/core/trajectory.h"
+#include "sslcd/map/object_map.h"
+#include "sslcd/optim/object_ba.h"
+#include "sslcd/pipeline/options.h"
+
+namespace sslcd {
+
+/// What the mapper has to know about the world and the sensor before the first frame.
+struct MapperContext {
+  GravityFrame gravity;
+  LabelTable labels;
+  std::optional<Camera> camera;  ///< none: nothing is projected, the box cue drops out
+};
+
+/// What one frame did.
+struct FrameReport {
+  Pose T_world_cam;
+  FilterReport filter;
+  MapUpdate map;
+  bool keyframe = false;
+  BaSummary window;  ///< of the sliding window; not usable where none ran
+};
+
+/// A frame as the mapper remembers it.
+struct FrameRecord {
+  int frame = 0;
+  double stamp = 0;
+  Pose T_odom_cam;
+  Pose T_world_cam;
+  std::vector<Detection> detections;  ///< after the filter, without appearance vectors
+  std::vector<LandmarkId> matched;    ///< landmark of each detection
+};
+
+/// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III). The world is the
+/// odometry's frame, made metric: the first camera stays where the odometry has it.
+/// Not thread-safe; one mapper per sequence.
+class Mapper {
+ public:
+  Mapper(const Options& options, const MapperContext& context);
+
+  /// Frames in order of time. O(window), whatever the size of the map. Throws Error(kBadInput) on a stamp that does not
+  /// increase or a pose that is not finite; the mapper is then as it was before.
+  FrameReport AddFrame(const Frame& frame);
+
+  /// Full-map optimisation over all frames so far: poses, landmarks and scale move. May be called any time, and again.
+  BaSummary Refine();
+
+  const ObjectMap& map() const { return map_; }
+  const std::vector<FrameRecord>& frames() const { return frames_; }
+  Trajectory CameraTrajectory() const;    ///< one pose a frame
+  std::vector<MapObject> Objects() const;  ///< every landmark, by id
+  double scale() const;                   ///< metres per odometry metre
+  TimingTable& timing() { return timing_; }
+
+ private:
+  struct Keyframe {
+    int record;  // index into frames_
+  };
+  Pose Predict(const Pose& T_odom_cam) const;
+  bool IsKeyframe(const Pose& T_odom_cam) const;
+  BaSummary OptimiseWindow();
+  void SlideWindow(const BaProblem& problem);
+  BaProblem WindowProblem() const;
+  void Propagate(std::size_t from_record);
+
+  Options options_;
+  MapperContext context_;
+  ObjectMap map_;
+  std::vector<FrameRecord> frames_;
+  std::vector<Keyframe> window_;
+  BaPrior prior_;
+  double log_scale_ = 0;
+  TimingTable timing_;
+};
+
+}  // namespace sslcd

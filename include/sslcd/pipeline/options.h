@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sslcd/association/associate.h"
+#include "sslcd/core/detection_noise.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/map/object_map.h"
+#include "sslcd/optim/object_ba.h"
+#include "sslcd/perception/colour.h"
+#include "sslcd/perception/filter.h"
+
+namespace sslcd {
+
+/// The sliding window that runs with every keyframe.
+struct WindowOptions {
+  bool enabled = true;
+  int keyframes = 8;              ///< cameras in the window
+  double keyframe_m = 0.5;        ///< a new keyframe every so far ...
+  double keyframe_rad = 0.05;     ///< ... or every such turn
+  int min_sightings = 5;          ///< objects seen less often stay out ("more than 4 times", paper III-C)
+};
+void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
+
+/// The full-map optimisation at the end of a run (callable any time).
+struct RefineOptions {
+  bool enabled = true;
+  int rounds = 2;                 ///< optimise, associate anew, fuse, and again
+  int min_sightings = 2;          ///< objects seen less often do not enter the final map
+  double duplicate_m = 1.;        ///< landmarks of one label closer than this are one object
+  double moved_m = 1.5;           ///< a landmark whose late sightings lie further than this from its early ones has moved
+};
+void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
+
+/// Everything that can be configured.
+struct Options {
+  enum class Mode { kRobust, kPaper };
+  Mode mode = Mode::kRobust;
+  DetectionFilterOptions filter;
+  ColourOptions colour;
+  DetectionNoise noise;
+  AssociationOptions association;
+  MapOptions map;
+  WindowOptions window;
+  BaOptions ba;
+  RefineOptions refine;
+};
+void DescribeFields(FieldVisitor& visitor, Options& options);
+
+/// The equations as printed (`mode: paper`) or the system as its users need it (`mode: robust`).
+Options DefaultOptions(Options::Mode mode);
+
+}  // namespace sslcd

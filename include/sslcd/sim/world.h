@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/pose.h"
+#include "sslcd/core/trajectory.h"
+
+namespace sslcd::sim {
+
+/// One thing that stands or drives in a synthetic world. Its frame is that of a Detection: centre, x along the length, z up.
+struct WorldObject {
+  int id = 0;  ///< index in World::objects
+  std::string label;
+  Vec3 dims{0, 0, 0};                   ///< length, width, height [m]
+  std::vector<Pose> T_world_object;     ///< one pose where it stands, one for every frame where it drives
+  bool driving() const { return T_world_object.size() > 1; }
+  const Pose& PoseAt(int frame) const { return T_world_object[driving() ? frame : 0]; }
+};
+
+/// A flat synthetic world and the camera's true path through it. World axes are those of the first camera, KITTI style
+/// (x right, y down, z forward), so the first pose is the identity and up is -y.
+struct World {
+  std::vector<WorldObject> objects;
+  Trajectory truth;  ///< T_world_cam for every frame
+  GravityFrame gravity;
+  Camera camera;
+  LabelTable labels;
+};
+
+/// A street that winds gently: cars parked along both kerbs with gaps, poles on the pavement, cars driving in both lanes.
+struct StreetOptions {
+  int frames = 300;
+  double frame_rate_hz = 10.;
+  double speed_mps = 8.;
+  double bend_rad_per_m = 0.012;  ///< largest curvature of the road
+  double free_fraction = 0.3;     ///< of the kerb-side parking spaces
+  double pole_spacing_m = 30.;
+  int driving_cars = 4;  ///< half of them oncoming
+};
+World MakeStreet(std::uint64_t seed, const StreetOptions& options = {});
+
+/// A regular parking lot: the camera drives round and round a double row of stalls, with a row on the outer side of each
+/// aisle. After one lap (about 170 m with the default length) it is back where it was.
+struct ParkingLotOptions {
+  int frames = 300;
+  double frame_rate_hz = 10.;
+  double speed_mps = 6.;
+  double aisle_m = 60.;           ///< length of the rows
+  double free_fraction = 0.4;     ///< of the stalls
+  int driving_cars = 1;           ///< ahead on the same lap
+};
+World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options = {});
+
+/// Fields and ranges; the generators throw Error(kUsage) on values outside them.
+void DescribeFields(FieldVisitor& visitor, StreetOptions& options);
+void DescribeFields(FieldVisitor& visitor, ParkingLotOptions& options);
+
+}  // namespace sslcd::sim

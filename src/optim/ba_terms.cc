@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optim/ba_terms.h"
+
+#include <ceres/autodiff_cost_function.h>
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "optim/marginal_prior.h"
+#include "optim/pose_manifold.h"
+#include "sslcd/optim/cost_functors.h"
+
+namespace sslcd {
+namespace {
+
+template <class Functor, int kResiduals, int... kBlocks>
+ceres::CostFunction* AutoDiff(const Functor& functor) {
+  return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
+}
+
+}  // namespace
+
+BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
+    : cameras_(problem.cameras.size()), objects_(problem.objects.size()), log_scale_(problem.log_scale) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    std::copy_n(problem.cameras[i].T_world_cam.data(), 7, cameras_[i].data());
+    ceres_.AddParameterBlock(cameras_[i].data(), 7, new PoseManifold);
+  }
+  for (std::size_t k = 0; k < objects_.size(); ++k) {
+    const UprightPose& pose = problem.objects[k].pose;
+    objects_[k] = {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw};
+    // An object without yaw keeps the one it has; nothing measures it.
+    if (problem.objects[k].symmetry == Symmetry::kFull)
+      ceres_.AddParameterBlock(objects_[k].data(), 4, new ceres::SubsetManifold(4, {3}));
+    else
+      ceres_.AddParameterBlock(objects_[k].data(), 4);
+  }
+  ceres_.AddParameterBlock(&log_scale_, 1);
+  AddSightings(problem, options);
+  AddOdometry(problem, options);
+  AddPriors(problem, options);
+}
+
+void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
+  for (const BaSighting& sighting : problem.sightings) {
+    double* camera = cameras_[sighting.camera].data();
+    double* object = objects_[sighting.object].data();
+    if (options.residual == BaOptions::Residual::kPaper) {
+      const PaperObjectResidual residual{sighting.T_cam_object, problem.gravity};
+      ceres_.AddResidualBlock(AutoDiff<PaperObjectResidual, 6, 7, 4>(residual), nullptr, camera, object);
+      continue;
+    }
+    DetectionSigmas sigmas = SigmasAt(sighting.T_cam_object.translation().norm(), problem.noise, problem.noise_scale);
+    sigmas.radial *= options.correlation;
+    sigmas.lateral *= options.correlation;
+    sigmas.vertical *= options.correlation;
+    sigmas.yaw *= options.correlation;
+    // Detectors take front for back now and then, so even a car's heading is only trusted up to half a turn here.
+    const double period = problem.objects[sighting.object].symmetry == Symmetry::kFull ? 0. : M_PI;
+    const ObjectResidual residual{sighting.T_cam_object, sigmas, period, problem.gravity};
+    ceres::LossFunction* loss = options.loss_scale > 0 ? new ceres::CauchyLoss(options.loss_scale) : nullptr;
+    ceres_.AddResidualBlock(AutoDiff<ObjectResidual, 4, 7, 4>(residual), loss, camera, object);
+  }
+}
+
+void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
+  const OdometryNoise& noise = options.odometry;
+  for (const BaOdometry& edge : problem.odometry) {
+    const double distance = edge.T_from_to.translation().norm();
+    OdometryResidual residual;
+    residual.T_from_to = edge.T_from_to;
+    residual.sigma_translation = std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(distance));
+    residual.sigma_rotation = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * std::sqrt(distance));
+    ceres_.AddResidualBlock(AutoDiff<OdometryResidual, 6, 7, 7, 1>(residual), nullptr, cameras_[edge.from].data(),
+                            cameras_[edge.to].data(), &log_scale_);
+  }
+}
+
+void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
+  if (!problem.prior.empty()) {
+    std::vector<double*> blocks;
+    const auto find = [](const auto& list, int name, auto member) {
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].*member == name) return static_cast<int>(i);
+      return -1;
+    };
+    for (const int frame : problem.prior.frames)
+      blocks.push_back(cameras_[find(problem.cameras, frame, &BaCamera::frame)].data());
+    for (const int id : problem.prior.object_ids)
+      blocks.push_back(objects_[find(problem.objects, id, &BaObject::id)].data());
+    blocks.push_back(&log_scale_);
+    ceres_.AddResidualBlock(new MarginalPriorCost(problem.prior), nullptr, blocks);
+  } else if (!cameras_.empty()) {
+    // The gauge: the world is where the first camera says it is.
+    const PosePrior gauge{problem.cameras.front().T_world_cam, 1e-3, 1e-4};
+    ceres_.AddResidualBlock(AutoDiff<PosePrior, 6, 7>(gauge), nullptr, cameras_.front().data());
+    if (options.odometry.scale_prior > 0) {
+      const ScalarPrior scale{0., options.odometry.scale_prior};
+      ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
+    }
+  }
+  if (options.odometry.scale_prior <= 0) ceres_.SetParameterBlockConstant(&log_scale_);
+}
+
+void BaTerms::Store(BaProblem& problem) const {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    std::copy_n(cameras_[i].data(), 7, problem.cameras[i].T_world_cam.data());
+    problem.cameras[i].T_world_cam.normalise();
+  }
+  for (std::size_t k = 0; k < objects_.size(); ++k)
+    problem.objects[k].pose = {Vec3(objects_[k][0], objects_[k][1], objects_[k][2]), WrapAngle(objects_[k][3])};
+  problem.log_scale = log_scale_;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ceres/problem.h>
+
+#include <array>
+#include <vector>
+
+#include "sslcd/optim/object_ba.h"
+
+namespace sslcd {
+
+/// A BaProblem's states as Ceres parameter blocks, and its residuals as Ceres residual blocks.
+class BaTerms {
+ public:
+  BaTerms(const BaProblem& problem, const BaOptions& options);
+
+  ceres::Problem& ceres() { return ceres_; }
+  double* camera(int i) { return cameras_[i].data(); }
+  double* object(int k) { return objects_[k].data(); }
+  double* log_scale() { return &log_scale_; }
+
+  /// Copies the states back.
+  void Store(BaProblem& problem) const;
+
+ private:
+  void AddSightings(const BaProblem& problem, const BaOptions& options);
+  void AddOdometry(const BaProblem& problem, const BaOptions& options);
+  void AddPriors(const BaProblem& problem, const BaOptions& options);
+
+  ceres::Problem ceres_;
+  std::vector<std::array<double, 7>> cameras_;
+  std::vector<std::array<double, 4>> objects_;
+  double log_scale_ = 0;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/optim/object_ba.h"
+
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "optim/ba_terms.h"
+#include "sslcd/optim/cost_functors.h"
+
+namespace sslcd {
+namespace {
+
+ceres::Solver::Options SolverOptions(const BaOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
+  if (!ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::SUITE_SPARSE))
+    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  solver.max_num_iterations = options.max_iterations;
+  solver.num_threads = 1;  // sums in a fixed order: same bytes on every machine size
+  solver.logging_type = ceres::SILENT;
+  solver.function_tolerance = 1e-6;
+  if (options.solver == BaOptions::Solver::kGaussNewton) {  // Levenberg-Marquardt with the damping off
+    solver.initial_trust_region_radius = 1e32;
+    solver.max_trust_region_radius = 1e33;
+    solver.min_lm_diagonal = 1e-32;
+    solver.max_lm_diagonal = 1e-31;
+  }
+  return solver;
+}
+
+bool Finite(const BaProblem& problem) {
+  const auto finite = [](const Pose& T) { return std::isfinite(T.Log().sum()); };
+  for (const BaCamera& camera : problem.cameras)
+    if (!finite(camera.T_world_cam)) return false;
+  for (const BaObject& object : problem.objects)
+    if (!std::isfinite(object.pose.position.sum() + object.pose.yaw)) return false;
+  for (const BaSighting& sighting : problem.sightings)
+    if (!finite(sighting.T_cam_object)) return false;
+  for (const BaOdometry& edge : problem.odometry)
+    if (!finite(edge.T_from_to)) return false;
+  return std::isfinite(problem.log_scale);
+}
+
+double Median(std::vector<double>& values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
+  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10, "translation error of any two frames");
+  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "translation random walk, m per sqrt(m)");
+  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1, "rotation error of any two frames");
+  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
+  visitor.Real("scale_prior", noise.scale_prior, 0, 1,
+               "standard deviation of the odometry's log scale; 0 keeps the scale at one");
+}
+
+void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
+  visitor.Enum("residual", options.residual, {"robust", "paper"}, "whitened and symmetric, or Eq. 8 as printed");
+  visitor.Enum("solver", options.solver, {"levenberg_marquardt", "gauss_newton"},
+               "gauss_newton is the paper's: damping off");
+  visitor.Integer("max_iterations", options.max_iterations, 1, 1000, "iterations of one solve");
+  visitor.Real("loss_scale", options.loss_scale, 0, 1e6, "robust: scale of the Cauchy loss on a sighting; 0: none");
+  visitor.Real("correlation", options.correlation, 1, 100,
+               "robust: factor on detection sigmas, because the errors of successive frames are alike");
+  visitor.Nested("odometry", options.odometry, "how far the odometry is off");
+}
+
+BaSummary SolveBa(BaProblem& problem, const BaOptions& options) {
+  BaSummary summary;
+  if (problem.cameras.empty() || problem.sightings.empty()) {
+    summary.message = "nothing to optimise: no sightings";
+    return summary;
+  }
+  if (!Finite(problem)) {
+    summary.message = "not optimised: the input holds NaN or infinite values";
+    return summary;
+  }
+  BaTerms terms(problem, options);
+  ceres::Solver::Summary result;
+  ceres::Solve(SolverOptions(options), &terms.ceres(), &result);
+  summary.usable = result.IsSolutionUsable();
+  summary.converged = result.termination_type == ceres::CONVERGENCE;
+  summary.iterations = static_cast<int>(result.iterations.size());
+  summary.initial_cost = result.initial_cost;
+  summary.final_cost = result.final_cost;
+  summary.message = result.message;
+  if (summary.usable) terms.Store(problem);
+  return summary;
+}
+
+NoiseScale EstimateNoiseScale(const BaProblem& problem) {
+  constexpr double kMedianOfGaussian = 0.6745;
+  std::vector<double> errors[4];
+  for (const BaSighting& sighting : problem.sightings) {
+    const BaObject& object = problem.objects[sighting.object];
+    const double range = sighting.T_cam_object.translation().norm();
+    const double period = object.symmetry == Symmetry::kFull ? 0. : M_PI;
+    const ObjectResidual residual{sighting.T_cam_object,
+                                  SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)), period, problem.gravity};
+    const Vec3& p = object.pose.position;
+    const double state[4] = {p.x(), p.y(), p.z(), object.pose.yaw};
+    double r[4];
+    residual(problem.cameras[sighting.camera].T_world_cam.data(), state, r);
+    for (int i = 0; i < (period > 0 ? 4 : 3); ++i) errors[i].push_back(std::abs(r[i]));
+  }
+  NoiseScale scale = problem.noise_scale;
+  double* const components[4] = {&scale.radial, &scale.lateral, &scale.vertical, &scale.yaw};
+  for (int i = 0; i < 4; ++i)
+    if (errors[i].size() >= 20) *components[i] = std::clamp(Median(errors[i]) / kMedianOfGaussian, 0.5, 40.);
+  return scale;
+}
+
+}  // namespace sslcd

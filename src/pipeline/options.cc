@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/pipeline/options.h"
+
+namespace sslcd {
+
+void DescribeFields(FieldVisitor& visitor, WindowOptions& options) {
+  visitor.Flag("enabled", options.enabled, "optimise a sliding window with every keyframe");
+  visitor.Integer("keyframes", options.keyframes, 2, 100, "cameras in the window");
+  visitor.Real("keyframe_m", options.keyframe_m, 0, 100, "a new keyframe every so many metres");
+  visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7, "or after such a turn");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
+                  "objects seen less often stay out of the window ('more than 4 times' in the paper)");
+}
+
+void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
+  visitor.Flag("enabled", options.enabled, "optimise the full map at the end of a run");
+  visitor.Integer("rounds", options.rounds, 1, 20, "times to optimise, associate anew and fuse");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
+                  "objects seen less often do not enter the final map");
+  visitor.Real("duplicate_m", options.duplicate_m, 0, 100, "landmarks of one label closer than this are one object");
+  visitor.Real("moved_m", options.moved_m, 0, 1000,
+               "a landmark whose late sightings lie further than this from its early ones has moved");
+}
+
+void DescribeFields(FieldVisitor& visitor, Options& options) {
+  visitor.Enum("mode", options.mode, {"robust", "paper"}, "robust, or the paper's equations as printed");
+  visitor.Nested("filter", options.filter, "which detections are used (paper III-A.1)");
+  visitor.Nested("colour", options.colour, "colour signature (paper III-A.2)");
+  visitor.Nested("noise", options.noise, "how far the detector is off");
+  visitor.Nested("association", options.association, "data association (paper III-B)");
+  visitor.Nested("map", options.map, "life cycle of landmarks");
+  visitor.Nested("window", options.window, "sliding window");
+  visitor.Nested("ba", options.ba, "object bundle adjustment (paper III-C)");
+  visitor.Nested("refine", options.refine, "the full-map optimisation at the end");
+}
+
+Options DefaultOptions(Options::Mode mode) {
+  Options options;
+  options.mode = mode;
+  if (mode == Options::Mode::kPaper) {
+    options.association.method = AssociationOptions::Method::kPaper;
+    options.ba.residual = BaOptions::Residual::kPaper;
+    options.ba.solver = BaOptions::Solver::kGaussNewton;
+    options.ba.odometry.scale_prior = 0;
+    options.map.learn_noise = false;
+    options.refine.rounds = 1;
+  }
+  return options;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sslcd {
+namespace {
+
+bool InMap(const MapLandmark& landmark, const RefineOptions& options) {
+  return landmark.state == LandmarkState::kConfirmed &&
+         static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
+}
+
+// What is seen often enough and has not been found driving belongs to the map, also where the stream ended too early for
+// it to be confirmed.
+void ConfirmAll(ObjectMap& map, const RefineOptions& options) {
+  std::vector<LandmarkId> confirm, drop;
+  for (const auto& [id, landmark] : map.landmarks()) {
+    const bool enough = static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
+    const bool open = landmark.state == LandmarkState::kTentative || landmark.state == LandmarkState::kStale;
+    if (open && enough && landmark.motion.log_bayes_factor() <= 0) confirm.push_back(landmark.id);
+    if (landmark.state == LandmarkState::kConfirmed && !enough) drop.push_back(landmark.id);
+  }
+  for (const LandmarkId id : confirm) {
+    map.SetState(id, LandmarkState::kConfirmed);
+    map.SetPose(id, map.at(id).pose);  // back into the index
+  }
+  for (const LandmarkId id : drop) map.SetState(id, LandmarkState::kStale);
+}
+
+BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames, double log_scale,
+                      const Options& options) {
+  BaProblem problem;
+  problem.gravity = map.gravity();
+  problem.noise = options.noise;
+  problem.noise_scale = map.noise_scale();
+  problem.log_scale = log_scale;
+  std::map<int, int> camera_of_frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    camera_of_frame[frames[i].frame] = static_cast<int>(i);
+    problem.cameras.push_back({frames[i].frame, frames[i].T_world_cam});
+    if (i > 0)
+      problem.odometry.push_back({static_cast<int>(i) - 1, static_cast<int>(i),
+                                  frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam});
+  }
+  for (const auto& [id, landmark] : map.landmarks()) {
+    if (!InMap(landmark, options.refine)) continue;
+    const int object = static_cast<int>(problem.objects.size());
+    problem.objects.push_back({id, landmark.symmetry, landmark.pose});
+    for (const Sighting& sighting : landmark.sightings)
+      problem.sightings.push_back({camera_of_frame.at(sighting.frame), object, sighting.T_cam_object});
+  }
+  return problem;
+}
+
+// Poses of all sightings in the world.
+std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int, Pose>& cameras,
+                                const GravityFrame& gravity) {
+  std::vector<UprightPose> seen;
+  for (const Sighting& sighting : landmark.sightings)
+    seen.push_back(ToUpright(cameras.at(sighting.frame) * sighting.T_cam_object, gravity));
+  return seen;
+}
+
+BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options) {
+  BaProblem problem = FullProblem(map, frames, log_scale, options);
+  BaSummary summary = SolveBa(problem, options.ba);
+  if (summary.usable && options.map.learn_noise) {
+    problem.noise_scale = EstimateNoiseScale(problem);
+    summary = SolveBa(problem, options.ba);
+    map.SetNoiseScale(problem.noise_scale);
+  }
+  if (!summary.usable) return summary;
+  std::map<int, Pose> cameras;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].T_world_cam = problem.cameras[i].T_world_cam;
+    cameras[frames[i].frame] = frames[i].T_world_cam;
+  }
+  for (BaObject& object : problem.objects) {
+    std::vector<double> yaws;
+    for (const UprightPose& seen : SeenAt(map.at({object.id}), cameras, map.gravity())) yaws.push_back(seen.yaw);
+    if (object.symmetry == Symmetry::kNone) object.pose.yaw = VoteHeading(object.pose.yaw, yaws);
+    map.SetPose({object.id}, object.pose);
+  }
+  log_scale = problem.log_scale;
+  return summary;
+}
+
+// Every detection that does not belong to a driving object looks for its landmark again, with the refined poses.
+void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Camera* camera) {
+  std::map<int, std::vector<Sighting>> sightings;
+  for (FrameRecord& record : frames) {
+    std::vector<Detection> open;
+    std::vector<std::size_t> index;
+    for (std::size_t i = 0; i < record.detections.size(); ++i) {
+      const auto owner = map.landmarks().find(record.matched[i].value);
+      if (owner != map.landmarks().end() && owner->second.state == LandmarkState::kDynamic) continue;
+      open.push_back(record.detections[i]);
+      index.push_back(i);
+    }
+    const std::vector<LandmarkId> matched = map.Match(record.stamp, record.T_world_cam, open, camera);
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      record.matched[index[k]] = matched[k];
+      if (matched[k].value < 0) continue;
+      const Detection& d = open[k];
+      sightings[matched[k].value].push_back({record.frame, d.row, d.score, d.T_cam_object, d.dims});
+    }
+  }
+  std::vector<LandmarkId> confirmed;
+  for (const auto& [id, landmark] : map.landmarks())
+    if (landmark.state == LandmarkState::kConfirmed) confirmed.push_back({id});
+  for (const LandmarkId id : confirmed) map.SetSightings(id, std::move(sightings[id.value]));
+}
+
+// Landmarks of one label that stand in one place are one object: the one seen more often keeps its name.
+void FuseDuplicates(ObjectMap& map, std::vector<FrameRecord>& frames, const RefineOptions& options) {
+  std::vector<LandmarkId> order;
+  for (const auto& [id, landmark] : map.landmarks())
+    if (landmark.state == LandmarkState::kConfirmed) order.push_back({id});
+  std::stable_sort(order.begin(), order.end(), [&](LandmarkId a, LandmarkId b) {
+    return map.at(a).sightings.size() > map.at(b).sightings.size();
+  });
+  std::map<int, LandmarkId> heir;
+  for (const LandmarkId keep : order) {
+    if (map.landmarks().count(keep.value) == 0) continue;
+    for (const LandmarkId other : map.Near(map.at(keep).pose.position, options.duplicate_m)) {
+      const MapLandmark& twin = map.at(other);
+      if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != map.at(keep).label) continue;
+      if (twin.sightings.size() > map.at(keep).sightings.size()) continue;
+      map.Fuse(keep, other);
+      heir[other.value] = keep;
+    }
+  }
+  for (FrameRecord& record : frames)
+    for (LandmarkId& id : record.matched)
+      while (heir.count(id.value) > 0) id = heir.at(id.value);
+}
+
+// Compares where a landmark was seen early with where it was seen late.
+bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m) {
+  const int third = static_cast<int>(seen.size()) / 3;
+  if (third < 2) return false;
+  const auto median = [&](int from, const Vec3& axis) {
+    std::vector<double> values;
+    for (int i = from; i < from + third; ++i) values.push_back(seen[i].position.dot(axis));
+    std::nth_element(values.begin(), values.begin() + third / 2, values.end());
+    return values[third / 2];
+  };
+  const int late = static_cast<int>(seen.size()) - third;
+  return std::hypot(median(late, gravity.forward) - median(0, gravity.forward),
+                    median(late, gravity.left) - median(0, gravity.left)) > moved_m;
+}
+
+void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const RefineOptions& options) {
+  std::map<int, Pose> cameras;
+  for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
+  std::vector<LandmarkId> moved;
+  for (const auto& [id, landmark] : map.landmarks()) {
+    if (landmark.state != LandmarkState::kConfirmed || landmark.symmetry == Symmetry::kFull) continue;
+    if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.moved_m)) moved.push_back({id});
+  }
+  for (const LandmarkId id : moved) map.SetState(id, LandmarkState::kDynamic);
+}
+
+}  // namespace
+
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
+                    const Camera* camera) {
+  ConfirmAll(map, options.refine);
+  BaSummary summary = Optimise(map, frames, log_scale, options);
+  for (int round = 0; round < options.refine.rounds; ++round) {
+    RejectMoved(map, frames, options.refine);
+    FuseDuplicates(map, frames, options.refine);
+    AssociateAnew(map, frames, camera);
+    ConfirmAll(map, options.refine);
+    summary = Optimise(map, frames, log_scale, options);
+  }
+  return summary;
+}
+
+}  // namespace sslcd

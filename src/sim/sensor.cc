@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/sim/sensor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/check_fields.h"
+#include "sim/visibility.h"
+#include "sslcd/perception/projection.h"
+#include "sslcd/sim/random.h"
+
+namespace sslcd::sim {
+namespace {
+
+/// Unit normals for [radial, lateral, vertical, yaw, length, width, height].
+using Draw = std::array<double, 7>;
+
+Draw DrawNormals(Random& random) {
+  Draw draw;
+  for (double& value : draw) value = random.Normal();
+  return draw;
+}
+
+/// An object in view and how much of it is left by the image border.
+struct Sighting {
+  const WorldObject* object = nullptr;
+  Pose T_cam_object;
+  Box2d box;
+  Silhouette silhouette;
+  double in_image = 0;
+};
+
+std::vector<Sighting> InView(const World& world, int frame) {
+  const Pose T_cam_world = world.truth.poses[frame].inverse();
+  Camera endless = world.camera;
+  endless.width = endless.height = 0;
+  std::vector<Sighting> sightings;
+  for (const WorldObject& object : world.objects) {
+    const Pose T_cam_object = T_cam_world * object.PoseAt(frame);
+    const double reach = 0.5 * object.dims.norm();
+    if (T_cam_object.translation().z() < reach + 0.5) continue;  // beside or behind the camera
+    const auto box = ProjectCuboid(T_cam_object, object.dims, world.camera);
+    const auto whole = ProjectCuboid(T_cam_object, object.dims, endless);
+    if (!box || !whole) continue;
+    sightings.push_back(
+        {&object, T_cam_object, *box, SilhouetteOf(T_cam_object, object.dims), box->Area() / whole->Area()});
+  }
+  return sightings;
+}
+
+class Detector {
+ public:
+  Detector(const World& world, const DetectorNoise& noise, std::uint64_t seed)
+      : world_(world), noise_(noise), random_(seed) {
+    for (std::size_t i = 0; i < world.objects.size(); ++i) constant_.push_back(DrawNormals(random_));
+  }
+
+  void Detect(int frame, SimulatedDetections& result) {
+    result.frames.emplace_back();
+    const std::vector<Sighting> sightings = InView(world_, frame);
+    std::vector<Silhouette> silhouettes;
+    for (const Sighting& sighting : sightings) silhouettes.push_back(sighting.silhouette);
+
+    for (const Sighting& sighting : sightings) {
+      const double range = sighting.silhouette.range;
+      if (range > noise_.max_range_m || sighting.in_image < noise_.min_visible) continue;
+      if (VisibleFraction(sighting.silhouette, silhouettes) < noise_.min_visible) continue;
+      const double far = range / noise_.max_range_m;
+      if (random_.Chance(noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near))) continue;
+      const double score = std::clamp(random_.Normal(0.95 - 0.25 * far, 0.04), 0.05, 0.999);
+      Push(Measure(sighting), score, sighting.object->id, result);
+    }
+    const int false_positives = random_.Poisson(noise_.false_positives);
+    for (int i = 0; i < false_positives; ++i) {
+      Detection detection = Imagine();
+      if (detection.box) Push(std::move(detection), random_.Uniform(0.3, 0.7), -1, result);
+    }
+  }
+
+ private:
+  static void Push(Detection detection, double score, int identity, SimulatedDetections& result) {
+    detection.row = static_cast<int>(result.identity.size());
+    detection.score = score;
+    result.frames.back().push_back(std::move(detection));
+    result.identity.push_back(identity);
+  }
+
+  Detection Measure(const Sighting& sighting) {
+    const WorldObject& object = *sighting.object;
+    const Vec3 position = sighting.T_cam_object.translation();
+    const DetectionSigmas sigmas = SigmasAt(position.norm(), noise_.sigmas, NoiseScale::Uniform(noise_.scale));
+    Draw error = DrawNormals(random_);
+    for (std::size_t i = 0; i < error.size(); ++i) {
+      error[i] = std::sqrt(noise_.constant_fraction) * constant_[object.id][i] +
+                 std::sqrt(1 - noise_.constant_fraction) * error[i];
+    }
+
+    Detection detection;
+    detection.label = object.label;
+    const Vec3 offset(sigmas.radial * error[0], sigmas.lateral * error[1], sigmas.vertical * error[2]);
+    double yaw = upright_.YawOf(sighting.T_cam_object.so3()) + sigmas.yaw * error[3];
+    if (random_.Chance(noise_.flip_rate)) yaw += M_PI;
+    if (world_.labels[object.label].symmetry == Symmetry::kFull) yaw = random_.Uniform(-M_PI, M_PI);
+    detection.T_cam_object =
+        Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
+    const double size_sigma = noise_.sigmas.size_relative * noise_.scale;
+    for (int i = 0; i < 3; ++i) detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
+    detection.box = Blur(sighting.box);
+    return detection;
+  }
+
+  std::optional<Box2d> Blur(Box2d box) {
+    for (double* side : {&box.left, &box.top, &box.right, &box.bottom}) *side += random_.Normal(0, noise_.box_sigma_px);
+    box = {std::max(box.left, 0.), std::max(box.top, 0.), std::min<double>(box.right, world_.camera.width),
+           std::min<double>(box.bottom, world_.camera.height)};
+    return box.Area() > 0 ? std::optional(box) : std::nullopt;
+  }
+
+  /// A car that is not there, on the ground somewhere in the image.
+  Detection Imagine() {
+    const double half_view = std::atan(0.5 * world_.camera.width / world_.camera.fx);
+    const double range = random_.Uniform(8, std::max(9., noise_.max_range_m));
+    const double bearing = random_.Uniform(-half_view, half_view);
+    const double yaw = random_.Uniform(-M_PI, M_PI);
+    const double down = random_.Normal(0.9, 0.2);
+    Detection detection;
+    detection.label = "Car";
+    detection.dims = {random_.Uniform(3, 5), random_.Uniform(1.4, 2), random_.Uniform(1.3, 1.9)};
+    detection.T_cam_object =
+        Pose(upright_.Upright(yaw), Vec3(range * std::sin(bearing), down, range * std::cos(bearing)));
+    detection.box = ProjectCuboid(detection.T_cam_object, detection.dims, world_.camera);
+    return detection;
+  }
+
+  const World& world_;
+  const DetectorNoise& noise_;
+  Random random_;
+  GravityFrame upright_;         ///< of the camera, which is level
+  std::vector<Draw> constant_;  ///< of each object
+};
+
+}  // namespace
+
+Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed) {
+  CheckFields(noise);
+  Random random(seed);
+  Trajectory odometry{truth.stamps, {}};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (i == 0) {
+      odometry.poses.emplace_back();
+      continue;
+    }
+    Pose step = truth.poses[i - 1].inverse() * truth.poses[i];
+    const double spread = std::sqrt(step.translation().norm());
+    const auto walk = [&](double sigma) { return spread * random.Normal(0, sigma); };
+    Pose::Tangent error;
+    for (int axis : {0, 1, 2}) error[axis] = walk(noise.position_m_per_sqrt_m);
+    error[3] = walk(noise.tilt_rad_per_sqrt_m);
+    error[4] = walk(noise.heading_rad_per_sqrt_m);  // y is the vertical
+    error[5] = walk(noise.tilt_rad_per_sqrt_m);
+    step.translation() *= 1 + noise.scale_error;
+    odometry.poses.push_back(odometry.poses.back() * step * Pose::Exp(error));
+  }
+  return odometry;
+}
+
+SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise, std::uint64_t seed) {
+  CheckFields(noise);
+  Detector detector(world, noise, seed);
+  SimulatedDetections result;
+  for (std::size_t frame = 0; frame < world.truth.size(); ++frame) detector.Detect(static_cast<int>(frame), result);
+  return result;
+}
+
+std::vector<Frame> MakeFrames(const Trajectory& odometry, const SimulatedDetections& detections) {
+  std::vector<Frame> frames;
+  for (std::size_t i = 0; i < std::min(odometry.size(), detections.frames.size()); ++i) {
+    frames.push_back({static_cast<int>(i), odometry.stamps[i], odometry.poses[i], detections.frames[i], ""});
+  }
+  return frames;
+}
+
+void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
+  visitor.Real("scale_error", noise.scale_error, -0.5, 1, "odometry steps are too long by this fraction");
+  visitor.Real("heading_rad_per_sqrt_m", noise.heading_rad_per_sqrt_m, 0, 1, "random walk of the odometry's heading");
+  visitor.Real("tilt_rad_per_sqrt_m", noise.tilt_rad_per_sqrt_m, 0, 1, "random walk of its roll and pitch");
+  visitor.Real("position_m_per_sqrt_m", noise.position_m_per_sqrt_m, 0, 10, "random walk of its position");
+}
+
+void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {
+  visitor.Nested("sigmas", noise.sigmas, "standard deviations of a detection as a function of range");
+  visitor.Real("scale", noise.scale, 0, 100, "factor on all standard deviations of the detections");
+  visitor.Real("constant_fraction", noise.constant_fraction, 0, 1, "share of the variance that is constant per object");
+  visitor.Real("flip_rate", noise.flip_rate, 0, 1, "front and back mistaken");
+  visitor.Real("box_sigma_px", noise.box_sigma_px, 0, 100, "standard deviation of each side of the 2D boxes");
+  visitor.Real("max_range_m", noise.max_range_m, 1, 1e4, "nothing is detected beyond");
+  visitor.Real("miss_rate_near", noise.miss_rate_near, 0, 1, "chance to miss a visible object at range 0");
+  visitor.Real("miss_rate_far", noise.miss_rate_far, 0, 1, "chance to miss a visible object at the maximal range");
+  visitor.Real("min_visible", noise.min_visible, 0, 1, "objects of which less is visible are not detected");
+  visitor.Real("false_positives", noise.false_positives, 0, 100, "mean number per frame");
+}
+
+}  // namespace sslcd::sim

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sim/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sslcd::sim {
+
+Silhouette SilhouetteOf(const Pose& T_cam_object, const Vec3& dims) {
+  Silhouette silhouette{M_PI, -M_PI, T_cam_object.translation().norm()};
+  for (double x : {-0.5, 0.5}) {
+    for (double y : {-0.5, 0.5}) {
+      const Vec3 corner = T_cam_object * Vec3(x * dims.x(), y * dims.y(), 0);
+      const double bearing = std::atan2(corner.x(), corner.z());
+      silhouette.left = std::min(silhouette.left, bearing);
+      silhouette.right = std::max(silhouette.right, bearing);
+    }
+  }
+  return silhouette;
+}
+
+double VisibleFraction(const Silhouette& target, const std::vector<Silhouette>& all) {
+  constexpr int kRays = 32;
+  int visible = 0;
+  for (int i = 0; i < kRays; ++i) {
+    const double bearing = target.left + (i + 0.5) / kRays * (target.right - target.left);
+    visible += std::none_of(all.begin(), all.end(), [&](const Silhouette& other) {
+      return other.range < target.range && other.left <= bearing && bearing <= other.right;
+    });
+  }
+  return static_cast<double>(visible) / kRays;
+}
+
+}  // namespace sslcd::sim
