@@ -42,6 +42,11 @@ void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options) {
   visitor.Real("wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
                "how far a parked object may seem to wander in one second, because the camera drifts");
   visitor.Real("decide_at", options.decide_at, 0.1, 100, "log Bayes factor at which an object is called driving");
+  visitor.Real("min_travel_m", options.min_travel_m, 0, 1000, "nothing is called driving that has not come so far");
+  visitor.Real("min_speed_mps", options.min_speed_mps, 0, 100, "nothing is called driving that is slower");
+  visitor.Real("max_parked_speed_mps", options.max_parked_speed_mps, 0, 100,
+               "an object is called parked once its speed is surely below this");
+  visitor.Real("settle_s", options.settle_s, 0, 1e6, "a driving object that stands for so long is a new parked one");
   visitor.Real("memory", options.memory, 0.1, 1000, "limit of the log Bayes factor; small: quick to change its mind");
   visitor.Real("forget_after_s", options.forget_after_s, 0.01, 1e6, "an object unseen for longer is tested anew");
 }
@@ -69,16 +74,35 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
     state_ = Transition(dt) * state_ + gain * driving_error;
     state_covariance_ = predicted - gain * predicted.topRows<2>();
   } else {
-    parked_ = position;
-    parked_covariance_ = covariance;
+    start_ = parked_ = position;
+    start_covariance_ = parked_covariance_ = covariance;
+    start_stamp_ = stamp;
     state_ << position, 0, 0;
     state_covariance_.setZero();
     state_covariance_.topLeftCorner<2, 2>() = covariance;
     state_covariance_.bottomRightCorner<2, 2>() =
         options.speed_prior_mps * options.speed_prior_mps * Matrix2::Identity();
+    standing_since_ = stamp;
   }
   stamp_ = stamp;
+  if (state_.tail<2>().norm() > options.min_speed_mps) standing_since_ = stamp;
   ++count_;
+}
+
+Motion MotionTest::Verdict(const MotionTestOptions& options) const {
+  const Eigen::Vector2d travel = state_.head<2>() - start_;
+  const double distance = travel.norm(), elapsed = stamp_ - start_stamp_;
+  const Eigen::Vector2d direction = distance > 0 ? Eigen::Vector2d(travel / distance) : Eigen::Vector2d(1, 0);
+  const Matrix2 uncertainty = start_covariance_ + Matrix2(state_covariance_.topLeftCorner<2, 2>());
+  const double sigma = std::sqrt(direction.dot(uncertainty * direction));
+  const bool far_enough = distance > std::max(options.min_travel_m, 2 * sigma);
+  const bool fast_enough = distance > options.min_speed_mps * elapsed;
+  if (log_bayes_factor_ >= options.decide_at && far_enough && fast_enough) return Motion::kDriving;
+
+  const Matrix2 speed_covariance = state_covariance_.bottomRightCorner<2, 2>();
+  const double speed = state_.tail<2>().norm() + std::sqrt(0.5 * speed_covariance.trace());
+  if (speed < options.max_parked_speed_mps && (log_bayes_factor_ <= 0 || !fast_enough)) return Motion::kParked;
+  return Motion::kUndecided;
 }
 
 MotionTest::Prediction MotionTest::PredictParked(double stamp, const MotionTestOptions& options) const {
@@ -94,7 +118,15 @@ MotionTest::Prediction MotionTest::PredictDriving(double stamp, const MotionTest
   return {state_.head<2>() + dt * state_.tail<2>(), covariance.topLeftCorner<2, 2>()};
 }
 
+void MotionTest::Restart() {
+  start_ = parked_ = state_.head<2>();
+  start_covariance_ = parked_covariance_ = state_covariance_.topLeftCorner<2, 2>();
+  start_stamp_ = stamp_;
+  log_bayes_factor_ = 0;
+}
+
 void MotionTest::Shift(const Point& by) {
+  start_ += by;
   parked_ += by;
   state_.head<2>() += by;
 }

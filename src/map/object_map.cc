@@ -35,6 +35,8 @@ void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
                "how far from a detection its landmark is looked for");
   visitor.Real("caution", options.caution, 1, 100,
                "factor on the learnt detection sigmas in gates and in the motion test, for errors that drift");
+  visitor.Real("min_noise_scale", options.min_noise_scale, 0, 100,
+               "noise scale added in gates and in the motion test, for errors with long tails");
   visitor.Flag("learn_noise", options.learn_noise, "learn the detector's noise scale from its detections' scatter");
   visitor.Nested("motion", options.motion, "parked or driving");
 }
@@ -111,8 +113,8 @@ AssociationQuery ObjectMap::QueryOf(const Detection& detection, const View& view
   query.place.position = Horizontal(point_world);
   query.height = point_world.dot(gravity_.up);
   NoiseScale cautious = noise_scale_;
-  cautious.radial *= options_.caution;
-  cautious.lateral *= options_.caution;
+  cautious.radial = std::hypot(options_.caution * cautious.radial, options_.min_noise_scale);
+  cautious.lateral = std::hypot(options_.caution * cautious.lateral, options_.min_noise_scale);
   const DetectionSigmas sigmas = SigmasAt(point_cam.norm(), noise_, cautious);
   const Eigen::Matrix3d R = view.T_world_cam.so3().matrix();
   Eigen::Matrix<double, 2, 3> to_plane;
@@ -191,7 +193,7 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
   landmark.colour.Add(detection.colour, query.viewpoint_rad);
   landmark.embedding.Add(detection.embedding, query.viewpoint_rad);
-  landmark.sightings.push_back({view.frame, detection.row, detection.score, detection.T_cam_object, detection.dims});
+  landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
   landmark.misses = 0;
 
@@ -231,15 +233,20 @@ void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detecti
 }
 
 void ObjectMap::Judge(MapLandmark& landmark, MapUpdate& update) {
-  const double evidence = landmark.motion.log_bayes_factor();
-  const bool driving = Movable(landmark) && evidence >= options_.motion.decide_at;
+  const Motion motion = Movable(landmark) ? landmark.motion.Verdict(options_.motion) : Motion::kParked;
   if (landmark.state == LandmarkState::kDynamic) {
-    // A driving object that has stopped is a new object of the world: it may become part of the map again.
-    if (evidence <= -options_.motion.decide_at) SetState(landmark.id, LandmarkState::kTentative);
-  } else if (driving) {
+    // A driving object that stands is a new object of the world: it may become part of the map, without its past.
+    const double since = landmark.motion.StandingSince();
+    if (landmark.motion.Stamp() - since < options_.motion.settle_s) return;
+    landmark.motion.Restart();
+    const auto recent = std::find_if(landmark.sightings.begin(), landmark.sightings.end(),
+                                     [since](const Sighting& s) { return s.stamp >= since; });
+    landmark.sightings.erase(landmark.sightings.begin(), recent);
+    SetState(landmark.id, LandmarkState::kTentative);
+  } else if (motion == Motion::kDriving) {
     SetState(landmark.id, LandmarkState::kDynamic);
     ++update.turned_dynamic;
-  } else if (landmark.state == LandmarkState::kTentative && evidence <= 0 &&
+  } else if (landmark.state == LandmarkState::kTentative && motion == Motion::kParked &&
              static_cast<int>(landmark.sightings.size()) >= options_.confirm_sightings) {
     SetState(landmark.id, LandmarkState::kConfirmed);
     ++update.confirmed;

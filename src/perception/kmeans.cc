@@ -27,7 +27,7 @@ Eigen::Index Draw(const Distances& weights, double total, std::mt19937_64& engin
 }
 
 Eigen::Matrix3Xf Seed(const Eigen::Matrix3Xf& points, const KMeansOptions& options) {
-  constexpr int kDraws = 3;
+  constexpr int kDraws = 4;  // 2 + log(K), as in the paper
   std::mt19937_64 engine(options.seed);
   Eigen::Matrix3Xf centres(3, std::max(options.clusters, 1));
   centres.col(0) = points.col(static_cast<Eigen::Index>(engine() % static_cast<std::uint64_t>(points.cols())));

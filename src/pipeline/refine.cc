@@ -15,12 +15,14 @@ bool InMap(const MapLandmark& landmark, const RefineOptions& options) {
 
 // What is seen often enough and has not been found driving belongs to the map, also where the stream ended too early for
 // it to be confirmed.
-void ConfirmAll(ObjectMap& map, const RefineOptions& options) {
+void ConfirmAll(ObjectMap& map, const Options& all) {
+  const RefineOptions& options = all.refine;
   std::vector<LandmarkId> confirm, drop;
   for (const auto& [id, landmark] : map.landmarks()) {
     const bool enough = static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
     const bool open = landmark.state == LandmarkState::kTentative || landmark.state == LandmarkState::kStale;
-    if (open && enough && landmark.motion.log_bayes_factor() <= 0) confirm.push_back(landmark.id);
+    const bool parked = landmark.symmetry == Symmetry::kFull || landmark.motion.Verdict(all.map.motion) == Motion::kParked;
+    if (open && enough && parked) confirm.push_back(landmark.id);
     if (landmark.state == LandmarkState::kConfirmed && !enough) drop.push_back(landmark.id);
   }
   for (const LandmarkId id : confirm) {
@@ -105,7 +107,7 @@ void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Camer
       record.matched[index[k]] = matched[k];
       if (matched[k].value < 0) continue;
       const Detection& d = open[k];
-      sightings[matched[k].value].push_back({record.frame, d.row, d.score, d.T_cam_object, d.dims});
+      sightings[matched[k].value].push_back({record.frame, record.stamp, d.row, d.score, d.T_cam_object, d.dims});
     }
   }
   std::vector<LandmarkId> confirmed;
@@ -139,7 +141,8 @@ void FuseDuplicates(ObjectMap& map, std::vector<FrameRecord>& frames, const Refi
 }
 
 // Compares where a landmark was seen early with where it was seen late.
-bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m) {
+bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m, double elapsed_s,
+              double min_speed_mps) {
   const int third = static_cast<int>(seen.size()) / 3;
   if (third < 2) return false;
   const auto median = [&](int from, const Vec3& axis) {
@@ -149,17 +152,21 @@ bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity,
     return values[third / 2];
   };
   const int late = static_cast<int>(seen.size()) - third;
-  return std::hypot(median(late, gravity.forward) - median(0, gravity.forward),
-                    median(late, gravity.left) - median(0, gravity.left)) > moved_m;
+  const double distance = std::hypot(median(late, gravity.forward) - median(0, gravity.forward),
+                                     median(late, gravity.left) - median(0, gravity.left));
+  return distance > moved_m && distance > min_speed_mps * elapsed_s;
 }
 
-void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const RefineOptions& options) {
+void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const Options& options) {
   std::map<int, Pose> cameras;
   for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
   std::vector<LandmarkId> moved;
   for (const auto& [id, landmark] : map.landmarks()) {
     if (landmark.state != LandmarkState::kConfirmed || landmark.symmetry == Symmetry::kFull) continue;
-    if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.moved_m)) moved.push_back({id});
+    const double elapsed = landmark.sightings.back().stamp - landmark.sightings.front().stamp;
+    if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.refine.moved_m, elapsed,
+                 options.map.motion.min_speed_mps))
+      moved.push_back({id});
   }
   for (const LandmarkId id : moved) map.SetState(id, LandmarkState::kDynamic);
 }
@@ -168,13 +175,13 @@ void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const R
 
 BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
                     const Camera* camera) {
-  ConfirmAll(map, options.refine);
+  ConfirmAll(map, options);
   BaSummary summary = Optimise(map, frames, log_scale, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
-    RejectMoved(map, frames, options.refine);
+    RejectMoved(map, frames, options);
     FuseDuplicates(map, frames, options.refine);
     AssociateAnew(map, frames, camera);
-    ConfirmAll(map, options.refine);
+    ConfirmAll(map, options);
     summary = Optimise(map, frames, log_scale, options);
   }
   return summary;

@@ -14,7 +14,8 @@ struct PathPiece {
 };
 
 /// A planar line in the x-z plane of the world, from the origin in direction +z. Arc length may be negative (straight
-/// extension to the back) and longer than the pieces (`closed`: they are run through again and again; else straight on).
+/// extension to the back) and longer than the pieces (`closed`: they are run through again and again; else straight
+/// on).
 class Path {
  public:
   explicit Path(std::vector<PathPiece> pieces, bool closed = false);

@@ -13,6 +13,8 @@
 namespace sslcd::sim {
 namespace {
 
+enum Stream { kOdometryStream = 1, kDetectorStream = 2 };  // 0 is the world's
+
 /// Unit normals for [radial, lateral, vertical, yaw, length, width, height].
 using Draw = std::array<double, 7>;
 
@@ -52,7 +54,7 @@ std::vector<Sighting> InView(const World& world, int frame) {
 class Detector {
  public:
   Detector(const World& world, const DetectorNoise& noise, std::uint64_t seed)
-      : world_(world), noise_(noise), random_(seed) {
+      : world_(world), noise_(noise), random_(seed, kDetectorStream) {
     for (std::size_t i = 0; i < world.objects.size(); ++i) constant_.push_back(DrawNormals(random_));
   }
 
@@ -102,8 +104,7 @@ class Detector {
     double yaw = upright_.YawOf(sighting.T_cam_object.so3()) + sigmas.yaw * error[3];
     if (random_.Chance(noise_.flip_rate)) yaw += M_PI;
     if (world_.labels[object.label].symmetry == Symmetry::kFull) yaw = random_.Uniform(-M_PI, M_PI);
-    detection.T_cam_object =
-        Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
+    detection.T_cam_object = Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
     const double size_sigma = noise_.sigmas.size_relative * noise_.scale;
     for (int i = 0; i < 3; ++i) detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
     detection.box = Blur(sighting.box);
@@ -136,7 +137,7 @@ class Detector {
   const World& world_;
   const DetectorNoise& noise_;
   Random random_;
-  GravityFrame upright_;         ///< of the camera, which is level
+  GravityFrame upright_;        ///< of the camera, which is level
   std::vector<Draw> constant_;  ///< of each object
 };
 
@@ -144,7 +145,7 @@ class Detector {
 
 Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed) {
   CheckFields(noise);
-  Random random(seed);
+  Random random(seed, kOdometryStream);
   Trajectory odometry{truth.stamps, {}};
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i == 0) {

@@ -106,10 +106,10 @@ World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options) {
   Random random(seed);
   World world = EmptyWorld();
 
-  // One lap: up an aisle, a right-hand turn in two quarter circles, down the other aisle, and back. The camera starts in
-  // the middle of the first aisle.
-  constexpr double kRadius = 6;     // of the quarter circles
-  constexpr double kAcross = 6;     // straight part between two of them; aisles are 2 * kRadius + kAcross apart
+  // One lap: up an aisle, a right-hand turn in two quarter circles, down the other aisle, and back. The camera starts
+  // in the middle of the first aisle.
+  constexpr double kRadius = 6;  // of the quarter circles
+  constexpr double kAcross = 6;  // straight part between two of them; aisles are 2 * kRadius + kAcross apart
   constexpr double kStallWidth = 2.6, kToStall = 5.7;  // aisle's middle line to the middle of a stall
   const double curve = 0.5 * M_PI * kRadius;
   const std::vector<PathPiece> half_lap = {{curve, 1 / kRadius}, {kAcross, 0}, {curve, 1 / kRadius}};

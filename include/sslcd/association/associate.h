@@ -21,7 +21,7 @@ struct AssociationOptions {
   double lambda = 0.5;           ///< Eq. 3: balance between box overlap, colour and embedding
   double min_score = 0.1;        ///< pairs below this are never matched
   double geometry_weight = 0.6;  ///< robust: share of the 3D distance in the score
-  double gate_sigmas = 4.;       ///< robust: horizontal Mahalanobis distance allowed
+  double gate_sigmas = 3.5;      ///< robust: horizontal Mahalanobis distance allowed
   double gate_m = 4.;            ///< robust: horizontal distance allowed, whatever the covariance says
   double gate_vertical_m = 2.;   ///< robust: vertical distance allowed
 };

@@ -14,6 +14,7 @@ namespace sslcd {
 /// One detection that was matched to a landmark: what bundle adjustment needs of it.
 struct Sighting {
   int frame = 0;
+  double stamp = 0;  ///< [s]
   int detection_row = 0;
   double score = 1.;
   Pose T_cam_object;

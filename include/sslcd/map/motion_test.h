@@ -11,15 +11,23 @@ namespace sslcd {
 /// Parked or driving? Two models explain an object's horizontal positions in the world: one that stands still and one
 /// that drives at nearly constant velocity. The log Bayes factor between them is the stationarity test: the driving
 /// model can follow anything, and pays for that with a wide prediction whenever standing still would have done.
+/// A detector's bias turns with the viewing ray, so a parked object seems to creep as the camera drives by. Driving
+/// therefore also takes a real distance at a real speed.
 struct MotionTestOptions {
   double speed_prior_mps = 8.;      ///< standard deviation of an unknown object's speed, per axis
   double acceleration_mps2 = 2.;    ///< of the driving model
   double wander_m_per_sqrt_s = 0.02;  ///< of the standing model: what camera drift does to it
   double decide_at = 6.;            ///< log Bayes factor at which an object is called driving (and, negated, parked)
+  double min_travel_m = 2.;         ///< nothing is called driving that has not come so far ...
+  double min_speed_mps = 0.7;       ///< ... at least so fast
+  double max_parked_speed_mps = 3.; ///< parked: the driving model's speed is below this, with one standard deviation to spare
+  double settle_s = 1.5;            ///< a driving object that stands for so long is a new parked one
   double memory = 10.;              ///< the factor's limit: how much evidence a change of mind has to overcome
   double forget_after_s = 5.;       ///< unseen for longer: start again
 };
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
+
+enum class Motion { kUndecided, kParked, kDriving };
 
 class MotionTest {
  public:
@@ -36,6 +44,15 @@ class MotionTest {
   Prediction PredictParked(double stamp, const MotionTestOptions& options) const;
   Prediction PredictDriving(double stamp, const MotionTestOptions& options) const;
 
+  Motion Verdict(const MotionTestOptions& options) const;
+
+  /// Since when the object has been standing, by the driving model's own speed. [s]
+  double StandingSince() const { return standing_since_; }
+  double Stamp() const { return stamp_; }
+
+  /// Forgets that it ever drove.
+  void Restart();
+
   /// > 0: driving explains the positions better.
   double log_bayes_factor() const { return log_bayes_factor_; }
   int count() const { return count_; }
@@ -46,9 +63,10 @@ class MotionTest {
 
  private:
   int count_ = 0;
-  double stamp_ = 0;
+  double stamp_ = 0, start_stamp_ = 0, standing_since_ = 0;
   double log_bayes_factor_ = 0;
-  Point parked_{0, 0};
+  Point start_{0, 0}, parked_{0, 0};
+  Covariance start_covariance_ = Covariance::Zero();
   Covariance parked_covariance_ = Covariance::Zero();
   Eigen::Matrix<double, 4, 1, Eigen::DontAlign> state_ = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>::Zero();
   Eigen::Matrix<double, 4, 4, Eigen::DontAlign> state_covariance_ = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();

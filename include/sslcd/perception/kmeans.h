@@ -20,8 +20,8 @@ struct KMeansResult {
   double compactness = 0;    ///< sum of squared distances of the points to their centres
 };
 
-/// K-means with the k-means++ seeding of Arthur and Vassilvitskii (2007), in its greedy form: each new centre is the best of
-/// a few draws. Deterministic for a seed. Points must be finite. No points: no centres.
+/// K-means with the k-means++ seeding of Arthur and Vassilvitskii (2007), in its greedy form: each new centre is the
+/// best of a few draws. Deterministic for a seed. Points must be finite. No points: no centres.
 KMeansResult KMeans(const Eigen::Matrix3Xf& points, const KMeansOptions& options);
 
 }  // namespace sslcd

@@ -14,14 +14,15 @@ namespace sslcd::sim {
 
 /// How visual odometry goes wrong: a wrong scale, and random walks that grow with the square root of the distance.
 struct OdometryNoise {
-  double scale_error = 0.03;           ///< every step is too long by this fraction (real stereo odometry: about 3 %)
+  double scale_error = 0.03;  ///< every step is too long by this fraction (real stereo odometry: about 3 %)
   double heading_rad_per_sqrt_m = 5e-4;
-  double tilt_rad_per_sqrt_m = 5e-5;   ///< roll and pitch
-  double position_m_per_sqrt_m = 4e-3; ///< each axis
+  double tilt_rad_per_sqrt_m = 5e-5;    ///< roll and pitch
+  double position_m_per_sqrt_m = 4e-3;  ///< each axis
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
-/// Odometry T_odom_cam with the stamps of `truth`; the first pose is the identity. A camera that stands still gets no noise.
+/// Odometry T_odom_cam with the stamps of `truth`; the first pose is the identity. A camera that stands still gets no
+/// noise.
 Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed);
 
 /// What a 3D object detector gets wrong.
@@ -32,10 +33,10 @@ struct DetectorNoise {
   double flip_rate = 0.03;         ///< front and back mistaken
   double box_sigma_px = 2.;        ///< each side of the 2D box
   double max_range_m = 60.;
-  double miss_rate_near = 0.03;    ///< chance to miss a visible object at range 0 ...
-  double miss_rate_far = 0.5;      ///< ... and at the maximal range
-  double min_visible = 0.4;        ///< less than this fraction in the image or not hidden by nearer objects: not seen
-  double false_positives = 0.2;    ///< mean number per frame
+  double miss_rate_near = 0.03;  ///< chance to miss a visible object at range 0 ...
+  double miss_rate_far = 0.5;    ///< ... and at the maximal range
+  double min_visible = 0.25;     ///< less than this fraction in the image or not hidden by nearer objects: not seen
+  double false_positives = 0.2;  ///< mean number per frame
 };
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise);
 
@@ -45,8 +46,8 @@ struct SimulatedDetections {
   std::vector<int> identity;  ///< true WorldObject::id of every row, -1 = false positive
 };
 
-/// Detections of `world` along its true path. Position errors are drawn in the camera's ray frame (RayFrame), so a constant
-/// one turns with the viewing direction. Objects of symmetry `full` get any yaw. Same seed, same detections.
+/// Detections of `world` along its true path. Position errors are drawn in the camera's ray frame (RayFrame), so a
+/// constant one turns with the viewing direction. Objects of symmetry `full` get any yaw. Same seed, same detections.
 SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise, std::uint64_t seed);
 
 /// Puts odometry and detections together, as a dataset reader would.

@@ -13,12 +13,13 @@
 
 namespace sslcd::sim {
 
-/// One thing that stands or drives in a synthetic world. Its frame is that of a Detection: centre, x along the length, z up.
+/// One thing that stands or drives in a synthetic world. Its frame is that of a Detection: centre, x along the length,
+/// z up.
 struct WorldObject {
   int id = 0;  ///< index in World::objects
   std::string label;
-  Vec3 dims{0, 0, 0};                   ///< length, width, height [m]
-  std::vector<Pose> T_world_object;     ///< one pose where it stands, one for every frame where it drives
+  Vec3 dims{0, 0, 0};                ///< length, width, height [m]
+  std::vector<Pose> T_world_object;  ///< one pose where it stands, one for every frame where it drives
   bool driving() const { return T_world_object.size() > 1; }
   const Pose& PoseAt(int frame) const { return T_world_object[driving() ? frame : 0]; }
 };
@@ -33,7 +34,8 @@ struct World {
   LabelTable labels;
 };
 
-/// A street that winds gently: cars parked along both kerbs with gaps, poles on the pavement, cars driving in both lanes.
+/// A street that winds gently: cars parked along both kerbs with gaps, poles on the pavement, cars driving in both
+/// lanes.
 struct StreetOptions {
   int frames = 300;
   double frame_rate_hz = 10.;
@@ -45,15 +47,15 @@ struct StreetOptions {
 };
 World MakeStreet(std::uint64_t seed, const StreetOptions& options = {});
 
-/// A regular parking lot: the camera drives round and round a double row of stalls, with a row on the outer side of each
-/// aisle. After one lap (about 170 m with the default length) it is back where it was.
+/// A regular parking lot: the camera drives round and round a double row of stalls, with a row on the outer side of
+/// each aisle. After one lap (about 170 m with the default length) it is back where it was.
 struct ParkingLotOptions {
   int frames = 300;
   double frame_rate_hz = 10.;
   double speed_mps = 6.;
-  double aisle_m = 60.;           ///< length of the rows
-  double free_fraction = 0.4;     ///< of the stalls
-  int driving_cars = 1;           ///< ahead on the same lap
+  double aisle_m = 60.;        ///< length of the rows
+  double free_fraction = 0.4;  ///< of the stalls
+  int driving_cars = 1;        ///< ahead on the same lap
 };
 World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options = {});
 

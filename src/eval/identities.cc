@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "eval/identities.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sslcd {
+
+Identities FindIdentities(const std::vector<MapObject>& objects,
+                          const std::function<std::optional<int>(int)>& identity_of_row) {
+  Identities result;
+  for (const MapObject& object : objects) {
+    if (object.state != LandmarkState::kConfirmed) continue;
+    ++result.landmarks;
+    std::vector<std::pair<int, int>> votes;  // (identity, count), in the order of first sight
+    for (const Observation& observation : object.observations) {
+      const std::optional<int> identity = identity_of_row(observation.detection_row);
+      if (!identity) continue;
+      ++result.observations;
+      const auto vote = std::find_if(votes.begin(), votes.end(), [&](const auto& v) { return v.first == *identity; });
+      if (vote == votes.end()) {
+        votes.emplace_back(*identity, 1);
+      } else {
+        ++vote->second;
+      }
+    }
+    if (votes.empty()) continue;
+    const auto winner = std::max_element(votes.begin(), votes.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    result.pure += winner->second;
+    ++result.owned[winner->first];
+  }
+  return result;
+}
+
+}  // namespace sslcd

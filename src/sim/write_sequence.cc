@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/sim/write_sequence.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "sslcd/core/error.h"
+
+namespace sslcd::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class... Numbers>
+std::string Format(const char* format, Numbers... numbers) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, numbers...);
+  return text;
+}
+
+/// Row "Pn: ..." of K [I | t].
+std::string CalibRow(int number, const Camera& camera, const Vec3& offset) {
+  const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(), camera.fy * offset.y() + camera.cy * offset.z(),
+                    offset.z());
+  return Format("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number, camera.fx, camera.cx, column.x(),
+                camera.fy, camera.cy, column.y(), column.z());
+}
+
+std::string Calib(const Camera& camera) {
+  const Vec3 baseline(-0.54, 0, 0);
+  return CalibRow(0, camera, Vec3::Zero()) + CalibRow(1, camera, baseline) + CalibRow(2, camera, camera.offset) +
+         CalibRow(3, camera, camera.offset + baseline);
+}
+
+std::string Times(const Trajectory& trajectory) {
+  std::string text;
+  for (double stamp : trajectory.stamps) text += Format("%.6f\n", stamp);
+  return text;
+}
+
+std::string Tum(const Trajectory& trajectory) {
+  std::string text;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const auto& q = trajectory.poses[i].unit_quaternion();
+    const Vec3& t = trajectory.poses[i].translation();
+    text += Format("%.6f %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", trajectory.stamps[i], t.x(), t.y(), t.z(), q.x(), q.y(),
+                   q.z(), q.w());
+  }
+  return text;
+}
+
+/// KITTI tracking: frame track label truncated occluded alpha, box, h w l, centre of the bottom face, rotation_y,
+/// score.
+std::string DetectionRow(int frame, const Detection& detection) {
+  const Box2d box = detection.box.value_or(Box2d{-1, -1, -1, -1});
+  const Vec3& centre = detection.T_cam_object.translation();
+  // rotation_y turns about +y, which points down; yaw counts about up.
+  const double rotation_y = WrapAngle(-GravityFrame().YawOf(detection.T_cam_object.so3()));
+  const double alpha = WrapAngle(rotation_y - std::atan2(centre.x(), centre.z()));
+  const Vec3& d = detection.dims;
+  return Format("%d -1 %s -1 -1 %.4f %.2f %.2f %.2f %.2f %.4f %.4f %.4f %.4f %.4f %.4f %.5f %.3f\n", frame,
+                detection.label.c_str(), alpha, box.left, box.top, box.right, box.bottom, d.z(), d.y(), d.x(),
+                centre.x(), centre.y() + 0.5 * d.z(), centre.z(), rotation_y, detection.score);
+}
+
+std::string Detections(const SimulatedDetections& detections) {
+  std::string text;
+  for (std::size_t frame = 0; frame < detections.frames.size(); ++frame) {
+    for (const Detection& detection : detections.frames[frame])
+      text += DetectionRow(static_cast<int>(frame), detection);
+  }
+  return text;
+}
+
+std::string Identities(const SimulatedDetections& detections) {
+  std::string text;
+  for (int id : detections.identity) text += std::to_string(id) + "\n";
+  return text;
+}
+
+std::string SequenceYaml(const World& world) {
+  std::string text =
+      Format("# a synthetic world; axes of the first camera: x right, y down, z forward\nup_axis: [%g, %g, %g]\n",
+             world.gravity.up.x(), world.gravity.up.y(), world.gravity.up.z());
+  text += "labels:\n";
+  for (const auto& [label, info] : world.labels.entries()) {
+    text += "  " + label + ": {symmetry: " + ToString(info.symmetry) + "}\n";
+  }
+  return text;
+}
+
+/// Under a temporary name first, so that a full disk leaves nothing half-written behind.
+void WriteFile(const fs::path& path, const std::string& text) {
+  const fs::path temporary = path.string() + ".tmp";
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(temporary, path, error);
+  if (file && !error) return;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  throw Error(ErrorKind::kOutput, path.string() + ": cannot be written; check permissions and free space");
+}
+
+void PrepareFolder(const fs::path& folder, bool overwrite) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw Error(ErrorKind::kOutput, folder.string() + ": cannot make this folder" +
+                                        (error ? " (" + error.message() + ")" : "") + "; choose another");
+  }
+  if (!overwrite && fs::directory_iterator(folder) != fs::directory_iterator()) {
+    throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+  }
+}
+
+}  // namespace
+
+void WriteSequence(const World& world, const Trajectory& odometry, const SimulatedDetections& detections,
+                   const std::filesystem::path& folder, bool overwrite) {
+  PrepareFolder(folder, overwrite);
+  WriteFile(folder / "calib.txt", Calib(world.camera));
+  WriteFile(folder / "times.txt", Times(world.truth));
+  WriteFile(folder / "odometry.txt", Tum(odometry));
+  WriteFile(folder / "groundtruth.txt", Tum(world.truth));
+  WriteFile(folder / "detections.txt", Detections(detections));
+  WriteFile(folder / "landmark_ids.txt", Identities(detections));
+  WriteFile(folder / "sequence.yaml", SequenceYaml(world));
+}
+
+}  // namespace sslcd::sim

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/association/gallery.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sslcd {
+namespace {
+
+using Vector = std::vector<float>;
+
+TEST(Gallery, MeanIsTheMeanOfAllDotProducts) {  // Eqs. 5 and 6
+  Gallery gallery(Gallery::Mode::kMean);
+  const std::vector<Vector> seen = {{1, 0}, {0.6f, 0.8f}, {0.8f, 0.6f}};
+  for (const Vector& v : seen) gallery.Add(v, 1.);
+  const Vector query = {0.28f, 0.96f};
+  double mean = 0;
+  for (const Vector& v : seen) mean += (query[0] * v[0] + query[1] * v[1]) / seen.size();
+  EXPECT_NEAR(*gallery.Compare(query, -2.), mean, 1e-6);
+}
+
+TEST(Gallery, TheOtherSideDoesNotDiluteThisOne) {
+  Gallery gallery(Gallery::Mode::kByViewpoint);
+  for (int i = 0; i < 100; ++i) gallery.Add({1, 0}, 0.1);
+  gallery.Add({0, 1}, M_PI);
+  EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI), 1., 1e-6);
+  EXPECT_NEAR(*gallery.Compare({1, 0}, 0.1), 1., 1e-6);
+  EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI - 0.5), 1., 1e-6) << "the nearest direction that was seen answers";
+}
+
+TEST(Gallery, MergeTurnsViewpoints) {
+  Gallery a, b;
+  b.Add({0, 1}, 0.1);
+  a.Add({1, 0}, 0.1);
+  a.Merge(b, M_PI);
+  EXPECT_NEAR(*a.Compare({0, 1}, 0.1 + M_PI), 1., 1e-6);
+  EXPECT_NEAR(*a.Compare({1, 0}, 0.1), 1., 1e-6);
+}
+
+TEST(Gallery, EmptyNegativeAndOfAnotherLength) {
+  Gallery gallery;
+  EXPECT_FALSE(gallery.Compare({1, 0}, 0));
+  gallery.Add({}, 0);
+  EXPECT_FALSE(gallery.Compare({1, 0}, 0));
+  gallery.Add({1, 0}, 0);
+  EXPECT_FALSE(gallery.Compare({}, 0));
+  EXPECT_FALSE(gallery.Compare({1, 0, 0}, 0));
+  EXPECT_EQ(*gallery.Compare({-1, 0}, 0), 0.);
+}
+
+}  // namespace
+}  // namespace sslcd

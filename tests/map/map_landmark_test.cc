@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/map/map_landmark.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sslcd {
+namespace {
+
+Sighting Of(const Vec3& dims, double range) {
+  Sighting sighting;
+  sighting.dims = dims;
+  sighting.T_cam_object = Pose::Trans(Vec3(0, 0, range));
+  return sighting;
+}
+
+TEST(FuseDims, OneSightingIsItself) { EXPECT_EQ(FuseDims({Of({4, 1.6, 1.5}, 20)}), Vec3(4, 1.6, 1.5)); }
+
+TEST(FuseDims, OneWildSizeChangesLittle) {
+  std::vector<Sighting> sightings(9, Of({4, 1.6, 1.5}, 20));
+  sightings.push_back(Of({12, 3, 4}, 20));
+  EXPECT_LT((FuseDims(sightings) - Vec3(4, 1.6, 1.5)).norm(), 0.05);
+}
+
+TEST(FuseDims, NearSightingsCountMore) {
+  const Vec3 fused = FuseDims({Of({4.0, 1.6, 1.5}, 5), Of({4.2, 1.6, 1.5}, 60)});
+  EXPECT_LT(fused.x(), 4.1);
+  EXPECT_GT(fused.x(), 4.0);
+}
+
+TEST(VoteHeading, MajorityWins) {
+  EXPECT_NEAR(VoteHeading(0.3, {0.3, 0.35, 0.3 + M_PI}), 0.3, 1e-12);
+  EXPECT_NEAR(VoteHeading(0.3, {0.3, 0.35 - M_PI, 0.3 + M_PI}), 0.3 - M_PI, 1e-12);
+  EXPECT_NEAR(VoteHeading(0.3, {}), 0.3, 1e-12);
+}
+
+}  // namespace
+}  // namespace sslcd

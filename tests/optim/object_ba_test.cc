@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/optim/object_ba.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace sslcd {
+namespace {
+
+struct Truth {
+  std::vector<Pose> cameras;
+  std::vector<UprightPose> objects;
+};
+
+// A camera drives 1 m a frame past parked cars; odometry is `stretch` times too long; `sigma` scales detection noise.
+BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  const auto gauss = [&] {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += (random() % 100000) / 100000.;
+    return sum;
+  };
+  BaProblem problem;
+  for (int i = 0; i < frames; ++i) {
+    truth.cameras.push_back(Pose::Trans(0, 0, i) * Pose::RotY(0.02 * std::sin(0.3 * i)));
+    problem.cameras.push_back({i, Pose(truth.cameras[i].so3(), truth.cameras[i].translation() * stretch)});
+    if (i == 0) continue;
+    Pose step = truth.cameras[i - 1].inverse() * truth.cameras[i];
+    step.translation() *= stretch;
+    problem.odometry.push_back({i - 1, i, step});
+  }
+  for (int k = 0; k < frames / 2; ++k) {
+    truth.objects.push_back({Vec3(k % 2 ? 5 : -5, 1, 10. + 2 * k), 1.5});
+    problem.objects.push_back({100 + k, Symmetry::kNone, {truth.objects[k].position * stretch, 1.4}});
+    for (int i = 0; i < frames; ++i) {
+      Pose seen = truth.cameras[i].inverse() * ToPose(truth.objects[k], problem.gravity);
+      if (seen.translation().z() < 3 || seen.translation().z() > 25) continue;
+      const DetectionSigmas s = SigmasAt(seen.translation().norm(), problem.noise, problem.noise_scale);
+      const Vec3 error(s.radial * gauss(), s.lateral * gauss(), s.vertical * gauss());
+      seen.translation() += sigma * RayFrame(seen.translation()).transpose() * error;
+      seen.so3() = seen.so3() * lie::SO3<double>::RotZ(sigma * s.yaw * gauss());
+      problem.sightings.push_back({i, k, seen});
+    }
+  }
+  return problem;
+}
+
+double WorstCamera(const BaProblem& problem, const Truth& truth) {
+  double worst = 0;
+  for (std::size_t i = 0; i < truth.cameras.size(); ++i)
+    worst = std::max(worst,
+                     (problem.cameras[i].T_world_cam.translation() - truth.cameras[i].translation()).norm());
+  return worst;
+}
+
+TEST(SolveBa, FindsTheScaleFromTheCarsAlone) {
+  Truth truth;
+  BaProblem problem = Street(40, 1.03, 1., truth);
+  const BaSummary summary = SolveBa(problem, {});
+  ASSERT_TRUE(summary.usable) << summary.message;
+  EXPECT_NEAR(std::exp(problem.log_scale), 1 / 1.03, 0.005);
+  EXPECT_LT(WorstCamera(problem, truth), 0.25);
+  for (std::size_t k = 0; k < truth.objects.size(); ++k)
+    EXPECT_LT((problem.objects[k].pose.position - truth.objects[k].position).norm(), 0.3);
+}
+
+TEST(SolveBa, WithoutNoiseEverySolverReachesTheTruth) {
+  for (const auto residual : {BaOptions::Residual::kRobust, BaOptions::Residual::kPaper}) {
+    for (const auto solver : {BaOptions::Solver::kLevenbergMarquardt, BaOptions::Solver::kGaussNewton}) {
+      Truth truth;
+      BaProblem problem = Street(20, 1., 0., truth);
+      BaOptions options;
+      options.residual = residual;
+      options.solver = solver;
+      options.loss_scale = 0;
+      ASSERT_TRUE(SolveBa(problem, options).usable);
+      EXPECT_LT(WorstCamera(problem, truth), 1e-3);
+      EXPECT_NEAR(problem.objects[3].pose.yaw, 1.5, 1e-3);
+    }
+  }
+}
+
+TEST(SolveBa, HalfTurnsAndOutliersDoNoHarm) {
+  Truth truth;
+  BaProblem problem = Street(40, 1.03, 1., truth);
+  for (std::size_t i = 0; i < problem.sightings.size(); i += 9)
+    problem.sightings[i].T_cam_object.so3() = problem.sightings[i].T_cam_object.so3() * lie::SO3<double>::RotZ(M_PI);
+  for (std::size_t i = 4; i < problem.sightings.size(); i += 31)
+    problem.sightings[i].T_cam_object.translation() += Vec3(3, 0, -4);
+  ASSERT_TRUE(SolveBa(problem, {}).usable);
+  EXPECT_LT(WorstCamera(problem, truth), 0.4);
+  for (const BaObject& object : problem.objects) EXPECT_NEAR(object.pose.yaw, 1.5, 0.1);
+}
+
+TEST(SolveBa, IsDeterministic) {
+  Truth truth;
+  BaProblem a = Street(30, 1.03, 1., truth), b = a;
+  SolveBa(a, {});
+  SolveBa(b, {});
+  for (std::size_t i = 0; i < a.cameras.size(); ++i)
+    EXPECT_TRUE(std::equal(a.cameras[i].T_world_cam.data(), a.cameras[i].T_world_cam.data() + 7,
+                           b.cameras[i].T_world_cam.data()));
+}
+
+TEST(SolveBa, LeavesBadProblemsAlone) {
+  Truth truth;
+  BaProblem empty;
+  EXPECT_FALSE(SolveBa(empty, {}).usable);
+  BaProblem nan = Street(10, 1., 0., truth);
+  nan.sightings[0].T_cam_object.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  const BaProblem before = nan;
+  const BaSummary summary = SolveBa(nan, {});
+  EXPECT_FALSE(summary.usable);
+  EXPECT_NE(summary.message.find("NaN"), std::string::npos);
+  EXPECT_EQ(nan.log_scale, before.log_scale);
+}
+
+TEST(SolveBa, ATreeKeepsItsYaw) {
+  Truth truth;
+  BaProblem problem = Street(20, 1., 1., truth);
+  for (BaObject& object : problem.objects) object.symmetry = Symmetry::kFull;
+  ASSERT_TRUE(SolveBa(problem, {}).usable);
+  for (const BaObject& object : problem.objects) EXPECT_EQ(object.pose.yaw, 1.4);
+}
+
+TEST(Marginalise, TheWindowKeepsWhatItKnew) {
+  // Solving everything at once and solving with the first half marginalised must agree where both speak.
+  Truth truth;
+  BaProblem full = Street(20, 1.03, 0.2, truth);
+  BaOptions options;
+  options.loss_scale = 0;  // linearised exactly where the full solution is
+  options.max_iterations = 100;
+  SolveBa(full, options);
+
+  std::vector<int> cameras, objects;
+  for (int i = 0; i < 10; ++i) cameras.push_back(i);
+  for (int k = 0; k < static_cast<int>(full.objects.size()); ++k) {
+    bool later = false;
+    for (const BaSighting& s : full.sightings) later |= s.object == k && s.camera >= 10;
+    if (!later) objects.push_back(k);
+  }
+  const BaPrior prior = Marginalise(full, cameras, objects, options);
+  ASSERT_FALSE(prior.empty());
+  EXPECT_EQ(prior.frames, std::vector<int>{10}) << "odometry ties the dropped cameras to the next one only";
+
+  BaProblem window = full;
+  window.prior = prior;
+  window.cameras.erase(window.cameras.begin(), window.cameras.begin() + 10);
+  window.odometry.clear();
+  window.sightings.clear();
+  for (const BaOdometry& edge : full.odometry)
+    if (edge.from >= 10) window.odometry.push_back({edge.from - 10, edge.to - 10, edge.T_from_to});
+  std::vector<int> new_index(full.objects.size(), -1);
+  window.objects.clear();
+  for (int k = 0; k < static_cast<int>(full.objects.size()); ++k) {
+    if (std::find(objects.begin(), objects.end(), k) != objects.end()) continue;
+    new_index[k] = static_cast<int>(window.objects.size());
+    window.objects.push_back(full.objects[k]);
+  }
+  for (const BaSighting& s : full.sightings)
+    if (s.camera >= 10) window.sightings.push_back({s.camera - 10, new_index[s.object], s.T_cam_object});
+  for (BaObject& object : window.objects) object.pose.position += Vec3(0.05, 0, -0.05);  // start somewhere else
+  ASSERT_TRUE(SolveBa(window, options).usable);
+  for (int i = 10; i < 20; ++i)
+    EXPECT_LT((window.cameras[i - 10].T_world_cam.translation() - full.cameras[i].T_world_cam.translation()).norm(),
+              2e-3);
+  EXPECT_NEAR(window.log_scale, full.log_scale, 2e-4);
+}
+
+TEST(EstimateNoiseScale, MeasuresTheScatter) {
+  Truth truth;
+  BaProblem problem = Street(60, 1., 3., truth);
+  SolveBa(problem, {});
+  const NoiseScale scale = EstimateNoiseScale(problem);
+  EXPECT_NEAR(scale.radial, 3., 0.7);
+  EXPECT_NEAR(scale.lateral, 3., 0.8);
+  EXPECT_NEAR(scale.yaw, 3., 0.7);
+}
+
+}  // namespace
+}  // namespace sslcd
