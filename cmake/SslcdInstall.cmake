@@ -1,5 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# `find_package(sslcd)` gives sslcd::sslcd, from the static and from the shared build alike; tests/consumer holds it.
 include(CMakePackageConfigHelpers)
-install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
+
+install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN sim EXCLUDE)  # sim: tests and demo only
 install(DIRECTORY third_party/lie/include/lie DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sslcd/third_party)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
+
+set_target_properties(sslcd_lie PROPERTIES EXPORT_NAME lie)
 install(TARGETS sslcd sslcd_lie EXPORT sslcdTargets)
+install(EXPORT sslcdTargets NAMESPACE sslcd:: DESTINATION ${SSLCD_CONFIG_DIR})
+
+get_target_property(SSLCD_LIBRARY_TYPE sslcd TYPE)
+configure_package_config_file(cmake/sslcdConfig.cmake.in sslcdConfig.cmake INSTALL_DESTINATION ${SSLCD_CONFIG_DIR})
+write_basic_package_version_file(sslcdConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfigVersion.cmake
+  DESTINATION ${SSLCD_CONFIG_DIR})

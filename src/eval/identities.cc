@@ -25,8 +25,8 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
       }
     }
     if (votes.empty()) continue;
-    const auto winner = std::max_element(votes.begin(), votes.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto winner =
+        std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     result.pure += winner->second;
     ++result.owned[winner->first];
   }

@@ -10,13 +10,13 @@
 
 namespace sslcd {
 
-/// Which true objects the landmarks of a map stand for. A landmark belongs to the identity most of its observations have
-/// (on a tie, the one observed first).
+/// Which true objects the landmarks of a map stand for. A landmark belongs to the identity most of its observations
+/// have (on a tie, the one observed first).
 struct Identities {
-  int landmarks = 0;             ///< confirmed ones
-  int observations = 0;          ///< of them, those with an identity
-  int pure = 0;                  ///< of these, those with the identity of their landmark
-  std::map<int, int> owned;      ///< identity -> number of landmarks, where there are any
+  int landmarks = 0;         ///< confirmed ones
+  int observations = 0;      ///< of them, those with an identity
+  int pure = 0;              ///< of these, those with the identity of their landmark
+  std::map<int, int> owned;  ///< identity -> number of landmarks, where there are any
 
   double Purity() const { return observations > 0 ? static_cast<double>(pure) / observations : 0.; }
 };

@@ -48,7 +48,7 @@ double VerticalOverlap(const Cuboid& a, const Cuboid& b) {
   return std::max(0., top - bottom);
 }
 
-bool IsEmpty(const Cuboid& box) { return !(box.dims.minCoeff() > 0); }
+bool IsEmpty(const Cuboid& box) { return !(box.dims.array() > 0).all(); }
 
 }  // namespace
 

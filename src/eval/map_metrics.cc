@@ -38,6 +38,7 @@ std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>&
 Scenes TrueScenes(const MapRun& run, const MapMetricOptions& options) {
   Scenes scenes;
   for (const GroundTruthBox& box : run.truth) {
+    if (box.frame < 0) throw Error(ErrorKind::kUsage, "an annotated box has a negative frame number");
     if (std::find(options.labels.begin(), options.labels.end(), box.label) == options.labels.end()) continue;
     Scene& scene = scenes[box.frame];
     scene.truth.push_back(ToCuboid(box.T_cam_object, box.dims, kCameraAxes));

@@ -16,9 +16,7 @@ namespace {
 
 constexpr const char* kAlignmentNames[] = {"none", "4dof", "se3", "sim3"};
 
-bool IsFinite(const Pose& T) {
-  return T.translation().allFinite() && T.unit_quaternion().coeffs().allFinite();
-}
+bool IsFinite(const Pose& T) { return T.translation().allFinite() && T.unit_quaternion().coeffs().allFinite(); }
 
 void Check(const std::vector<Pose>& est, const std::vector<Pose>& ref) {
   if (est.size() != ref.size()) {
@@ -50,9 +48,7 @@ struct Centred {
 };
 
 /// How many of the values, largest first, count as different from zero.
-int Rank(const Vec3& values) {
-  return static_cast<int>((values.array() > 1e-12 * std::max(values[0], 1e-12)).count());
-}
+int Rank(const Vec3& values) { return static_cast<int>((values.array() > 1e-12 * std::max(values[0], 1e-12)).count()); }
 
 struct RotationAndScale {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -127,8 +123,8 @@ IndexPairs AllPairs(const std::vector<double>& steps, double delta, double toler
   const int n = static_cast<int>(steps.size());
   for (int i = 0; i + 1 < n; ++i) {
     const auto off = [&](double d) { return std::abs(d - distance[i] - delta); };
-    const auto best = std::min_element(distance.begin() + i + 1, distance.end(),
-                                       [&](double a, double b) { return off(a) < off(b); });
+    const auto best =
+        std::min_element(distance.begin() + i + 1, distance.end(), [&](double a, double b) { return off(a) < off(b); });
     if (off(*best) <= tolerance) pairs.emplace_back(i, static_cast<int>(best - distance.begin()));
   }
   return pairs;

@@ -108,7 +108,7 @@ TEST_F(EvoAgreement, RealOdometryAgainstOxts) {
     for (std::size_t i = 0; i < t->size(); ++i) t->stamps.push_back(0.1 * static_cast<double>(i));
   }
   ExpectAgreement(est, ref, 0.01);
-  EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSe3).error.rmse, 3.33, 0.005);   // as in the data's notes
+  EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSe3).error.rmse, 3.33, 0.005);  // as in the data's notes
   EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSim3).error.rmse, 1.02, 0.005);
 }
 

@@ -98,7 +98,8 @@ TEST(AteTest, ThePosesTurnWithTheirPositions) {
   const Similarity S{2, Pose(lie::SO3<double>::RotZ(M_PI / 2), Vec3(1, 0, 0))};
   const Pose T = S * Pose(lie::SO3<double>::RotX(0.3), Vec3(1, 2, 3));
   EXPECT_LT((T.translation() - Vec3(-3, 2, 6)).norm(), 1e-12);
-  EXPECT_LT((T.so3().matrix() - (lie::SO3<double>::RotZ(M_PI / 2) * lie::SO3<double>::RotX(0.3)).matrix()).norm(), 1e-12);
+  EXPECT_LT((T.so3().matrix() - (lie::SO3<double>::RotZ(M_PI / 2) * lie::SO3<double>::RotX(0.3)).matrix()).norm(),
+            1e-12);
 }
 
 struct OpenCase {
@@ -113,7 +114,8 @@ TEST(AteTest, PositionsThatLeaveTheAlignmentOpenStillHaveAnError) {
       {"two poses of equal distance", At({{0, 0, 0}, {1, 0, 0}}), At({{5, 5, 5}, {5, 6, 5}}), 0.},
       {"two poses, one metre longer", At({{0, 0, 0}, {1, 0, 0}}), At({{0, 0, 0}, {0, 0, 2}}), 0.5},
       {"all equal", At({{4, 4, 4}, {4, 4, 4}, {4, 4, 4}}), At({{0, 0, 0}, {0, 3, 0}, {0, -3, 0}}), std::sqrt(6.)},
-      {"all equal, large numbers", At(std::vector<Vec3>(7, {1e6 + 0.1, 0.1, 0.3})), At(std::vector<Vec3>(7, {3, 0, 0})), 0},
+      {"all equal, large numbers", At(std::vector<Vec3>(7, {1e6 + 0.1, 0.1, 0.3})), At(std::vector<Vec3>(7, {3, 0, 0})),
+       0},
       {"on one line", At({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {9, 9, 9}}),
        At({{0, 0, 0}, {0, 0, std::sqrt(3.)}, {0, 0, std::sqrt(27.)}, {0, 0, std::sqrt(243.)}}), 0.},
   };

@@ -30,8 +30,8 @@ struct PrecisionRecall {
   double recall_at_full_precision = 0;      ///< largest recall on the curve without a wrong answer
 };
 
-/// `positives`: how many there were to be found; without any, recalls are 0. Throws Error (kUsage): more correct answers
-/// than positives; a score that is not a number.
+/// `positives`: how many there were to be found; without any, recalls are 0. Throws Error (kUsage): more correct
+/// answers than positives; a score that is not a number.
 PrecisionRecall ComputePrecisionRecall(std::vector<ScoredAnswer> answers, int positives);
 
 /// Bins of the viewpoint change: 0-45, 45-90, 90-135, 135-180 degrees, the lower end included (and 180 in the last).

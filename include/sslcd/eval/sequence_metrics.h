@@ -22,10 +22,10 @@ struct LoopAnswer {
 /// (x right, y down, z forward); the longer lists are cut to the shortest.
 struct SequenceRun {
   std::vector<Pose> estimate, odometry, reference;
-  std::vector<Frame> frames;        ///< the detections as they went in: frame numbers and rows are used
-  std::vector<int> identities;      ///< the true identity of each detection row; negative: a false alarm
-  std::vector<LoopAnswer> loops;    ///< the accepted ones
-  std::vector<MapObject> objects;   ///< the final map; only confirmed ones count
+  std::vector<Frame> frames;       ///< the detections as they went in: frame numbers and rows are used
+  std::vector<int> identities;     ///< the true identity of each detection row; negative: a false alarm
+  std::vector<LoopAnswer> loops;   ///< the accepted ones
+  std::vector<MapObject> objects;  ///< the final map; only confirmed ones count
 };
 
 struct SequenceMetricOptions {

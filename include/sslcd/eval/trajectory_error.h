@@ -45,16 +45,16 @@ struct MatchedPoses {
   std::vector<Pose> est, ref;
 };
 
-/// Pairs the poses as evo does: for every pose of the trajectory with fewer poses (of `est` on a tie) the nearest in time
-/// of the other one, if it is no further than `max_difference_s`. Throws Error: stamps that are not finite or go
+/// Pairs the poses as evo does: for every pose of the trajectory with fewer poses (of `est` on a tie) the nearest in
+/// time of the other one, if it is no further than `max_difference_s`. Throws Error: stamps that are not finite or go
 /// backwards, as many stamps as poses not given (kBadInput), no match at all (kNoSolution).
 MatchedPoses MatchByStamp(const Trajectory& est, const Trajectory& ref, double max_difference_s = 0.01);
 
 /// The motion that minimises sum |S * est_i - ref_i|^2 over the positions, in closed form. `up` is the vertical of both
-/// worlds and matters for k4Dof only. Sources: Umeyama, Least-squares estimation of transformation parameters between two
-/// point patterns, PAMI 1991 (SE(3), Sim(3)); its planar case about `up` (4 DoF).
-/// Where the positions leave a rotation open (fewer than three, or on one line) any of the best is returned; a scale that
-/// is left open (all positions of `est` equal) is 1. The errors after alignment are the same for all of them.
+/// worlds and matters for k4Dof only. Sources: Umeyama, Least-squares estimation of transformation parameters between
+/// two point patterns, PAMI 1991 (SE(3), Sim(3)); its planar case about `up` (4 DoF). Where the positions leave a
+/// rotation open (fewer than three, or on one line) any of the best is returned; a scale that is left open (all
+/// positions of `est` equal) is 1. The errors after alignment are the same for all of them.
 Similarity Align(const std::vector<Pose>& est, const std::vector<Pose>& ref, Alignment alignment,
                  const Vec3& up = Vec3(0, -1, 0));
 

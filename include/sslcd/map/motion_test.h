@@ -20,7 +20,7 @@ struct MotionTestOptions {
   double decide_at = 6.;            ///< log Bayes factor at which an object is called driving (and, negated, parked)
   double min_travel_m = 2.;         ///< nothing is called driving that has not come so far ...
   double min_speed_mps = 0.7;       ///< ... at least so fast
-  double max_parked_speed_mps = 3.; ///< parked: the driving model's speed is below this, with one standard deviation to spare
+  double max_parked_speed_mps = 2.; ///< parked: the driving model's speed is below this, with one standard deviation to spare
   double settle_s = 1.5;            ///< a driving object that stands for so long is a new parked one
   double memory = 10.;              ///< the factor's limit: how much evidence a change of mind has to overcome
   double forget_after_s = 5.;       ///< unseen for longer: start again

@@ -23,7 +23,7 @@ struct MapperContext {
 /// What one frame did.
 struct FrameReport {
   Pose T_world_cam;
-  FilterReport filter;
+  FilterReport filter;  ///< what became of its detections
   MapUpdate map;
   bool keyframe = false;
   BaSummary window;  ///< of the sliding window; not usable where none ran

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sslcd {
+
+/// Times of one stage over a run. [ms]
+struct StageTimes {
+  int count = 0;
+  double mean = 0, p50 = 0, p95 = 0, max = 0;
+};
+
+/// Collects how long each stage took, call by call. Not thread-safe.
+class TimingTable {
+ public:
+  void Add(const std::string& stage, double milliseconds) { samples_[stage].push_back(milliseconds); }
+
+  /// One entry a stage, by name. Percentiles are those of the nearest rank.
+  std::map<std::string, StageTimes> Summary() const;
+
+ private:
+  std::map<std::string, std::vector<double>> samples_;
+};
+
+/// Adds the time between its construction and destruction to a table.
+class ScopedTimer {
+ public:
+  ScopedTimer(TimingTable& table, const char* stage) : table_(table), stage_(stage) {}
+  ~ScopedTimer() {
+    table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count());
+  }
+  ScopedTimer(const ScopedTimer&) = delete;
+  ScopedTimer& operator=(const ScopedTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  TimingTable& table_;
+  const char* stage_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace sslcd

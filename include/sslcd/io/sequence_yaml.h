@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "sslcd/core/label.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// What a sequence folder says about itself.
+struct SequenceInfo {
+  Vec3 up_axis{0, -1, 0};  ///< unit vector in the world (odometry) frame
+  LabelTable labels;
+};
+
+/// Reads sequence.yaml:
+///
+///   up_axis: [0, -1, 0]
+///   labels: {Car: {symmetry: none}, Tree: {symmetry: full}}
+///
+/// Both keys are optional. Throws Error with file:line:column for unknown or duplicate keys and for wrong values.
+SequenceInfo ReadSequenceYaml(const std::string& path);
+
+}  // namespace sslcd

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/detection.h"
+#include "sslcd/core/timing.h"
+#include "sslcd/core/trajectory.h"
+#include "sslcd/perception/colour.h"
+#include "sslcd/pipeline/mapper.h"
+
+namespace sslcd {
+
+/// What a host may hang into an offline run. All optional, all called from the calling thread.
+struct RunHooks {
+  std::function<void(int done, int total)> progress;  ///< after each frame
+  std::function<bool()> stop;                         ///< true: finish this frame, keep what there is
+  /// Loads an image for the colour cue and hands it to the callback; false where that fails. None: no colour.
+  std::function<bool(const std::string& path, const std::function<void(const ImageView&)>&)> with_image;
+};
+
+/// What came out of an offline run.
+struct RunResult {
+  std::vector<int> frames;          ///< frame numbers, in step with the trajectories
+  Trajectory trajectory, odometry;  ///< T_world_cam, T_odom_cam of every frame that was processed
+  std::vector<MapObject> objects;   ///< all landmarks, by id; the map is those that are confirmed
+  double scale = 1;                 ///< metres per odometry metre
+  NoiseScale noise_scale;           ///< what was learnt of the detector
+  FilterReport filter;
+  BaSummary refinement;
+  TimingTable timing;
+  int images_failed = 0;
+  bool stopped = false;             ///< the stop hook ended it early
+};
+
+/// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop). Deterministic.
+/// Throws what Mapper::AddFrame throws.
+RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
+                      const RunHooks& hooks = {});
+
+}  // namespace sslcd

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/io/sequence_yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+
+#include "sslcd/core/error.h"
+#include "sslcd/io/text_rows.h"
+
+namespace sslcd {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path) {}
+
+  SequenceInfo Read() const {
+    SequenceInfo info;
+    YAML::Node root;
+    try {
+      root = YAML::Load(ReadFileBytes(path_));
+    } catch (const YAML::Exception& error) {
+      Fail(error.mark, error.msg);
+    }
+    if (root.IsNull()) return info;
+    CheckKeys(root, {"up_axis", "labels"});
+    if (root["up_axis"]) info.up_axis = UpAxis(root["up_axis"]);
+    if (root["labels"]) info.labels = Labels(root["labels"]);
+    return info;
+  }
+
+ private:
+  [[noreturn]] void Fail(const YAML::Mark& mark, const std::string& message) const {
+    throw Error(ErrorKind::kBadInput, {path_, mark.line + 1, mark.column + 1}, message);
+  }
+
+  /// A mapping with no key twice (yaml-cpp would keep both silently) and, unless `known` is empty, only known ones.
+  void CheckKeys(const YAML::Node& node, const std::set<std::string>& known) const {
+    if (!node.IsMap()) Fail(node.Mark(), "expected a mapping 'key: value'");
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) Fail(entry.first.Mark(), "expected a plain key");
+      const std::string key = entry.first.Scalar();
+      if (!seen.insert(key).second) Fail(entry.first.Mark(), "duplicate key '" + key + "'");
+      if (!known.empty() && known.count(key) == 0) {
+        Fail(entry.first.Mark(), "unknown key '" + key + "'; known here: " + names);
+      }
+    }
+  }
+
+  Vec3 UpAxis(const YAML::Node& node) const {
+    Vec3 up(0, 0, 0);
+    if (!node.IsSequence() || node.size() != 3) Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto value = node[i].IsScalar() ? ParseNumber(node[i].Scalar()) : std::nullopt;
+      if (!value) Fail(node[i].Mark(), "up_axis: expected a number");
+      up[static_cast<int>(i)] = *value;
+    }
+    if (!(up.allFinite() && up.norm() > 1e-6)) Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
+    return up.normalized();
+  }
+
+  LabelTable Labels(const YAML::Node& node) const {
+    CheckKeys(node, {});
+    LabelTable labels;
+    for (const auto& entry : node) {
+      CheckKeys(entry.second, {"symmetry"});
+      LabelInfo info;
+      if (const YAML::Node symmetry = entry.second["symmetry"]) {
+        const auto parsed = symmetry.IsScalar() ? ParseSymmetry(symmetry.Scalar()) : std::nullopt;
+        if (!parsed) Fail(symmetry.Mark(), "symmetry: expected none, pi or full");
+        info.symmetry = *parsed;
+      }
+      labels.Set(entry.first.Scalar(), info);
+    }
+    return labels;
+  }
+
+  std::string path_;
+};
+
+}  // namespace
+
+SequenceInfo ReadSequenceYaml(const std::string& path) { return Reader(path).Read(); }
+
+}  // namespace sslcd
