@@ -125,7 +125,8 @@ Calibration ReadCalibration(const std::string& path) {
   calibration.right = entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
-    if (*camera && !size.empty()) (*camera)->width = static_cast<int>(size[0]), (*camera)->height = static_cast<int>(size[1]);
+    if (*camera && !size.empty())
+      (*camera)->width = static_cast<int>(size[0]), (*camera)->height = static_cast<int>(size[1]);
   }
   calibration.T_cam_velo = entries.Rigid({"Tr"});  // KITTI odometry: the rectification is in it
   if (!calibration.T_cam_velo) {

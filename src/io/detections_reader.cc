@@ -32,19 +32,22 @@ DetectionFormat Guess(const TextRows& row) {
     if (row.size() == 17 || row.size() == 18) return DetectionFormat::kKittiTracking;
   }
   row.Fail("not a detection row: found " + std::to_string(row.size()) +
-           (row.has_commas() ? " columns with commas, expected 15 (AB3DMOT csv)"
-                             : " columns, expected 15 or 16 (KITTI object), 17 or 18 (KITTI tracking) or an AB3DMOT csv"));
+           (row.has_commas()
+                ? " columns with commas, expected 15 (AB3DMOT csv)"
+                : " columns, expected 15 or 16 (KITTI object), 17 or 18 (KITTI tracking) or an AB3DMOT csv"));
 }
 
 std::string LabelOf(const TextRows& row, DetectionFormat format, int column) {
   if (format == DetectionFormat::kAb3dmotCsv) {
     static constexpr std::array<const char*, 3> kTypes = {"Pedestrian", "Car", "Cyclist"};
     const int type = row.Integer(column);
-    if (type < 1 || type > 3) row.Fail("class number " + std::to_string(type) + ": known are 1 Pedestrian 2 Car 3 Cyclist");
+    if (type < 1 || type > 3)
+      row.Fail("class number " + std::to_string(type) + ": known are 1 Pedestrian 2 Car 3 Cyclist");
     return kTypes[type - 1];
   }
   const std::string label(row.Text(column));
-  if (ParseNumber(label)) row.Fail("expected a class name in column " + std::to_string(column + 1) + ", found '" + label + "'");
+  if (ParseNumber(label))
+    row.Fail("expected a class name in column " + std::to_string(column + 1) + ", found '" + label + "'");
   return label;
 }
 
@@ -106,14 +109,16 @@ void Reader::CheckLayout(const TextRows& row, int frame) {
     out_.format = Guess(row);
     row_size_ = row.size();
     const bool per_frame = out_.format == DetectionFormat::kKittiObject;
-    if (per_frame && frame < 0) row.Fail("KITTI object rows say no frame number: name the folder of %06d.txt files instead");
-    if (!per_frame && frame >= 0) row.Fail("these rows have frame numbers of their own: name this file, not its folder");
+    if (per_frame && frame < 0)
+      row.Fail("KITTI object rows say no frame number: name the folder of %06d.txt files instead");
+    if (!per_frame && frame >= 0)
+      row.Fail("these rows have frame numbers of their own: name this file, not its folder");
   }
   const bool is_csv = out_.format == DetectionFormat::kAb3dmotCsv;
   if (row.size() != row_size_ || row.has_commas() != is_csv) {
-    row.Fail("found " + std::to_string(row.size()) + " columns " + (row.has_commas() ? "with commas" : "without commas") +
-             ", the rows before have " + std::to_string(row_size_) + " (" + ToString(out_.format) +
-             "): complete or remove the row");
+    row.Fail("found " + std::to_string(row.size()) + " columns " +
+             (row.has_commas() ? "with commas" : "without commas") + ", the rows before have " +
+             std::to_string(row_size_) + " (" + ToString(out_.format) + "): complete or remove the row");
   }
 }
 
@@ -121,7 +126,8 @@ void Reader::CheckScore(const TextRows& row, double score) {
   if (score >= 0 && score <= 1) return;
   outside_unit_ = true;
   if (options_.score == ScoreKind::kProbability) {
-    row.Fail("score " + std::to_string(score) + " is no probability: it lies outside [0, 1]; read the scores as logits");
+    row.Fail("score " + std::to_string(score) +
+             " is no probability: it lies outside [0, 1]; read the scores as logits");
   }
 }
 

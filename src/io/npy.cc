@@ -37,14 +37,16 @@ void ParseShape(const std::string& path, std::string_view text, NpyMatrix& matri
     if (error == std::errc()) shape.push_back(size);
     at = error == std::errc() ? end : at + 1;
   }
-  if (shape.size() != 2) Fail(path, "expected an array of two dimensions, rows x dim, found " + std::to_string(shape.size()));
+  if (shape.size() != 2)
+    Fail(path, "expected an array of two dimensions, rows x dim, found " + std::to_string(shape.size()));
   matrix.rows = shape[0], matrix.columns = shape[1];
 }
 
 template <class T>
 void CopyValues(const std::string& path, std::string_view data, NpyMatrix& matrix) {
   const std::size_t count = data.size() / sizeof(T);
-  const bool fits = matrix.columns == 0 ? count == 0 : count / matrix.columns == matrix.rows && count % matrix.columns == 0;
+  const bool fits =
+      matrix.columns == 0 ? count == 0 : count / matrix.columns == matrix.rows && count % matrix.columns == 0;
   if (!fits || data.size() % sizeof(T) != 0) {
     Fail(path, "the data do not fit the shape: the file is cut off or too long");
   }
@@ -65,13 +67,15 @@ NpyMatrix ReadNpy(const std::string& path) {
   const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
   std::size_t start = 10, length = byte(8) | byte(9) << 8;  // version 1; later ones have four bytes of length
   if (byte(6) > 1 && data.size() >= 12) start = 12, length |= byte(10) << 16 | byte(11) << 24;
-  if (byte(6) < 1 || byte(6) > 3 || length > data.size() - start) Fail(path, "unknown npy version, or the header is cut off");
+  if (byte(6) < 1 || byte(6) > 3 || length > data.size() - start)
+    Fail(path, "unknown npy version, or the header is cut off");
 
   const std::string_view header = data.substr(start, length);
   data.remove_prefix(start + length);
   NpyMatrix matrix;
   ParseShape(path, ValueOf(path, header, "shape"), matrix);
-  if (ValueOf(path, header, "fortran_order").substr(0, 4) == "True") Fail(path, "the array is in Fortran order, expected C");
+  if (ValueOf(path, header, "fortran_order").substr(0, 4) == "True")
+    Fail(path, "the array is in Fortran order, expected C");
   const std::string_view type = ValueOf(path, header, "descr").substr(0, 5);
   if (type == "'<f4'") {
     CopyValues<float>(path, data, matrix);

@@ -71,9 +71,10 @@ std::vector<Pose> ReadOxts(const std::string& path) {
 
 std::vector<Pose> ReadOxtsCamera(const std::string& path, const Calibration& calibration) {
   if (!calibration.HasImu()) {
-    throw Error(ErrorKind::kBadInput, {path},
-                "the calibration does not lead from IMU to camera: add Tr_velo_to_cam and Tr_imu_to_velo to calib.txt, or "
-                "calib_velo_to_cam.txt and calib_imu_to_velo.txt to a raw drive");
+    throw Error(
+        ErrorKind::kBadInput, {path},
+        "the calibration does not lead from IMU to camera: add Tr_velo_to_cam and Tr_imu_to_velo to calib.txt, or "
+        "calib_velo_to_cam.txt and calib_imu_to_velo.txt to a raw drive");
   }
   const Pose T_cam_imu = *calibration.T_cam_velo * *calibration.T_velo_imu;
   std::vector<Pose> poses = ReadOxts(path);

@@ -21,7 +21,8 @@ Pose PoseFromKitti(const TextRows& row) {
   Eigen::Matrix<double, 3, 4> M;
   for (int i = 0; i < 12; ++i) M(i / 4, i % 4) = row.Number(i);
   const std::optional<Pose> pose = RigidFromMatrix(M.leftCols<3>(), M.col(3));
-  if (!pose) row.Fail("the 3x4 matrix is no rigid transform (NaN, mirrored, or R^T R is not the identity): mend the row");
+  if (!pose)
+    row.Fail("the 3x4 matrix is no rigid transform (NaN, mirrored, or R^T R is not the identity): mend the row");
   return *pose;
 }
 
@@ -62,10 +63,11 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
   TextRows row(path);
   while (row.Next()) {
     if (file.format == PoseFormat::kAuto) file.format = Guess(row);
-    if (columns == 0) columns = file.format == PoseFormat::kTum ? 8 : file.format == PoseFormat::kKitti ? 12 : row.size();
+    if (columns == 0)
+      columns = file.format == PoseFormat::kTum ? 8 : file.format == PoseFormat::kKitti ? 12 : row.size();
     if (row.size() != columns || columns < 8) {
-      row.Fail("found " + std::to_string(row.size()) + " columns, expected " + std::to_string(std::max<std::size_t>(columns, 8)) +
-               " (format " + ToString(file.format) + ")");
+      row.Fail("found " + std::to_string(row.size()) + " columns, expected " +
+               std::to_string(std::max<std::size_t>(columns, 8)) + " (format " + ToString(file.format) + ")");
     }
     Pose pose;
     double stamp = static_cast<double>(stamps.size());

@@ -17,7 +17,8 @@ class Reader {
   std::vector<Tracklet> Read() const {
     const XmlElement document = ReadXml(path_);
     const XmlElement* root = document.Find("boost_serialization");
-    if (root == nullptr) throw Error(ErrorKind::kBadInput, {path_, 1}, "not a KITTI tracklet file: no <boost_serialization>");
+    if (root == nullptr)
+      throw Error(ErrorKind::kBadInput, {path_, 1}, "not a KITTI tracklet file: no <boost_serialization>");
     std::vector<Tracklet> tracklets;
     for (const XmlElement& item : Child(*root, "tracklets").children) {
       if (item.name == "item") tracklets.push_back(ReadTracklet(item));
@@ -39,7 +40,8 @@ class Reader {
   double Number(const XmlElement& parent, const char* name) const {
     const XmlElement& child = Child(parent, name);
     const std::optional<double> value = ParseNumber(child.text);
-    if (!value || !std::isfinite(*value)) Fail(child, "<" + child.name + ">: expected a number, found '" + child.text + "'");
+    if (!value || !std::isfinite(*value))
+      Fail(child, "<" + child.name + ">: expected a number, found '" + child.text + "'");
     return *value;
   }
 
@@ -67,7 +69,8 @@ class Reader {
 
 std::vector<Tracklet> ReadTracklets(const std::string& path) { return Reader(path).Read(); }
 
-std::map<int, std::vector<Detection>> TrackletDetections(const std::vector<Tracklet>& tracklets, const Pose& T_cam_velo) {
+std::map<int, std::vector<Detection>> TrackletDetections(const std::vector<Tracklet>& tracklets,
+                                                         const Pose& T_cam_velo) {
   std::map<int, std::vector<Detection>> by_frame;
   for (const Tracklet& tracklet : tracklets) {
     int frame = tracklet.first_frame;

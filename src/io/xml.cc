@@ -48,7 +48,8 @@ XmlElement ReadXml(const std::string& path) {
     if (end == std::string_view::npos) fail("a tag does not end: the file is cut off");
     const std::string_view inside = rest.substr(1, end - 1);
     if (!comment && !inside.empty() && inside[0] == '/') {
-      if (open.size() == 1 || open.back()->name != Trim(inside.substr(1))) fail("unexpected <" + std::string(inside) + ">");
+      if (open.size() == 1 || open.back()->name != Trim(inside.substr(1)))
+        fail("unexpected <" + std::string(inside) + ">");
       open.pop_back();
     } else if (!comment && !inside.empty() && inside[0] != '!' && inside[0] != '?') {
       XmlElement& element = open.back()->children.emplace_back();

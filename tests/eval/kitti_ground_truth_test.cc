@@ -46,7 +46,7 @@ TEST_F(GroundTruthReader, BadRowsAreNamedByLine) {
   ExpectError(std::string(kCar) + "3 7 Car 0 0\n", "0001.txt:2");
   ExpectError("3 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 4.0 2.0 1.8x 20.0 0.5\n", "'1.8x'");
   ExpectError("3 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 nan 2.0 1.8 20.0 0.5\n", "not finite");
-  ExpectError("3.5 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 4.0 2.0 1.8 20.0 0.5\n", "frame number");
+  ExpectError("3.5 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 4.0 2.0 1.8 20.0 0.5\n", "whole number");
   ExpectError("-3 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 4.0 2.0 1.8 20.0 0.5\n", "negative");
   EXPECT_THROW(ReadKittiTrackingLabels((folder_.path() / "none.txt").string()), Error);
   EXPECT_THROW(ReadKittiTrackingLabels(folder_.path().string()), Error);
@@ -56,7 +56,7 @@ TEST_F(GroundTruthReader, BadRowsAreNamedByLine) {
 TEST_F(GroundTruthReader, LandmarkIds) {
   EXPECT_EQ(ReadLandmarkIds(File("5\n-1\r\n\n12")), (std::vector<int>{5, -1, 12}));
   EXPECT_THROW(ReadLandmarkIds(File("5 6\n")), Error);
-  EXPECT_THROW(ReadLandmarkIds(File("5.0\n")), Error);
+  EXPECT_THROW(ReadLandmarkIds(File("5.5\n")), Error);
 }
 
 TEST_F(GroundTruthReader, RealLabels) {

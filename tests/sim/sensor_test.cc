@@ -31,6 +31,12 @@ World OneCar(int frames, double range) {
   return world;
 }
 
+World ShortStreet(std::uint64_t seed) {
+  StreetOptions options;
+  options.frames = 60;
+  return MakeStreet(seed, options);
+}
+
 TEST(SimulateOdometry, WithoutNoiseIsTheTruth) {
   const World world = MakeStreet(1);
   const Trajectory odometry = SimulateOdometry(world.truth, kNoOdometryNoise, 1);
@@ -48,8 +54,8 @@ TEST(SimulateOdometry, ScaleErrorMakesItLonger) {
 }
 
 TEST(SimulateOdometry, NoiseIsARandomWalkOfTheGivenSize) {
-  const World world = MakeStreet(1);
-  const double distance = 0.8 * 299;
+  const World world = ShortStreet(1);
+  const double distance = 0.8 * 59;
   const OdometryNoise noise{0, 1e-3, 0, 0};
   double squares = 0;
   constexpr int kRuns = 200;
@@ -72,7 +78,7 @@ TEST(SimulateOdometry, Degenerate) {
 }
 
 TEST(SimulateDetections, WithoutNoiseIsTheTruth) {
-  const World world = MakeStreet(2);
+  const World world = ShortStreet(2);
   const SimulatedDetections result = SimulateDetections(world, Perfect(), 1);
   ASSERT_EQ(result.frames.size(), world.truth.size());
   int count = 0;
@@ -90,7 +96,7 @@ TEST(SimulateDetections, WithoutNoiseIsTheTruth) {
       EXPECT_EQ(detection.label, object.label);
     }
   }
-  EXPECT_GT(count, 1000);
+  EXPECT_GT(count, 300);
 }
 
 TEST(SimulateDetections, RowsBoxesAndScoresAreValid) {
@@ -118,7 +124,7 @@ TEST(SimulateDetections, RowsBoxesAndScoresAreValid) {
 }
 
 TEST(SimulateDetections, SameSeedSameDetections) {
-  const World world = MakeStreet(2);
+  const World world = ShortStreet(2);
   const SimulatedDetections a = SimulateDetections(world, {}, 9), b = SimulateDetections(world, {}, 9),
                             c = SimulateDetections(world, {}, 10);
   ASSERT_EQ(a.identity, b.identity);
@@ -175,7 +181,7 @@ TEST(SimulateDetections, AShareOfTheVarianceIsConstantPerObject) {
   DetectorNoise noise = Perfect();
   noise.scale = 1;
   noise.constant_fraction = 0.5;
-  const World world = OneCar(300, 20);
+  const World world = OneCar(40, 20);
   const double sigma = SigmasAt(world.objects[0].PoseAt(0).translation().norm(), noise.sigmas, NoiseScale()).radial;
   double within = 0, between = 0;
   constexpr int kRuns = 300;
@@ -244,11 +250,11 @@ TEST(SimulateDetections, BadOptions) {
 }
 
 TEST(MakeFrames, PutsBothTogether) {
-  const World world = MakeStreet(1);
+  const World world = ShortStreet(1);
   const Trajectory odometry = SimulateOdometry(world.truth, {}, 1);
   const SimulatedDetections detections = SimulateDetections(world, {}, 1);
   const std::vector<Frame> frames = MakeFrames(odometry, detections);
-  ASSERT_EQ(frames.size(), 300u);
+  ASSERT_EQ(frames.size(), 60u);
   EXPECT_EQ(frames[7].index, 7);
   EXPECT_EQ(frames[7].stamp, world.truth.stamps[7]);
   EXPECT_EQ(frames[7].detections.size(), detections.frames[7].size());

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "sslcd/io/dataset.h"
 
 namespace sslcd::sim {
 namespace {
@@ -65,6 +66,49 @@ TEST_F(WriteSequenceTest, SameBytesEveryTimeAndNoTemporaries) {
     EXPECT_FALSE(Read(entry.path()).empty());
   }
   EXPECT_EQ(files, 7);
+}
+
+TEST_F(WriteSequenceTest, TheReaderGetsItAllBack) {
+  Write(folder_);
+  DatasetRequest request;
+  request.path = folder_.string();
+  const Dataset dataset = LoadDataset(request);
+
+  EXPECT_EQ(dataset.format, DatasetFormat::kSequence);
+  EXPECT_TRUE(dataset.warnings.empty()) << dataset.warnings.front();
+  EXPECT_EQ(dataset.up_axis, world_.gravity.up);
+  EXPECT_EQ(dataset.labels["Pole"].symmetry, Symmetry::kFull);
+  EXPECT_EQ(dataset.labels["Car"].symmetry, Symmetry::kNone);
+  ASSERT_TRUE(dataset.camera);
+  EXPECT_NEAR(dataset.camera->fx, world_.camera.fx, 1e-6);
+  EXPECT_NEAR(dataset.camera->cy, world_.camera.cy, 1e-6);
+  EXPECT_NEAR((dataset.camera->offset - world_.camera.offset).norm(), 0, 1e-9);
+  EXPECT_EQ(static_cast<std::size_t>(dataset.rows_read), detections_.identity.size());
+  EXPECT_EQ(dataset.rows_dropped, 0);
+
+  const auto difference = [](const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); };
+  ASSERT_TRUE(dataset.groundtruth);
+  ASSERT_EQ(dataset.frames.size(), world_.truth.size());
+  ASSERT_EQ(dataset.groundtruth->size(), world_.truth.size());
+  for (std::size_t i = 0; i < dataset.frames.size(); ++i) {
+    const Frame& frame = dataset.frames[i];
+    EXPECT_NEAR(frame.stamp, world_.truth.stamps[i], 1e-6);
+    EXPECT_LT(difference(frame.T_odom_cam, odometry_.poses[i]), 1e-6);
+    EXPECT_LT(difference(dataset.groundtruth->poses[i], world_.truth.poses[i]), 1e-6);
+    ASSERT_EQ(frame.detections.size(), detections_.frames[i].size());
+    for (std::size_t k = 0; k < frame.detections.size(); ++k) {
+      const Detection &read = frame.detections[k], &written = detections_.frames[i][k];
+      EXPECT_EQ(read.row, written.row);
+      EXPECT_EQ(read.label, written.label);
+      EXPECT_NEAR(read.score, written.score, 1e-3);
+      EXPECT_LT(difference(read.T_cam_object, written.T_cam_object), 1e-3);
+      EXPECT_LT((read.dims - written.dims).norm(), 1e-3);
+      ASSERT_EQ(read.box.has_value(), written.box.has_value());
+      if (read.box) {
+        EXPECT_GT(Iou(*read.box, *written.box), 0.98);
+      }
+    }
+  }
 }
 
 TEST_F(WriteSequenceTest, RefusesAFolderThatIsNotEmpty) {

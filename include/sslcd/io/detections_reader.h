@@ -24,10 +24,10 @@ void DescribeFields(FieldVisitor& visitor, DetectionReadOptions& options);
 
 /// The layouts read; told by the columns of the first row.
 enum class DetectionFormat {
-  kNone,            ///< no row at all
-  kKittiObject,     ///< label trunc occl alpha box4 h w l x y z ry [score]; one file a frame: %06d.txt
-  kKittiTracking,   ///< frame id label trunc occl alpha box4 h w l x y z ry [score]
-  kAb3dmotCsv,      ///< frame,type(1 Pedestrian 2 Car 3 Cyclist),box4,score,h,w,l,x,y,z,ry,alpha
+  kNone,           ///< no row at all
+  kKittiObject,    ///< label trunc occl alpha box4 h w l x y z ry [score]; one file a frame: %06d.txt
+  kKittiTracking,  ///< frame id label trunc occl alpha box4 h w l x y z ry [score]
+  kAb3dmotCsv,     ///< frame,type(1 Pedestrian 2 Car 3 Cyclist),box4,score,h,w,l,x,y,z,ry,alpha
 };
 const char* ToString(DetectionFormat format);
 
@@ -35,10 +35,10 @@ const char* ToString(DetectionFormat format);
 struct DetectionFile {
   DetectionFormat format = DetectionFormat::kNone;
   std::map<int, std::vector<Detection>> by_frame;  ///< frame number -> its detections in file order; none: not listed
-  int rows = 0;              ///< rows read: kept + dont_care + dropped
-  int dont_care = 0;         ///< rows of class DontCare, left out
-  int dropped = 0;           ///< rows with NaN, infinities, or sizes that are not positive, left out
-  bool logits = false;       ///< the scores were logits
+  int rows = 0;                                    ///< rows read: kept + dont_care + dropped
+  int dont_care = 0;                               ///< rows of class DontCare, left out
+  int dropped = 0;      ///< rows with NaN, infinities, or sizes that are not positive, left out
+  bool logits = false;  ///< the scores were logits
   std::vector<std::string> warnings;
 };
 

@@ -9,9 +9,10 @@
 
 namespace sslcd {
 
-/// Poses T_first_imu of KITTI's GPS/IMU packets (30 columns: lat lon alt roll pitch yaw ...), by the Mercator projection
-/// of the KITTI devkit. `path` is a file with one packet a row (KITTI tracking) or a folder with one a file (raw drives).
-/// Throws Error with file:line for malformed packets and naming the number of a packet that is missing in a folder.
+/// Poses T_first_imu of KITTI's GPS/IMU packets (30 columns: lat lon alt roll pitch yaw ...), by the Mercator
+/// projection of the KITTI devkit. `path` is a file with one packet a row (KITTI tracking) or a folder with one a file
+/// (raw drives). Throws Error with file:line for malformed packets and naming the number of a packet that is missing in
+/// a folder.
 std::vector<Pose> ReadOxts(const std::string& path);
 
 /// The same poses of the rectified camera 0, with respect to its first: T_cam0_cam.

@@ -18,11 +18,12 @@ struct Tracklet {
 };
 
 /// Reads tracklet_labels.xml. The file gives the bottom centre and a turn about z; roll and pitch are not used (KITTI
-/// leaves them zero). Throws Error with file:line when it is no such file, cut off, or holds sizes or poses that are not
-/// finite and positive.
+/// leaves them zero). Throws Error with file:line when it is no such file, cut off, or holds sizes or poses that are
+/// not finite and positive.
 std::vector<Tracklet> ReadTracklets(const std::string& path);
 
 /// The tracklets as detections of score 1, by frame; rows are numbered in frame order, within a frame in file order.
-std::map<int, std::vector<Detection>> TrackletDetections(const std::vector<Tracklet>& tracklets, const Pose& T_cam_velo);
+std::map<int, std::vector<Detection>> TrackletDetections(const std::vector<Tracklet>& tracklets,
+                                                         const Pose& T_cam_velo);
 
 }  // namespace sslcd

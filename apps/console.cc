@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "console.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include "sslcd/core/log.h"
+
+namespace sslcd::apps {
+namespace {
+
+volatile std::sig_atomic_t g_interrupted = 0;
+
+extern "C" void OnInterrupt(int) {
+  g_interrupted = 1;
+  std::signal(SIGINT, SIG_DFL);
+}
+
+}  // namespace
+
+void Console::InstallLog() const {
+  const auto logger = spdlog::stderr_color_mt("sslcd");
+  logger->set_pattern("%^%l:%$ %v");
+  logger->set_level(quiet ? spdlog::level::err : verbose ? spdlog::level::debug : spdlog::level::warn);
+  SetLogSink([logger](LogLevel level, const std::string& message) {
+    switch (level) {
+      case LogLevel::kDebug: logger->debug(message); break;
+      case LogLevel::kInfo: logger->info(message); break;
+      case LogLevel::kWarning: logger->warn(message); break;
+      case LogLevel::kError: logger->error(message); break;
+    }
+  });
+}
+
+void Console::Progress(const std::string& what, int done, int total) const {
+  static const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (quiet || !terminal || (done % 10 != 0 && done != total)) return;
+  std::fprintf(stderr, "\r%s %d/%d ", what.c_str(), done, total);
+}
+
+void Console::EndProgress() const {
+  if (!quiet && isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K");
+}
+
+void Console::Say(const std::string& line) const {
+  if (!quiet) std::printf("%s\n", line.c_str());
+}
+
+std::string AlignedTable(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> width;
+  for (const auto& row : rows) {
+    width.resize(std::max(width.size(), row.size()), 0);
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string pad(width[c] - row[c].size(), ' ');
+      line += (c ? "  " : "  ") + (c ? pad + row[c] : row[c] + pad);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+std::string Number(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+void CatchInterrupt() { std::signal(SIGINT, OnInterrupt); }
+
+bool Interrupted() { return g_interrupted != 0; }
+
+}  // namespace sslcd::apps

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sslcd::apps {
+
+/// How much the tools say. Results go to stdout, everything else to stderr.
+struct Console {
+  bool quiet = false;    ///< nothing but errors
+  bool verbose = false;  ///< debug messages too
+
+  /// Installs the library's log sink accordingly.
+  void InstallLog() const;
+
+  /// One line that is overwritten; only on a terminal.
+  void Progress(const std::string& what, int done, int total) const;
+  void EndProgress() const;
+
+  /// A line of human-readable result; nothing when quiet.
+  void Say(const std::string& line) const;
+};
+
+/// Rows of cells as aligned columns, the first one left-aligned.
+std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);
+
+/// printf-style number, e.g. Number("%.3f", 1.2).
+std::string Number(const char* format, double value);
+
+/// Installs a SIGINT handler that only sets a flag; a second ctrl-C ends the program at once.
+void CatchInterrupt();
+bool Interrupted();
+
+}  // namespace sslcd::apps

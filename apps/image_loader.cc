@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "image_loader.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "sslcd/core/log.h"
+
+namespace sslcd::apps {
+
+bool WithImage(const std::string& path, const std::function<void(const ImageView&)>& use) {
+  const cv::Mat image = cv::imread(path, cv::IMREAD_COLOR);
+  if (image.empty()) {
+    Log(LogLevel::kWarning, path + ": no image that can be read; its frame goes without colour");
+    return false;
+  }
+  use({image.data, image.cols, image.rows, image.step, image.channels()});
+  return true;
+}
+
+}  // namespace sslcd::apps

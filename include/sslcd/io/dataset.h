@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/detection.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/trajectory.h"
+#include "sslcd/io/detections_reader.h"
+#include "sslcd/io/pose_reader.h"
+
+namespace sslcd {
+
+/// Kinds of dataset folders; `sequence` names one of several sequences in there.
+enum class DatasetFormat {
+  kAuto,           ///< told by what lies in the folder
+  kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2}, poses/NN.txt
+  kKittiTracking,  ///< calib/NNNN.txt label_02 oxts image_02
+  kKittiRaw,  ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data, calib_*.txt there or above
+  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy sequence.yaml
+              ///< image_2]
+};
+
+/// "auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence".
+const char* ToString(DatasetFormat format);
+std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text);
+
+/// What to load. Empty paths mean the standard place of the format; others are tried relative to `path`, then to the
+/// current folder. Where one leads to a folder that holds SEQUENCE.txt, that file is meant.
+struct DatasetRequest {
+  std::string path;
+  DatasetFormat format = DatasetFormat::kAuto;
+  std::string sequence;    ///< "0007"; may be empty where there is only one
+  std::string detections;  ///< required for KITTI tracking, which brings none
+  std::string odometry;    ///< likewise
+  std::string groundtruth;
+  DetectionReadOptions detection_options;
+  int max_frames = 0;  ///< only the first so many; 0: all
+};
+
+/// A sequence in memory. Ground truth is for evaluation only and never enters the frames, with one named exception: a
+/// KITTI raw drive without `odometry` uses its GPS/IMU poses (then there is no ground truth, and a warning says so).
+struct Dataset {
+  DatasetFormat format = DatasetFormat::kAuto;
+  std::string name;
+  std::vector<Frame> frames;           ///< one per pose; frames[i].index == i, stamps increase
+  std::optional<Camera> camera;        ///< P2; none: no calibration, nothing can be projected
+  std::optional<Camera> camera_right;  ///< P3
+  Vec3 up_axis{0, -1, 0};              ///< unit vector in the odometry's world
+  LabelTable labels;
+  std::optional<Trajectory> groundtruth;                         ///< rows without stamps got those of the frames
+  std::string odometry_path, detections_path, groundtruth_path;  ///< as found; groundtruth_path empty: none
+  PoseFormat odometry_format = PoseFormat::kAuto;                ///< kKitti for GPS/IMU packets
+  int rows_read = 0;                                             ///< detection rows; the following are among them
+  int rows_dropped = 0;                                          ///< not finite, or sizes that are not positive
+  int rows_dont_care = 0;                                        ///< class DontCare
+  int rows_beyond_end = 0;                                       ///< of frames that have no pose
+  std::vector<std::string> warnings;                             ///< what was put up with, a sentence each
+};
+
+/// Loads a dataset folder.
+/// Stamps come from times.txt (raw drives: timestamps.txt), else from the odometry, else every 0.1 s. Odometry without
+/// stamps must have as many rows as there are stamps; odometry with stamps is looked up by stamp, to half a frame step.
+/// Throws Error (kBadInput, or kUsage for a choice the caller has to make) saying where and what to do.
+Dataset LoadDataset(const DatasetRequest& request);
+
+}  // namespace sslcd

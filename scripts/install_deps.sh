@@ -1,0 +1,40 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing where all is there.
+#   scripts/install_deps.sh [build|test|dev]
+#     build  the library and the tools; enough for scripts/demo.sh
+#     test   and what the tests need (default)
+#     dev    and clang-format, clang-tidy, Google Benchmark, NumPy and Shapely
+set -euo pipefail
+
+build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libyaml-cpp-dev libcli11-dev
+       libopencv-core-dev libopencv-imgcodecs-dev)
+test=(libgtest-dev libgmock-dev python3 ccache)
+dev=(clang-format-14 clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
+
+case "${1:-test}" in
+  build) wanted=("${build[@]}") ;;
+  test) wanted=("${build[@]}" "${test[@]}") ;;
+  dev) wanted=("${build[@]}" "${test[@]}" "${dev[@]}") ;;
+  *) echo "usage: scripts/install_deps.sh [build|test|dev]" >&2; exit 2 ;;
+esac
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $status == installed ]] || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "dependencies: all there"
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  command -v sudo >/dev/null || { echo "not root and no sudo; as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "dependencies: installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 "${missing[@]}" >/dev/null

@@ -1,0 +1,14 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# clang-tidy 14 over the library and the tools (.clang-tidy says which checks), or over the files named.
+#   scripts/tidy.sh [FILE...]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${SSLCD_BUILD_DIR:-build/tidy}
+
+command -v run-clang-tidy-14 >/dev/null || { echo "no clang-tidy-14: scripts/install_deps.sh dev" >&2; exit 1; }
+cmake --preset dev -B "$build" -DSSLCD_SANITIZE= >/dev/null
+if (($# == 0)); then
+  set -- "$PWD"/src/ "$PWD"/apps/
+fi
+run-clang-tidy-14 -quiet -p "$build" -j "$(nproc)" "$@"

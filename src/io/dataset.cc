@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/io/dataset.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "io/dataset_layout.h"
+#include "io/files.h"
+#include "io/stamps.h"
+#include "sslcd/core/error.h"
+#include "sslcd/io/calib_reader.h"
+#include "sslcd/io/npy.h"
+#include "sslcd/io/oxts.h"
+#include "sslcd/io/sequence_yaml.h"
+#include "sslcd/io/text_rows.h"
+#include "sslcd/io/tracklets.h"
+
+namespace sslcd {
+namespace {
+
+constexpr double kKittiFrameStep = 0.1;                                // [s]
+constexpr int kKittiTrackingWidth = 1242, kKittiTrackingHeight = 375;  // [px]; a few sequences are some pixels off
+constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking", "kitti-raw",
+                                                     "sequence"};
+
+bool IsOxts(const std::string& path) {
+  if (IsFolder(path)) return true;
+  TextRows row(path);
+  return row.Next() && row.size() == 30;
+}
+
+bool IsTracklets(const std::string& path) { return path.size() > 4 && path.substr(path.size() - 4) == ".xml"; }
+
+PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
+  if (!IsOxts(path)) return ReadPoseFile(path);
+  PoseFile file{PoseFormat::kKitti, {}};
+  file.trajectory.poses = ReadOxtsCamera(path, calibration);
+  for (std::size_t i = 0; i < file.trajectory.size(); ++i) file.trajectory.stamps.push_back(static_cast<double>(i));
+  return file;
+}
+
+/// Width and height from a PNG's header; 0 when it is none.
+std::array<int, 2> PngSize(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  unsigned char head[24] = {};
+  if (!file.read(reinterpret_cast<char*>(head), sizeof(head)) || head[1] != 'P' || head[2] != 'N' || head[3] != 'G')
+    return {};
+  const auto size_at = [&head](int i) { return head[i] << 24 | head[i + 1] << 16 | head[i + 2] << 8 | head[i + 3]; };
+  return {size_at(16), size_at(20)};
+}
+
+class Loader {
+ public:
+  explicit Loader(const DatasetRequest& request) : request_(request), layout_(FindDatasetLayout(request)) {}
+
+  Dataset Load() {
+    out_.format = layout_.format;
+    out_.name = layout_.name;
+    if (!layout_.sequence_yaml.empty()) {
+      const SequenceInfo info = ReadSequenceYaml(layout_.sequence_yaml);
+      out_.up_axis = info.up_axis;
+      out_.labels = info.labels;
+    }
+    if (!layout_.calib.empty()) {
+      const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
+      calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib);
+    }
+    AddFrames();
+    AddImages();
+    AddDetections();
+    AddGroundtruth();
+    return std::move(out_);
+  }
+
+ private:
+  void AddFrames();
+  void AddImages();
+  void AddDetections();
+  void AddEmbeddings();
+  void CheckLabels();
+  void AddGroundtruth();
+  void Warn(const std::string& text) { out_.warnings.push_back(text); }
+
+  DatasetRequest request_;
+  DatasetLayout layout_;
+  Calibration calibration_;
+  std::size_t frames_in_file_ = 0;  // before max_frames
+  Dataset out_;
+};
+
+void Loader::AddFrames() {
+  PoseFile odometry = ReadPoses(layout_.odometry, calibration_);
+  out_.odometry_path = layout_.odometry;
+  out_.odometry_format = odometry.format;
+  if (odometry.trajectory.poses.empty()) {
+    throw Error(ErrorKind::kBadInput, {layout_.odometry}, "holds no poses: there is nothing to run on");
+  }
+  const bool has_stamps = odometry.format != PoseFormat::kKitti;
+  std::vector<double> stamps = odometry.trajectory.stamps;
+  std::vector<Pose> poses = odometry.trajectory.poses;
+  if (!layout_.times.empty()) {
+    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
+    if (stamps.empty()) throw Error(ErrorKind::kBadInput, {layout_.times}, "holds no stamps: fill or remove the file");
+    if (has_stamps) {
+      poses = PosesAt(stamps, odometry.trajectory, layout_.odometry);
+      const std::vector<double>& given = odometry.trajectory.stamps;
+      const auto late =
+          given.end() - std::upper_bound(given.begin(), given.end(), stamps.back() + 0.5 * MedianStep(stamps));
+      if (late > 0)
+        Warn(layout_.odometry + ": " + std::to_string(late) + " poses come after the last of " + layout_.times);
+    } else if (stamps.size() != poses.size()) {
+      throw Error(ErrorKind::kBadInput, {layout_.odometry},
+                  "has " + std::to_string(poses.size()) + " poses, but " + layout_.times + " has " +
+                      std::to_string(stamps.size()) + " stamps: one pose a frame is needed");
+    }
+  } else if (!has_stamps) {
+    for (double& stamp : stamps) stamp *= kKittiFrameStep;
+  }
+  if (const auto warning = GapWarning(stamps)) Warn(*warning);
+  if (layout_.format == DatasetFormat::kKittiRaw && request_.odometry.empty()) {
+    Warn("no odometry named: the drive's GPS/IMU poses (" + layout_.odometry + ") stand in for it");
+  }
+
+  frames_in_file_ = poses.size();
+  const std::size_t limit = request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : poses.size();
+  out_.frames.resize(std::min(poses.size(), limit));
+  for (std::size_t i = 0; i < out_.frames.size(); ++i) {
+    out_.frames[i].index = static_cast<int>(i);
+    out_.frames[i].stamp = stamps[i];
+    out_.frames[i].T_odom_cam = poses[i];
+  }
+}
+
+void Loader::AddImages() {
+  out_.camera = calibration_.left;
+  out_.camera_right = calibration_.right;
+  std::array<int, 2> size{};
+  if (layout_.format == DatasetFormat::kKittiTracking) size = {kKittiTrackingWidth, kKittiTrackingHeight};
+  if (!layout_.images.empty()) {
+    for (Frame& frame : out_.frames) {
+      std::string number = std::to_string(frame.index);
+      number.insert(0, std::max<std::size_t>(number.size(), layout_.image_digits) - number.size(), '0');
+      const std::string path = layout_.images + "/" + number + ".png";
+      if (!IsFile(path)) continue;
+      frame.image_left = path;
+      if (frame.index == 0) size = PngSize(path);
+    }
+  }
+  for (std::optional<Camera>* camera : {&out_.camera, &out_.camera_right}) {
+    if (*camera && (*camera)->width == 0) (*camera)->width = size[0], (*camera)->height = size[1];
+  }
+}
+
+void Loader::AddDetections() {
+  out_.detections_path = layout_.detections;
+  DetectionFile file;
+  if (IsTracklets(layout_.detections)) {
+    if (!calibration_.T_cam_velo) {
+      throw Error(
+          ErrorKind::kBadInput, {layout_.detections},
+          "tracklets are in the lidar's frame: add calib_cam_to_cam.txt and calib_velo_to_cam.txt to the drive or "
+          "the folder above it");
+    }
+    file.by_frame = TrackletDetections(ReadTracklets(layout_.detections), *calibration_.T_cam_velo);
+    for (const auto& [frame, detections] : file.by_frame) file.rows += static_cast<int>(detections.size());
+    Warn("the detections are the drive's hand-labelled tracklets (" + layout_.detections + ")");
+  } else {
+    file = ReadDetections(layout_.detections, request_.detection_options);
+  }
+  out_.rows_read = file.rows;
+  out_.rows_dropped = file.dropped;
+  out_.rows_dont_care = file.dont_care;
+  out_.warnings.insert(out_.warnings.end(), file.warnings.begin(), file.warnings.end());
+
+  for (auto& [frame, detections] : file.by_frame) {
+    if (static_cast<std::size_t>(frame) >= frames_in_file_) out_.rows_beyond_end += static_cast<int>(detections.size());
+    if (static_cast<std::size_t>(frame) < out_.frames.size()) out_.frames[frame].detections = std::move(detections);
+  }
+  if (file.by_frame.empty()) Warn(layout_.detections + " holds no detections that can be used: the map will be empty");
+  if (out_.rows_beyond_end > 0) {
+    Warn(layout_.detections + ": dropped " + std::to_string(out_.rows_beyond_end) +
+         " detections of frames after the last pose (" + std::to_string(frames_in_file_ - 1) + ")");
+  }
+  AddEmbeddings();
+  CheckLabels();
+}
+
+void Loader::AddEmbeddings() {
+  if (layout_.embeddings.empty()) return;
+  const NpyMatrix matrix = ReadNpy(layout_.embeddings);
+  if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
+    throw Error(ErrorKind::kBadInput, {layout_.embeddings},
+                "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections + " has " +
+                    std::to_string(out_.rows_read) + ": one embedding a detection row is needed");
+  }
+  int unusable = 0;
+  for (Frame& frame : out_.frames) {
+    for (Detection& detection : frame.detections) {
+      const float* row = matrix.Row(static_cast<std::size_t>(detection.row));
+      double squares = 0;
+      for (std::size_t i = 0; i < matrix.columns; ++i) squares += double(row[i]) * row[i];
+      if (!(std::isfinite(squares) && squares > 0)) {
+        ++unusable;
+        continue;
+      }
+      detection.embedding.assign(row, row + matrix.columns);
+      for (float& value : detection.embedding) value = static_cast<float>(value / std::sqrt(squares));
+    }
+  }
+  if (unusable > 0)
+    Warn(layout_.embeddings + ": left out " + std::to_string(unusable) + " embedding(s) that are zero or not finite");
+}
+
+/// A label that sequence.yaml forgets is most likely misspelt in one of the two files.
+void Loader::CheckLabels() {
+  if (out_.labels.entries().empty()) return;
+  std::set<std::string> unknown;
+  for (const Frame& frame : out_.frames) {
+    for (const Detection& detection : frame.detections) {
+      if (out_.labels.entries().count(detection.label) == 0) unknown.insert(detection.label);
+    }
+  }
+  if (unknown.empty()) return;
+  Warn(layout_.sequence_yaml + ": not among its labels: " + Join({unknown.begin(), unknown.end()}) +
+       "; taken as symmetry none");
+}
+
+void Loader::AddGroundtruth() {
+  if (layout_.groundtruth.empty()) return;
+  if (request_.groundtruth.empty() && IsOxts(layout_.groundtruth) && !calibration_.HasImu()) {
+    Warn(layout_.groundtruth + ": not used as ground truth, the calibration does not lead from IMU to camera");
+    return;
+  }
+  PoseFile file = ReadPoses(layout_.groundtruth, calibration_);
+  Trajectory& trajectory = file.trajectory;
+  if (file.format == PoseFormat::kKitti) {
+    if (trajectory.size() != frames_in_file_) {
+      Warn(layout_.groundtruth + ": " + std::to_string(trajectory.size()) + " ground-truth poses for " +
+           std::to_string(frames_in_file_) + " frames; row i is taken as frame i");
+    }
+    trajectory.poses.resize(std::min(trajectory.size(), out_.frames.size()));
+    trajectory.stamps.clear();
+    for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory.stamps.push_back(out_.frames[i].stamp);
+  }
+  out_.groundtruth = std::move(trajectory);
+  out_.groundtruth_path = layout_.groundtruth;
+}
+
+}  // namespace
+
+const char* ToString(DatasetFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
+
+std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text) {
+  for (std::size_t i = 0; i < kFormatNames.size(); ++i) {
+    if (text == kFormatNames[i]) return static_cast<DatasetFormat>(i);
+  }
+  return std::nullopt;
+}
+
+Dataset LoadDataset(const DatasetRequest& request) { return Loader(request).Load(); }
+
+}  // namespace sslcd
