@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <charconv>
 #include <string>
 
+#include "io/number_text.h"
 #include "sslcd/io/config.h"
 
 namespace sslcd {
 namespace {
-
-// The shortest text that reads back as the same number.
-std::string Shortest(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
-}
 
 std::string Quoted(const std::string& text) {
   std::string quoted = "'";
@@ -24,7 +17,7 @@ std::string Quoted(const std::string& text) {
 class Printer : public FieldVisitor {
  public:
   void Real(const char* key, double& value, double low, double high, const char* meaning) override {
-    Field(key, Shortest(value), "number", Shortest(low) + " .. " + Shortest(high), meaning);
+    Field(key, ShortestNumber(value), "number", ShortestNumber(low) + " .. " + ShortestNumber(high), meaning);
   }
   void Integer(const char* key, int& value, int low, int high, const char* meaning) override {
     Field(key, std::to_string(value), "integer", std::to_string(low) + " .. " + std::to_string(high), meaning);

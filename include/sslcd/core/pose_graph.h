@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// Poses and relative measurements between them.
+struct PoseGraph {
+  struct Vertex {
+    int id = 0;
+    Pose T_world_vertex;
+    bool fixed = false;
+  };
+  struct Edge {
+    int from = 0, to = 0;  ///< vertex ids
+    Pose T_from_to;
+    /// Information of Log(T_from_to^-1 T_world_from^-1 T_world_to), order [translation, rotation].
+    Eigen::Matrix<double, 6, 6, Eigen::DontAlign> information = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
+  };
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;
+};
+
+}  // namespace sslcd

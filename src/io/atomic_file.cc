@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "sslcd/core/error.h"
+
+namespace sslcd {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Fail(const std::string& path, int code, const std::string& way_out) {
+  throw Error(ErrorKind::kOutput, path + ": cannot be written: " + std::strerror(code) + "; " + way_out);
+}
+
+// 0, or errno of the first step that failed.
+int WriteAll(const std::string& path, const std::string& content, int flags) {
+  const int file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  int code = 0;
+  for (std::size_t done = 0; done < content.size() && code == 0;) {
+    const ssize_t written = write(file, content.data() + done, content.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) code = errno;
+    else done += static_cast<std::size_t>(written);
+  }
+  if (close(file) != 0 && code == 0) code = errno;
+  return code;
+}
+
+}  // namespace
+
+void WriteFileAtomically(const std::string& path, const std::string& content) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) Fail(path, EISDIR, "name a file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    if (const int code = WriteAll(path, content, 0)) Fail(path, code, "name another file");
+    return;
+  }
+  const std::string temporary = path + ".tmp-" + std::to_string(getpid());
+  int code = WriteAll(temporary, content, O_CREAT | O_TRUNC);
+  if (code == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+  if (code == 0) return;
+  unlink(temporary.c_str());
+  Fail(path, code, code == ENOSPC ? "make room or choose another folder" : "choose another folder");
+}
+
+void MakeWritableFolder(const std::string& path) {
+  std::error_code code;
+  fs::create_directories(path, code);
+  if (!fs::is_directory(path)) Fail(path, code ? code.value() : ENOTDIR, "choose another folder with --out");
+  const std::string probe = path + "/.sslcd-probe-" + std::to_string(getpid());
+  if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC)) Fail(path, failed, "choose another folder with --out");
+  unlink(probe.c_str());
+}
+
+}  // namespace sslcd

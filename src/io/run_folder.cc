@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/io/run_folder.h"
+
+#include <cmath>
+
+#include "io/number_text.h"
+#include "sslcd/io/atomic_file.h"
+
+namespace sslcd {
+namespace {
+
+// Translation and quaternion with qw >= 0, blank-separated: "x y z qx qy qz qw".
+std::string PoseText(const Pose& T) {
+  const auto& q = T.unit_quaternion();
+  const double sign = q.w() < 0 ? -1. : 1.;
+  std::string text;
+  for (int i = 0; i < 3; ++i) text += FixedNumber(T.translation()[i], 9) + " ";
+  for (const double component : {q.x(), q.y(), q.z()}) text += FixedNumber(sign * component, 9) + " ";
+  return text + FixedNumber(sign * q.w(), 9);
+}
+
+std::string Json(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? ShortestNumber(*value) : "null";
+}
+
+}  // namespace
+
+std::string TumText(const Trajectory& trajectory) {
+  std::string text;
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    text += FixedNumber(trajectory.stamps[i], 9) + " " + PoseText(trajectory.poses[i]) + "\n";
+  return text;
+}
+
+std::string KittiText(const Trajectory& trajectory) {
+  std::string text;
+  for (const Pose& T : trajectory.poses) {
+    const auto M = T.matrix3x4();
+    for (int i = 0; i < 12; ++i) text += FixedNumber(M(i / 4, i % 4), 9) + (i < 11 ? " " : "\n");
+  }
+  return text;
+}
+
+std::string G2oText(const PoseGraph& graph) {
+  std::string text;
+  for (const auto& vertex : graph.vertices) {
+    text += "VERTEX_SE3:QUAT " + std::to_string(vertex.id) + " " + PoseText(vertex.T_world_vertex) + "\n";
+    if (vertex.fixed) text += "FIX " + std::to_string(vertex.id) + "\n";
+  }
+  for (const auto& edge : graph.edges) {
+    text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " + PoseText(edge.T_from_to);
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column) text += " " + ShortestNumber(edge.information(row, column));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string PlyText(const MapFile& map, const Trajectory& trajectory) {
+  // Corner i of a cuboid: bit 0 front, bit 1 left, bit 2 top.
+  constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  std::string vertices, faces;
+  int count = 0, face_count = 0;
+  for (const MapObject& object : map.objects) {
+    if (object.state != LandmarkState::kConfirmed) continue;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 corner(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5);
+      const Vec3 p = object.T_world_object * Vec3(corner.cwiseProduct(object.dims));
+      for (int axis = 0; axis < 3; ++axis) vertices += FixedNumber(p[axis], 4) + " ";
+      vertices += "70 130 180\n";
+    }
+    for (const auto& face : kFaces) {
+      faces += "4";
+      for (const int corner : face) faces += " " + std::to_string(count + corner);
+      faces += "\n";
+      ++face_count;
+    }
+    count += 8;
+  }
+  for (const Pose& T : trajectory.poses) {
+    for (int axis = 0; axis < 3; ++axis) vertices += FixedNumber(T.translation()[axis], 4) + " ";
+    vertices += "220 50 47\n";
+    ++count;
+  }
+  return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+         "property uchar blue\nelement face " +
+         std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
+}
+
+std::string TimingJson(const TimingTable& timing) {
+  std::string text = "{";
+  for (const auto& [stage, times] : timing.Summary()) {
+    text += text.size() > 1 ? ",\n" : "\n";
+    text += "\"" + stage + "\":{\"count\":" + std::to_string(times.count) + ",\"mean_ms\":" + Json(times.mean) +
+            ",\"p50_ms\":" + Json(times.p50) + ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) + "}";
+  }
+  return text + "\n}\n";
+}
+
+std::string MetricsJson(const Metrics& metrics) {
+  std::string text = "{";
+  for (const auto& [name, value] : metrics) {
+    text += text.size() > 1 ? ",\n" : "\n";
+    text += "\"" + name + "\":" + Json(value);
+  }
+  return text + "\n}\n";
+}
+
+std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs) {
+  MakeWritableFolder(folder);
+  const std::string loops_header =
+      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,pairs\n";
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"trajectory_tum.txt", TumText(outputs.trajectory)},
+      {"trajectory_kitti.txt", KittiText(outputs.trajectory)},
+      {"odometry_tum.txt", TumText(outputs.odometry)},
+      {"odometry_kitti.txt", KittiText(outputs.odometry)},
+      {"map.json", MapJson(outputs.map)},
+      {"map.ply", PlyText(outputs.map, outputs.trajectory)},
+      {"graph.g2o", G2oText(outputs.graph)},
+      {"loops.csv", loops_header},
+      {"timing.json", TimingJson(outputs.timing)},
+      {"metrics.json", MetricsJson(outputs.metrics)},
+      {"config.yaml", outputs.config_yaml}};
+  std::vector<std::string> paths;
+  for (const auto& [name, content] : files) {
+    paths.push_back(folder + "/" + name);
+    WriteFileAtomically(paths.back(), content);
+  }
+  return paths;
+}
+
+}  // namespace sslcd
