@@ -77,9 +77,7 @@ int ExitCode(ErrorKind kind) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   CLI::App app("Writes a synthetic sequence folder for sslcd_run.", "sslcd_sim");
   app.require_subcommand(1);
   Arguments arguments;
@@ -88,13 +86,20 @@ int main(int argc, char** argv) {
   AddWorld(app, "lot", "a parking lot, driven round and round", arguments.lot, arguments);
   try {
     app.parse(argc, argv);
-    const bool is_street = street->parsed();
-    Write(is_street ? sim::MakeStreet(arguments.seed, arguments.street)
-                    : sim::MakeParkingLot(arguments.seed, arguments.lot),
-          arguments);
-    return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  Write(street->parsed() ? sim::MakeStreet(arguments.seed, arguments.street)
+                         : sim::MakeParkingLot(arguments.seed, arguments.lot),
+        arguments);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return Run(argc, argv);
   } catch (const Error& error) {
     std::fprintf(stderr, "sslcd_sim: %s\n", error.what());
     return ExitCode(error.kind());

@@ -67,9 +67,19 @@ std::string ChooseSequence(const std::string& root, const std::string& wanted, c
 /// A path of the request: relative to the dataset or to the current folder; in a folder, the sequence's file.
 std::string Resolve(const std::string& root, const std::string& path, const std::string& sequence, const char* what) {
   for (const std::string& candidate : {(std::filesystem::path(root) / path).string(), path}) {
-    const std::string file = candidate + "/" + sequence + ".txt";
-    if (IsFolder(candidate)) return !sequence.empty() && IsFile(file) ? file : candidate;
     if (IsFile(candidate)) return candidate;
+    if (!IsFolder(candidate)) continue;
+    const std::string file = sequence + ".txt";
+    if (sequence.empty()) return candidate;
+    if (IsFile(candidate + "/" + file)) return candidate + "/" + file;
+    // Files named like other sequences; those of frames (000000.txt) have longer names.
+    std::vector<std::string> others;
+    for (const std::string& name : FileNames(candidate)) {
+      if (name.size() == file.size() && Stem(name) + ".txt" == name) others.push_back(name);
+    }
+    if (others.empty()) return candidate;
+    throw Error(ErrorKind::kBadInput, {candidate},
+                "has no " + file + " to take the " + what + " from; there are: " + Join(others));
   }
   throw Error(ErrorKind::kBadInput, std::string(what) + " '" + path + "' is neither in " + root +
                                         " nor in the current folder: check the path");

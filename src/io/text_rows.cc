@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/text_rows.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <memory>
 
 namespace sslcd {
 namespace {
@@ -27,16 +29,14 @@ std::string ReadFileBytes(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw Error(ErrorKind::kBadInput, {path}, "is a folder, expected a file");
   }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   std::string bytes;
   if (file) {
-    bytes.resize(static_cast<std::size_t>(file.tellg()));
-    file.seekg(0);
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    char block[1 << 16];
+    while (const std::size_t count = std::fread(block, 1, sizeof(block), file.get())) bytes.append(block, count);
   }
-  if (!file) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "read error";
+  if (!file || std::ferror(file.get()) != 0) {
+    const std::string reason = std::strerror(errno);
     throw Error(ErrorKind::kBadInput, {path}, "cannot be read (" + reason + "): check the path and its permissions");
   }
   return bytes;

@@ -66,13 +66,9 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
 }
 
 void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
-  const OdometryNoise& noise = options.odometry;
   for (const BaOdometry& edge : problem.odometry) {
-    const double distance = edge.T_from_to.translation().norm();
-    OdometryResidual residual;
-    residual.T_from_to = edge.T_from_to;
-    residual.sigma_translation = std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(distance));
-    residual.sigma_rotation = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * std::sqrt(distance));
+    const OdometrySigmas sigmas = SigmasOver(edge.T_from_to.translation().norm(), options.odometry);
+    const OdometryResidual residual{edge.T_from_to, sigmas.translation, sigmas.rotation};
     ceres_.AddResidualBlock(AutoDiff<OdometryResidual, 6, 7, 7, 1>(residual), nullptr, cameras_[edge.from].data(),
                             cameras_[edge.to].data(), &log_scale_);
   }

@@ -61,6 +61,11 @@ void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
                "standard deviation of the odometry's log scale; 0 keeps the scale at one");
 }
 
+OdometrySigmas SigmasOver(double distance_m, const OdometryNoise& noise) {
+  return {std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(distance_m)),
+          std::hypot(noise.rotation_floor_rad, noise.rotation_walk * std::sqrt(distance_m))};
+}
+
 void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
   visitor.Enum("residual", options.residual, {"robust", "paper"}, "whitened and symmetric, or Eq. 8 as printed");
   visitor.Enum("solver", options.solver, {"levenberg_marquardt", "gauss_newton"},

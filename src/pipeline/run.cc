@@ -13,6 +13,25 @@ bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hook
   });
 }
 
+PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
+  PoseGraph graph;
+  const std::vector<FrameRecord>& frames = mapper.frames();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
+    if (i == 0) continue;
+    PoseGraph::Edge& edge = graph.edges.emplace_back();
+    edge.from = frames[i - 1].frame;
+    edge.to = frames[i].frame;
+    edge.T_from_to = frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam;
+    const OdometrySigmas sigmas = SigmasOver(edge.T_from_to.translation().norm(), noise);
+    edge.T_from_to.translation() *= mapper.scale();
+    edge.information.setZero();
+    edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));
+    edge.information.diagonal().tail<3>().setConstant(1 / (sigmas.rotation * sigmas.rotation));
+  }
+  return graph;
+}
+
 }  // namespace
 
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
@@ -41,6 +60,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
     result.odometry.poses.push_back(record.T_odom_cam);
   }
   result.trajectory = mapper.CameraTrajectory();
+  result.graph = GraphOf(mapper, options.ba.odometry);
   result.objects = mapper.Objects();
   result.scale = mapper.scale();
   result.noise_scale = mapper.map().noise_scale();

@@ -55,6 +55,7 @@ class Detector {
  public:
   Detector(const World& world, const DetectorNoise& noise, std::uint64_t seed)
       : world_(world), noise_(noise), random_(seed, kDetectorStream) {
+    constant_.reserve(world.objects.size());
     for (std::size_t i = 0; i < world.objects.size(); ++i) constant_.push_back(DrawNormals(random_));
   }
 
@@ -62,6 +63,7 @@ class Detector {
     result.frames.emplace_back();
     const std::vector<Sighting> sightings = InView(world_, frame);
     std::vector<Silhouette> silhouettes;
+    silhouettes.reserve(sightings.size());
     for (const Sighting& sighting : sightings) silhouettes.push_back(sighting.silhouette);
 
     for (const Sighting& sighting : sightings) {

@@ -3,15 +3,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
 
 namespace sslcd::sim {
 namespace {
-
-namespace fs = std::filesystem;
 
 template <class... Numbers>
 std::string Format(const char* format, Numbers... numbers) {
@@ -91,28 +89,9 @@ std::string SequenceYaml(const World& world) {
   return text;
 }
 
-/// Under a temporary name first, so that a full disk leaves nothing half-written behind.
-void WriteFile(const fs::path& path, const std::string& text) {
-  const fs::path temporary = path.string() + ".tmp";
-  std::ofstream file(temporary, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (file && !error) return;
-  std::error_code ignored;
-  fs::remove(temporary, ignored);
-  throw Error(ErrorKind::kOutput, path.string() + ": cannot be written; check permissions and free space");
-}
-
-void PrepareFolder(const fs::path& folder, bool overwrite) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw Error(ErrorKind::kOutput, folder.string() + ": cannot make this folder" +
-                                        (error ? " (" + error.message() + ")" : "") + "; choose another");
-  }
-  if (!overwrite && fs::directory_iterator(folder) != fs::directory_iterator()) {
+void PrepareFolder(const std::filesystem::path& folder, bool overwrite) {
+  MakeWritableFolder(folder.string());
+  if (!overwrite && !std::filesystem::is_empty(folder)) {
     throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
   }
 }
@@ -122,13 +101,16 @@ void PrepareFolder(const fs::path& folder, bool overwrite) {
 void WriteSequence(const World& world, const Trajectory& odometry, const SimulatedDetections& detections,
                    const std::filesystem::path& folder, bool overwrite) {
   PrepareFolder(folder, overwrite);
-  WriteFile(folder / "calib.txt", Calib(world.camera));
-  WriteFile(folder / "times.txt", Times(world.truth));
-  WriteFile(folder / "odometry.txt", Tum(odometry));
-  WriteFile(folder / "groundtruth.txt", Tum(world.truth));
-  WriteFile(folder / "detections.txt", Detections(detections));
-  WriteFile(folder / "landmark_ids.txt", Identities(detections));
-  WriteFile(folder / "sequence.yaml", SequenceYaml(world));
+  const auto write = [&folder](const char* name, const std::string& text) {
+    WriteFileAtomically((folder / name).string(), text);
+  };
+  write("calib.txt", Calib(world.camera));
+  write("times.txt", Times(world.truth));
+  write("odometry.txt", Tum(odometry));
+  write("groundtruth.txt", Tum(world.truth));
+  write("detections.txt", Detections(detections));
+  write("landmark_ids.txt", Identities(detections));
+  write("sequence.yaml", SequenceYaml(world));
 }
 
 }  // namespace sslcd::sim

@@ -22,6 +22,12 @@ struct OdometryNoise {
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
+/// Standard deviations between two frames that are `distance_m` apart. [m, rad]
+struct OdometrySigmas {
+  double translation = 0, rotation = 0;
+};
+OdometrySigmas SigmasOver(double distance_m, const OdometryNoise& noise);
+
 /// Object bundle adjustment, paper III-C.
 struct BaOptions {
   enum class Residual { kRobust, kPaper };

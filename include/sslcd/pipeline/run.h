@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/pose_graph.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/perception/colour.h"
@@ -26,6 +27,7 @@ struct RunResult {
   std::vector<int> frames;          ///< frame numbers, in step with the trajectories
   Trajectory trajectory, odometry;  ///< T_world_cam, T_odom_cam of every frame that was processed
   std::vector<MapObject> objects;   ///< all landmarks, by id; the map is those that are confirmed
+  PoseGraph graph;                  ///< frames and the metric odometry between them
   double scale = 1;                 ///< metres per odometry metre
   NoiseScale noise_scale;           ///< what was learnt of the detector
   FilterReport filter;

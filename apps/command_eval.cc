@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "evaluation.h"
+#include "sslcd/core/error.h"
+#include "sslcd/io/dataset.h"
+#include "sslcd/io/pose_reader.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct EvalArguments {
+  std::string run, groundtruth, labels, detections;
+  bool json = false;
+};
+
+int Eval(const EvalArguments& a, const Console& console) {
+  EvaluationInput input;
+  input.estimate = ReadTrajectory(a.run + "/trajectory_tum.txt");
+  input.odometry = ReadTrajectory(a.run + "/odometry_tum.txt");
+  if (!a.groundtruth.empty()) {
+    const PoseFile truth = ReadPoseFile(a.groundtruth);
+    input.groundtruth = truth.trajectory;
+    input.groundtruth_has_stamps = truth.format != PoseFormat::kKitti;
+  }
+  MapFile map;
+  std::vector<Frame> frames;
+  if (!a.labels.empty()) {
+    map = ReadMapJson(a.run + "/map.json");
+    for (const auto& [index, detections] : ReadDetections(a.detections).by_frame) {
+      Frame frame;
+      frame.index = index;
+      frame.detections = detections;
+      frames.push_back(std::move(frame));
+    }
+    input.map = &map;
+    input.detections = &frames;
+    input.labels_path = a.labels;
+  }
+  const Metrics metrics = Evaluate(input);
+  if (a.json) {
+    std::fputs(MetricsJson(metrics).c_str(), stdout);
+    return 0;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
+  console.Say(AlignedTable(rows));
+  return 0;
+}
+
+}  // namespace
+
+Command AddEvalCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("eval", "compare a finished run with ground truth");
+  const auto arguments = std::make_shared<EvalArguments>();
+  command->add_option("RUN", arguments->run, "folder written by 'sslcd_run run'")->required();
+  command->add_option("--groundtruth", arguments->groundtruth, "true poses: TUM, KITTI rows or VINS csv")->required();
+  CLI::Option* labels = command->add_option("--labels", arguments->labels, "KITTI tracking label_02 file: judges the map too");
+  CLI::Option* detections =
+      command->add_option("--detections", arguments->detections, "the detections that the run was made from");
+  labels->needs(detections);
+  detections->needs(labels);
+  command->add_flag("--json", arguments->json, "print JSON");
+  return [arguments, &console] {
+    console.InstallLog();
+    return Eval(*arguments, console);
+  };
+}
+
+}  // namespace sslcd::apps

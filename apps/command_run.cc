@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "evaluation.h"
+#include "image_loader.h"
+#include "sslcd/core/error.h"
+#include "sslcd/core/log.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/config.h"
+#include "sslcd/io/dataset.h"
+#include "sslcd/io/run_folder.h"
+#include "sslcd/pipeline/run.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct RunArguments {
+  DatasetRequest request;
+  std::string format = "auto", score = "auto", out;
+  ConfigArguments config;
+  bool json = false;
+  int threads = 1;
+};
+
+void AddOptions(CLI::App& command, RunArguments& a) {
+  command.add_option("DATASET", a.request.path, "dataset folder")->required();
+  command.add_option("--format", a.format, "layout of the folder; guessed where not given")
+      ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
+  command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
+  command.add_option("--detections", a.request.detections, "file or folder, relative to DATASET or the current folder");
+  command.add_option("--odometry", a.request.odometry, "poses, likewise");
+  command.add_option("--groundtruth", a.request.groundtruth, "poses, likewise; for the metrics only");
+  command.add_option("--score", a.score, "what the score column holds; guessed where not given")
+      ->check(CLI::IsMember({"auto", "probability", "logit"}));
+  a.config.AddTo(command);
+  command.add_option("--out", a.out, "folder to write; default runs/latest")->default_str("runs/latest");
+  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
+      ->check(CLI::PositiveNumber);
+  command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
+}
+
+Dataset Load(RunArguments& a, const Console& console) {
+  a.request.format = *ParseDatasetFormat(a.format);
+  a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
+                                      : a.score == "probability" ? ScoreKind::kProbability
+                                                                 : ScoreKind::kLogit;
+  Dataset dataset = LoadDataset(a.request);
+  for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
+  std::string line = dataset.name + ": " + ToString(dataset.format) + (a.format == "auto" ? " (guessed), " : ", ") +
+                     std::to_string(dataset.frames.size()) + " frames, " + std::to_string(dataset.rows_read) +
+                     " detections";
+  if (dataset.rows_dropped > 0) line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
+  console.Say(line);
+  if (dataset.rows_read == 0) Log(LogLevel::kWarning, "no detections: the map will be empty and the trajectory the odometry's");
+  return dataset;
+}
+
+std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
+  const std::filesystem::path path = std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
+  const bool tracking = dataset.format == DatasetFormat::kKittiTracking;
+  return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
+}
+
+std::string ResultTable(const RunResult& result, const Metrics& metrics) {
+  int landmarks = 0;
+  for (const MapObject& object : result.objects) landmarks += object.state == LandmarkState::kConfirmed;
+  std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(result.frames.size())},
+                                                {"landmarks", std::to_string(landmarks)},
+                                                {"odometry scale", Number("%.4f", result.scale)}};
+  for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
+  std::vector<std::vector<std::string>> times = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};
+  for (const auto& [stage, t] : result.timing.Summary())
+    times.push_back({stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
+  return AlignedTable(rows) + "\n\n" + AlignedTable(times);
+}
+
+int Run(RunArguments& a, const Console& console) {
+  if (a.out.empty()) a.out = "runs/latest";
+  Options options = a.config.Load();
+  MakeWritableFolder(a.out);  // rather now than after the run
+  const Dataset dataset = Load(a, console);
+  MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
+
+  RunHooks hooks;
+  hooks.progress = [&](int done, int total) { console.Progress("frame", done, total); };
+  hooks.stop = [] { return Interrupted(); };
+  hooks.with_image = WithImage;
+  CatchInterrupt();
+  const RunResult result = RunSequence(dataset.frames, context, options, hooks);
+  console.EndProgress();
+
+  RunOutputs outputs;
+  outputs.trajectory = result.trajectory;
+  outputs.odometry = result.odometry;
+  outputs.map = {dataset.up_axis, result.objects};
+  outputs.graph = result.graph;
+  outputs.timing = result.timing;
+  outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, options); }, false);
+  EvaluationInput evaluation;
+  evaluation.estimate = result.trajectory;
+  evaluation.frames = result.frames;
+  evaluation.groundtruth = dataset.groundtruth;
+  evaluation.odometry = result.odometry;
+  evaluation.map = &outputs.map;
+  evaluation.detections = &dataset.frames;
+  evaluation.labels_path = LabelsOf(a, dataset);
+  if (!result.frames.empty()) outputs.metrics = Evaluate(evaluation);
+  const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
+
+  if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
+  console.Say(ResultTable(result, outputs.metrics));
+  console.Say("");
+  for (const std::string& path : paths) console.Say("wrote " + path);
+  if (result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
+  return result.stopped ? 130 : 0;
+}
+
+}  // namespace
+
+Command AddRunCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("run", "map a sequence and correct its trajectory");
+  const auto arguments = std::make_shared<RunArguments>();
+  AddOptions(*command, *arguments);
+  command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  command->add_flag("-v,--verbose", console.verbose, "print more");
+  return [arguments, &console] {
+    if (arguments->json) console.quiet = true;
+    console.InstallLog();
+    return Run(*arguments, console);
+  };
+}
+
+}  // namespace sslcd::apps

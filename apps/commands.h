@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "sslcd/pipeline/options.h"
+
+namespace sslcd::apps {
+
+/// Each adds a subcommand to `app`; the returned function carries it out and gives the exit code.
+using Command = std::function<int()>;
+Command AddRunCommand(CLI::App& app, Console& console);
+Command AddEvalCommand(CLI::App& app, Console& console);
+Command AddCheckConfigCommand(CLI::App& app, Console& console);
+Command AddDumpConfigCommand(CLI::App& app, Console& console);
+Command AddVersionCommand(CLI::App& app);
+
+/// --config, --mode and --set, shared by several subcommands.
+struct ConfigArguments {
+  std::string file, mode;
+  std::vector<std::string> settings;
+
+  void AddTo(CLI::App& command);
+  /// Defaults of the mode, then the file, then the settings. Throws Error(kBadConfig).
+  Options Load() const;
+};
+
+}  // namespace sslcd::apps

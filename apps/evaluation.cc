@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "evaluation.h"
+
+#include <algorithm>
+
+#include "sslcd/eval/map_metrics.h"
+#include "sslcd/eval/trajectory_error.h"
+
+namespace sslcd::apps {
+namespace {
+
+// Pairs an estimate with the ground truth: by stamp where both have them, else row = frame number.
+MatchedPoses Pair(const Trajectory& estimate, const EvaluationInput& input) {
+  if (input.groundtruth_has_stamps) return MatchByStamp(estimate, *input.groundtruth);
+  MatchedPoses matched;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const std::size_t row = input.frames.empty() ? i : static_cast<std::size_t>(input.frames[i]);
+    if (row >= input.groundtruth->size()) continue;
+    matched.est.push_back(estimate.poses[i]);
+    matched.ref.push_back(input.groundtruth->poses[row]);
+  }
+  return matched;
+}
+
+void AddTrajectoryErrors(const EvaluationInput& input, Metrics& metrics) {
+  const MatchedPoses matched = Pair(input.estimate, input);
+  for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3, Alignment::k4Dof, Alignment::kNone}) {
+    const ErrorStats error = ComputeAte(matched.est, matched.ref, alignment).error;
+    const std::string name = std::string("ate_") + ToString(alignment);
+    metrics.emplace_back(name + "_rmse_m", error.rmse);
+    if (alignment != Alignment::kSe3) continue;
+    metrics.emplace_back(name + "_mean_m", error.mean);
+    metrics.emplace_back(name + "_median_m", error.median);
+    metrics.emplace_back(name + "_std_m", error.std);
+    metrics.emplace_back(name + "_max_m", error.max);
+  }
+  const RpeResult rpe = ComputeRpe(matched.est, matched.ref);
+  metrics.emplace_back("rpe_1_frame_rmse_m", rpe.translation.rmse);
+  metrics.emplace_back("rpe_1_frame_rmse_rad", rpe.rotation_rad.rmse);
+  if (!input.odometry) return;
+  const MatchedPoses odometry = Pair(*input.odometry, input);
+  metrics.emplace_back("odometry_ate_se3_rmse_m", ComputeAte(odometry.est, odometry.ref, Alignment::kSe3).error.rmse);
+  metrics.emplace_back("odometry_ate_sim3_rmse_m", ComputeAte(odometry.est, odometry.ref, Alignment::kSim3).error.rmse);
+}
+
+// Poses by frame number; frames that were not processed get the pose before them.
+std::vector<Pose> ByFrame(const Trajectory& trajectory, const std::vector<int>& frames) {
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const std::size_t frame = frames.empty() ? i : static_cast<std::size_t>(frames[i]);
+    while (poses.size() < frame) poses.push_back(poses.empty() ? Pose() : poses.back());
+    poses.push_back(trajectory.poses[i]);
+  }
+  return poses;
+}
+
+void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
+  MapRun run;
+  run.estimate = ByFrame(input.estimate, input.frames);
+  run.objects = input.map->objects;
+  run.frames = *input.detections;
+  run.truth = ReadKittiTrackingLabels(input.labels_path);
+  if (input.groundtruth) run.reference = input.groundtruth->poses;
+  else run.reference = ScaledPath(ByFrame(*input.odometry, input.frames), 0.975);
+  const MapMetrics map = ComputeMapMetrics(run);
+  metrics.emplace_back("iou_raw", map.iou_raw);
+  metrics.emplace_back("iou_raw_same_pairs", map.iou_raw_same_pairs);
+  metrics.emplace_back("iou_map", map.iou_map);
+  metrics.emplace_back("iou_pairs", map.pairs);
+  metrics.emplace_back("coverage", map.coverage);
+  metrics.emplace_back("landmarks", map.landmarks);
+  metrics.emplace_back("purity", map.purity);
+  metrics.emplace_back("static_objects", map.static_objects);
+  metrics.emplace_back("static_found", map.static_found);
+  metrics.emplace_back("landmarks_per_static", map.landmarks_per_static);
+  metrics.emplace_back("driving_in_map", map.driving_in_map);
+}
+
+}  // namespace
+
+Metrics Evaluate(const EvaluationInput& input) {
+  Metrics metrics;
+  if (input.groundtruth) AddTrajectoryErrors(input, metrics);
+  const bool reference = input.groundtruth.has_value() || input.odometry.has_value();
+  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr && reference)
+    AddMapErrors(input, metrics);
+  return metrics;
+}
+
+}  // namespace sslcd::apps

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/detection.h"
+#include "sslcd/core/trajectory.h"
+#include "sslcd/io/map_json.h"
+#include "sslcd/io/run_folder.h"
+
+namespace sslcd::apps {
+
+/// What a finished run is compared with. Everything but the estimate is optional.
+struct EvaluationInput {
+  Trajectory estimate;                   ///< one pose a frame
+  std::vector<int> frames;               ///< frame numbers of the estimate
+  std::optional<Trajectory> groundtruth;  ///< without stamps (KITTI rows): row = frame number
+  bool groundtruth_has_stamps = false;
+  std::optional<Trajectory> odometry;
+  const MapFile* map = nullptr;
+  std::string labels_path;               ///< KITTI tracking label_02 file; empty: no map metrics
+  const std::vector<Frame>* detections = nullptr;
+};
+
+/// Trajectory error (all alignments), relative error, and the map's accuracy and identities where labels are there.
+Metrics Evaluate(const EvaluationInput& input);
+
+}  // namespace sslcd::apps

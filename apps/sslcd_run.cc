@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <exception>
+#include <map>
+
+#include "commands.h"
+#include "sslcd/core/error.h"
+
+namespace {
+
+int ExitCode(sslcd::ErrorKind kind) {
+  switch (kind) {
+    case sslcd::ErrorKind::kUsage: return 2;
+    case sslcd::ErrorKind::kBadInput: return 3;
+    case sslcd::ErrorKind::kBadConfig: return 4;
+    case sslcd::ErrorKind::kNoSolution: return 5;
+    case sslcd::ErrorKind::kOutput: return 1;
+  }
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace sslcd::apps;
+  CLI::App app("Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of objects and a better "
+               "trajectory out.");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad configuration, "
+             "5 no solution, 130 interrupted.");
+  Console console;
+  const std::map<std::string, Command> commands = {{"run", AddRunCommand(app, console)},
+                                                   {"eval", AddEvalCommand(app, console)},
+                                                   {"check-config", AddCheckConfigCommand(app, console)},
+                                                   {"dump-config", AddDumpConfigCommand(app, console)},
+                                                   {"version", AddVersionCommand(app)}};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : 2;
+  }
+  try {
+    int code = commands.at(app.get_subcommands().front()->get_name())();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+      std::fprintf(stderr, "error: the results could not be printed: is the output's disk full?\n");
+      if (code == 0) code = 1;
+    }
+    return code;
+  } catch (const sslcd::Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return ExitCode(error.kind());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
