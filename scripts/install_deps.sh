@@ -7,7 +7,7 @@
 #     dev    and clang-format, clang-tidy, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
-build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libyaml-cpp-dev libcli11-dev
+build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libyaml-cpp-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev)
 test=(libgtest-dev libgmock-dev python3 ccache)
 dev=(clang-format-14 clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)

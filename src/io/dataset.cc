@@ -61,7 +61,7 @@ class Loader {
     out_.name = layout_.name;
     if (!layout_.sequence_yaml.empty()) {
       const SequenceInfo info = ReadSequenceYaml(layout_.sequence_yaml);
-      out_.up_axis = info.up_axis;
+      up_axis_ = info.up_axis;
       out_.labels = info.labels;
     }
     if (!layout_.calib.empty()) {
@@ -87,6 +87,7 @@ class Loader {
   DatasetRequest request_;
   DatasetLayout layout_;
   Calibration calibration_;
+  std::optional<Vec3> up_axis_;     // as sequence.yaml says
   std::size_t frames_in_file_ = 0;  // before max_frames
   Dataset out_;
 };
@@ -98,6 +99,9 @@ void Loader::AddFrames() {
   if (odometry.trajectory.poses.empty()) {
     throw Error(ErrorKind::kBadInput, {layout_.odometry}, "holds no poses: there is nothing to run on");
   }
+  const bool is_vins = odometry.format == PoseFormat::kVinsCsv;
+  out_.up_axis = up_axis_.value_or(is_vins ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
+  if (is_vins) Warn(layout_.odometry + ": VINS-Fusion csv; its poses are taken as the camera's");
   const bool has_stamps = odometry.format != PoseFormat::kKitti;
   std::vector<double> stamps = odometry.trajectory.stamps;
   std::vector<Pose> poses = odometry.trajectory.poses;

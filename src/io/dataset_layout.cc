@@ -23,10 +23,8 @@ std::string LastName(const std::string& folder) {
 std::string Stem(const std::string& name) { return name.substr(0, name.find('.')); }
 
 bool LooksLikeSequence(const std::string& folder) {
-  for (const char* name : {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"}) {
-    if (IsFile(folder + "/" + name)) return true;
-  }
-  return false;
+  const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
+  return std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
 }
 bool LooksLikeRaw(const std::string& folder) {
   return IsFolder(folder + "/oxts/data") || IsFile(folder + "/tracklet_labels.xml");

@@ -45,7 +45,7 @@ std::string LabelOf(const TextRows& row, DetectionFormat format, int column) {
       row.Fail("class number " + std::to_string(type) + ": known are 1 Pedestrian 2 Car 3 Cyclist");
     return kTypes[type - 1];
   }
-  const std::string label(row.Text(column));
+  std::string label(row.Text(column));
   if (ParseNumber(label))
     row.Fail("expected a class name in column " + std::to_string(column + 1) + ", found '" + label + "'");
   return label;

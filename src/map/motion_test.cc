@@ -86,6 +86,11 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
   }
   stamp_ = stamp;
   if (state_.tail<2>().norm() > options.min_speed_mps) standing_since_ = stamp;
+  if (stamp_ - standing_since_ >= options.settle_s) {  // a journey begins where the object last stood
+    start_ = parked_;
+    start_covariance_ = parked_covariance_;
+    start_stamp_ = stamp_;
+  }
   ++count_;
 }
 

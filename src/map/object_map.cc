@@ -139,8 +139,7 @@ AssociationCandidate ObjectMap::CandidateOf(const MapLandmark& landmark, const V
     position += moved.x() * gravity_.forward + moved.y() * gravity_.left;
   } else {
     candidate.beliefs = {parked_belief};
-    if (Movable(landmark) && landmark.motion.log_bayes_factor() > -options_.motion.decide_at)
-      candidate.beliefs.push_back(driving_belief);
+    if (Movable(landmark)) candidate.beliefs.push_back(driving_belief);
   }
   candidate.height = landmark.pose.position.dot(gravity_.up);
   const Pose T_cam_object = view.T_world_cam.inverse() * ToPose({position, landmark.pose.yaw}, gravity_);

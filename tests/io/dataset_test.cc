@@ -130,6 +130,16 @@ TEST_F(SequenceFolder, StampsComeFromTheOdometryWhereThereAreNoTimes) {
   EXPECT_NEAR(Load().frames[3].stamp, 0.3, 1e-9);
 }
 
+TEST_F(SequenceFolder, VinsWorldsHaveZUp) {
+  folder_.Write("odometry.txt",
+                "0,0,0,0,1,0,0,0\n100000000,0,0,0,1,0,0,0\n200000000,0,0,0,1,0,0,0\n300000000,0,0,0,1,0,0,0\n");
+  const Dataset dataset = Load();
+  EXPECT_EQ(dataset.up_axis, Vec3(0, 0, 1));
+  EXPECT_THAT(dataset.warnings, Contains(HasSubstr("taken as the camera's")));
+  folder_.Write("sequence.yaml", "up_axis: [0, -1, 0]\n");
+  EXPECT_EQ(Load().up_axis, Vec3(0, -1, 0));
+}
+
 TEST_F(SequenceFolder, StampsMustIncrease) {
   folder_.Write("times.txt", "0\n0.1\n0.1\n0.3\n");
   Refuse({"times.txt:3: stamp 0.1", "must increase"});

@@ -10,7 +10,7 @@ TEST(SequenceYaml, ReadsUpAxisAndLabels) {
   const TempFolder folder;
   const SequenceInfo info = ReadSequenceYaml(
       folder.Write("s.yaml", "up_axis: [0, 0, 2]\nlabels: {Tree: {symmetry: full}, Box: {symmetry: pi}, Car: {}}\n"));
-  EXPECT_EQ(info.up_axis, Vec3(0, 0, 1));
+  EXPECT_EQ(info.up_axis.value(), Vec3(0, 0, 1));
   EXPECT_EQ(info.labels["Tree"].symmetry, Symmetry::kFull);
   EXPECT_EQ(info.labels["Box"].symmetry, Symmetry::kPi);
   EXPECT_EQ(info.labels["Car"].symmetry, Symmetry::kNone);
@@ -20,7 +20,7 @@ TEST(SequenceYaml, ReadsUpAxisAndLabels) {
 TEST(SequenceYaml, EverythingIsOptional) {
   const TempFolder folder;
   const SequenceInfo info = ReadSequenceYaml(folder.Write("s.yaml", "# nothing\n"));
-  EXPECT_EQ(info.up_axis, Vec3(0, -1, 0));
+  EXPECT_FALSE(info.up_axis.has_value());
   EXPECT_TRUE(info.labels.entries().empty());
 }
 

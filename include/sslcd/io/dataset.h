@@ -49,7 +49,7 @@ struct Dataset {
   std::vector<Frame> frames;           ///< one per pose; frames[i].index == i, stamps increase
   std::optional<Camera> camera;        ///< P2; none: no calibration, nothing can be projected
   std::optional<Camera> camera_right;  ///< P3
-  Vec3 up_axis{0, -1, 0};              ///< unit vector in the odometry's world
+  Vec3 up_axis{0, -1, 0};  ///< unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
   LabelTable labels;
   std::optional<Trajectory> groundtruth;                         ///< rows without stamps got those of the frames
   std::string odometry_path, detections_path, groundtruth_path;  ///< as found; groundtruth_path empty: none

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sslcd/core/label.h"
@@ -10,7 +11,7 @@ namespace sslcd {
 
 /// What a sequence folder says about itself.
 struct SequenceInfo {
-  Vec3 up_axis{0, -1, 0};  ///< unit vector in the world (odometry) frame
+  std::optional<Vec3> up_axis;  ///< unit vector in the world (odometry) frame
   LabelTable labels;
 };
 
