@@ -194,7 +194,6 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.embedding.Add(detection.embedding, query.viewpoint_rad);
   landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
-  landmark.misses = 0;
 
   // Running estimate until bundle adjustment takes over: the motion test's own position, the mean of height and yaw.
   const double share = 1. / landmark.sightings.size();

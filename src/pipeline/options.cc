@@ -20,6 +20,8 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
   visitor.Real("duplicate_m", options.duplicate_m, 0, 100, "landmarks of one label closer than this are one object");
   visitor.Real("moved_m", options.moved_m, 0, 1000,
                "a landmark whose late sightings lie further than this from its early ones has moved");
+  visitor.Real("min_seen_share", options.min_seen_share, 0, 1,
+               "a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by");
 }
 
 void DescribeFields(FieldVisitor& visitor, Options& options) {

@@ -157,15 +157,33 @@ bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity,
   return distance > moved_m && distance > min_speed_mps * elapsed_s;
 }
 
+// Share of the frames between its sightings in which a landmark was seen. Not counted: frames without any detection, in
+// which the detector may not have run, and gaps of more than two seconds, in which it was out of sight.
+// `detector_runs`: frame -> how many frames with detections there were up to it.
+double SeenShare(const MapLandmark& landmark, const std::map<int, int>& detector_runs) {
+  int runs = 1;
+  for (std::size_t i = 1; i < landmark.sightings.size(); ++i) {
+    const Sighting &before = landmark.sightings[i - 1], &now = landmark.sightings[i];
+    runs += now.stamp - before.stamp > 2. ? 1 : detector_runs.at(now.frame) - detector_runs.at(before.frame);
+  }
+  return static_cast<double>(landmark.sightings.size()) / runs;
+}
+
 void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const Options& options) {
   std::map<int, Pose> cameras;
-  for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
+  std::map<int, int> detector_runs;
+  int runs = 0;
+  for (const FrameRecord& record : frames) {
+    cameras[record.frame] = record.T_world_cam;
+    detector_runs[record.frame] = runs += record.detections.empty() ? 0 : 1;
+  }
   std::vector<LandmarkId> moved;
   for (const auto& [id, landmark] : map.landmarks()) {
     if (landmark.state != LandmarkState::kConfirmed || landmark.symmetry == Symmetry::kFull) continue;
     const double elapsed = landmark.sightings.back().stamp - landmark.sightings.front().stamp;
     if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.refine.moved_m, elapsed,
-                 options.map.motion.min_speed_mps))
+                 options.map.motion.min_speed_mps) ||
+        SeenShare(landmark, detector_runs) < options.refine.min_seen_share)
       moved.push_back({id});
   }
   for (const LandmarkId id : moved) map.SetState(id, LandmarkState::kDynamic);

@@ -33,7 +33,6 @@ struct MapLandmark {
   Gallery colour, embedding;  ///< H_k, E_k
   std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
   double last_seen = 0;       ///< [s]
-  int misses = 0;             ///< frames since the last sighting in which it should have been seen
 };
 
 /// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around it. Weights fall with

@@ -28,6 +28,7 @@ struct RefineOptions {
   int min_sightings = 2;          ///< objects seen less often do not enter the final map
   double duplicate_m = 1.;        ///< landmarks of one label closer than this are one object
   double moved_m = 1.5;           ///< a landmark whose late sightings lie further than this from its early ones has moved
+  double min_seen_share = 0.4;    ///< a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 
