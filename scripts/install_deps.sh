@@ -3,14 +3,14 @@
 # Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing where all is there.
 #   scripts/install_deps.sh [build|test|dev]
 #     build  the library and the tools; enough for scripts/demo.sh
-#     test   and what the tests need (default)
-#     dev    and clang-format, clang-tidy, Google Benchmark, NumPy and Shapely
+#     test   and what the tests need, clang-format among it (default)
+#     dev    and clang-tidy, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libyaml-cpp-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev)
-test=(libgtest-dev libgmock-dev python3 ccache)
-dev=(clang-format-14 clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
+test=(libgtest-dev libgmock-dev python3 ccache clang-format-14)
+dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
 
 case "${1:-test}" in
   build) wanted=("${build[@]}") ;;

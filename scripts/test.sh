@@ -3,12 +3,14 @@
 # Everything from a fresh machine to the test report: installs what is missing, configures, builds, tests.
 #   scripts/test.sh [ctest arguments, e.g. -L unit]
 # SSLCD_BUILD_DIR: where to build (default build/release). SSLCD_DATA_DIR: real data (see CONTRIBUTING.md).
+# SSLCD_CMAKE_ARGS: more arguments for configuring.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${SSLCD_BUILD_DIR:-build/release}
 jobs=$(nproc)
 
 scripts/install_deps.sh test
-cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=ON ${SSLCD_DATA_DIR:+-DSSLCD_DATA_DIR="$SSLCD_DATA_DIR"}
+cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=ON ${SSLCD_DATA_DIR:+-DSSLCD_DATA_DIR="$SSLCD_DATA_DIR"} \
+  ${SSLCD_CMAKE_ARGS:-}
 cmake --build "$build" -j "$jobs"
 ctest --test-dir "$build" -j "$jobs" --output-on-failure "$@"
