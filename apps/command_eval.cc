@@ -57,7 +57,8 @@ Command AddEvalCommand(CLI::App& app, Console& console) {
   const auto arguments = std::make_shared<EvalArguments>();
   command->add_option("RUN", arguments->run, "folder written by 'sslcd_run run'")->required();
   command->add_option("--groundtruth", arguments->groundtruth, "true poses: TUM, KITTI rows or VINS csv")->required();
-  CLI::Option* labels = command->add_option("--labels", arguments->labels, "KITTI tracking label_02 file: judges the map too");
+  CLI::Option* labels =
+      command->add_option("--labels", arguments->labels, "KITTI tracking label_02 file: judges the map too");
   CLI::Option* detections =
       command->add_option("--detections", arguments->detections, "the detections that the run was made from");
   labels->needs(detections);

@@ -55,7 +55,8 @@ Dataset Load(RunArguments& a, const Console& console) {
                      " detections";
   if (dataset.rows_dropped > 0) line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
   console.Say(line);
-  if (dataset.rows_read == 0) Log(LogLevel::kWarning, "no detections: the map will be empty and the trajectory the odometry's");
+  if (dataset.rows_read == 0)
+    Log(LogLevel::kWarning, "no detections: the map will be empty and the trajectory the odometry's");
   return dataset;
 }
 
@@ -74,7 +75,8 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   std::vector<std::vector<std::string>> times = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};
   for (const auto& [stage, t] : result.timing.Summary())
-    times.push_back({stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
+    times.push_back(
+        {stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
   return AlignedTable(rows) + "\n\n" + AlignedTable(times);
 }
 

@@ -60,8 +60,10 @@ void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
   run.objects = input.map->objects;
   run.frames = *input.detections;
   run.truth = ReadKittiTrackingLabels(input.labels_path);
-  if (input.groundtruth) run.reference = input.groundtruth->poses;
-  else run.reference = ScaledPath(ByFrame(*input.odometry, input.frames), 0.975);
+  if (input.groundtruth)
+    run.reference = input.groundtruth->poses;
+  else
+    run.reference = ScaledPath(ByFrame(*input.odometry, input.frames), 0.975);
   const MapMetrics map = ComputeMapMetrics(run);
   metrics.emplace_back("iou_raw", map.iou_raw);
   metrics.emplace_back("iou_raw_same_pairs", map.iou_raw_same_pairs);

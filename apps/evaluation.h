@@ -14,13 +14,13 @@ namespace sslcd::apps {
 
 /// What a finished run is compared with. Everything but the estimate is optional.
 struct EvaluationInput {
-  Trajectory estimate;                   ///< one pose a frame
-  std::vector<int> frames;               ///< frame numbers of the estimate
+  Trajectory estimate;                    ///< one pose a frame
+  std::vector<int> frames;                ///< frame numbers of the estimate
   std::optional<Trajectory> groundtruth;  ///< without stamps (KITTI rows): row = frame number
   bool groundtruth_has_stamps = false;
   std::optional<Trajectory> odometry;
   const MapFile* map = nullptr;
-  std::string labels_path;               ///< KITTI tracking label_02 file; empty: no map metrics
+  std::string labels_path;  ///< KITTI tracking label_02 file; empty: no map metrics
   const std::vector<Frame>* detections = nullptr;
 };
 

@@ -23,11 +23,13 @@ int ExitCode(sslcd::ErrorKind kind) {
 
 int main(int argc, char** argv) {
   using namespace sslcd::apps;
-  CLI::App app("Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of objects and a better "
-               "trajectory out.");
+  CLI::App app(
+      "Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of objects and a better "
+      "trajectory out.");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad configuration, "
-             "5 no solution, 130 interrupted.");
+  app.footer(
+      "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad configuration, "
+      "5 no solution, 130 interrupted.");
   Console console;
   const std::map<std::string, Command> commands = {{"run", AddRunCommand(app, console)},
                                                    {"eval", AddEvalCommand(app, console)},

@@ -29,8 +29,7 @@ void DataAssociation(benchmark::State& state) {
   sim::StreetOptions street;
   street.frames = 400;
   const sim::World world = sim::MakeStreet(7, street);
-  const auto frames =
-      sim::MakeFrames(sim::SimulateOdometry(world.truth, {}, 7), sim::SimulateDetections(world, {}, 7));
+  const auto frames = sim::MakeFrames(sim::SimulateOdometry(world.truth, {}, 7), sim::SimulateDetections(world, {}, 7));
   std::vector<double> times_ms;
   for (auto _ : state) {
     ObjectMap map(world.gravity, world.labels, {}, {}, {});

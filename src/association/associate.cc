@@ -21,9 +21,10 @@ SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate
   return cues;
 }
 
-// exp(-d^2/4) of the horizontal Mahalanobis distance under the best belief; 0 outside the gates. A less plausible belief
-// counts half, so that a parked landmark is never outbid by what its driving twin might have done.
-double Geometry(const AssociationQuery& query, const AssociationCandidate& candidate, const AssociationOptions& options) {
+// exp(-d^2/4) of the horizontal Mahalanobis distance under the best belief; 0 outside the gates. A less plausible
+// belief counts half, so that a parked landmark is never outbid by what its driving twin might have done.
+double Geometry(const AssociationQuery& query, const AssociationCandidate& candidate,
+                const AssociationOptions& options) {
   if (std::abs(query.height - candidate.height) > options.gate_vertical_m) return 0;
   double best = 0, plausibility = 1;
   for (const PlanarBelief& belief : candidate.beliefs) {

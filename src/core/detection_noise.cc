@@ -14,7 +14,8 @@ void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise) {
   visitor.Real("vertical_per_m", noise.vertical_per_m, 0, 1, "its growth per metre of range");
   visitor.Real("yaw_rad", noise.yaw_rad, 1e-4, 4, "standard deviation of the heading at range 0");
   visitor.Real("yaw_per_m", noise.yaw_per_m, 0, 1, "its growth per metre of range");
-  visitor.Real("size_relative", noise.size_relative, 1e-4, 1, "standard deviation of each dimension, relative to itself");
+  visitor.Real("size_relative", noise.size_relative, 1e-4, 1,
+               "standard deviation of each dimension, relative to itself");
   visitor.Real("initial_scale", noise.initial_scale, 0.1, 100,
                "factor on all standard deviations before the run has learnt its own");
 }
@@ -39,7 +40,8 @@ Eigen::Matrix3d RayFrame(const Vec3& point_cam) {
 
 Eigen::Matrix3d PositionCovariance(const Vec3& point_cam, const DetectionSigmas& sigmas) {
   const Eigen::Matrix3d rows = RayFrame(point_cam);
-  const Vec3 variance(sigmas.radial * sigmas.radial, sigmas.lateral * sigmas.lateral, sigmas.vertical * sigmas.vertical);
+  const Vec3 variance(sigmas.radial * sigmas.radial, sigmas.lateral * sigmas.lateral,
+                      sigmas.vertical * sigmas.vertical);
   return rows.transpose() * variance.asDiagonal() * rows;
 }
 

@@ -27,8 +27,10 @@ int WriteAll(const std::string& path, const std::string& content, int flags) {
   for (std::size_t done = 0; done < content.size() && code == 0;) {
     const ssize_t written = write(file, content.data() + done, content.size() - done);
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) code = errno;
-    else done += static_cast<std::size_t>(written);
+    if (written < 0)
+      code = errno;
+    else
+      done += static_cast<std::size_t>(written);
   }
   if (close(file) != 0 && code == 0) code = errno;
   return code;

@@ -71,7 +71,8 @@ class MarkdownPrinter final : public Printer {
     sections_ += "\n## `" + inner.path_ + "`\n" + meaning + "\n\n" + inner.Result();
   }
   std::string Result() const {
-    return (text.empty() ? "" : "| key | type | default | range | meaning |\n|---|---|---|---|---|\n" + text) + sections_;
+    return (text.empty() ? "" : "| key | type | default | range | meaning |\n|---|---|---|---|---|\n" + text) +
+           sections_;
   }
 
  private:

@@ -34,7 +34,8 @@ std::string Plain(double value) {
   return stream.str();
 }
 
-// Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing; second pass: applies.
+// Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing; second pass:
+// applies.
 class Loader final : public FieldVisitor {
  public:
   Loader(const YAML::Node& root, std::string name, bool marks, bool apply)

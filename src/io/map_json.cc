@@ -63,8 +63,8 @@ class Reader {
     object.label = Child(node, "label").Scalar();
     const YAML::Node state = Child(node, "state");
     bool known = false;
-    for (const LandmarkState s : {LandmarkState::kTentative, LandmarkState::kConfirmed, LandmarkState::kDynamic,
-                                  LandmarkState::kStale}) {
+    for (const LandmarkState s :
+         {LandmarkState::kTentative, LandmarkState::kConfirmed, LandmarkState::kDynamic, LandmarkState::kStale}) {
       if (state.Scalar() != ToString(s)) continue;
       object.state = s;
       known = true;
@@ -111,7 +111,8 @@ MapFile ReadMapJson(const std::string& path) {
   try {
     root = YAML::Load(ReadFileBytes(path));
   } catch (const YAML::ParserException& problem) {
-    throw Error(ErrorKind::kBadInput, {path, problem.mark.line + 1, problem.mark.column + 1}, "not JSON: " + problem.msg);
+    throw Error(ErrorKind::kBadInput, {path, problem.mark.line + 1, problem.mark.column + 1},
+                "not JSON: " + problem.msg);
   }
   if (reader.Child(root, "format").Scalar() != "sslcd-map") reader.Fail(root, "this is not an sslcd map");
   if (reader.Number(reader.Child(root, "version")) != 1)

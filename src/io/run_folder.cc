@@ -48,7 +48,8 @@ std::string G2oText(const PoseGraph& graph) {
     if (vertex.fixed) text += "FIX " + std::to_string(vertex.id) + "\n";
   }
   for (const auto& edge : graph.edges) {
-    text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " + PoseText(edge.T_from_to);
+    text +=
+        "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " + PoseText(edge.T_from_to);
     for (int row = 0; row < 6; ++row)
       for (int column = row; column < 6; ++column) text += " " + ShortestNumber(edge.information(row, column));
     text += "\n";
@@ -93,7 +94,8 @@ std::string TimingJson(const TimingTable& timing) {
   for (const auto& [stage, times] : timing.Summary()) {
     text += text.size() > 1 ? ",\n" : "\n";
     text += "\"" + stage + "\":{\"count\":" + std::to_string(times.count) + ",\"mean_ms\":" + Json(times.mean) +
-            ",\"p50_ms\":" + Json(times.p50) + ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) + "}";
+            ",\"p50_ms\":" + Json(times.p50) + ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) +
+            "}";
   }
   return text + "\n}\n";
 }
@@ -110,7 +112,8 @@ std::string MetricsJson(const Metrics& metrics) {
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs) {
   MakeWritableFolder(folder);
   const std::string loops_header =
-      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,pairs\n";
+      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
+      "pairs\n";
   const std::vector<std::pair<std::string, std::string>> files = {
       {"trajectory_tum.txt", TumText(outputs.trajectory)},
       {"trajectory_kitti.txt", KittiText(outputs.trajectory)},

@@ -37,7 +37,8 @@ double LogLikelihood(const Eigen::Vector2d& innovation, const Matrix2& covarianc
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options) {
-  visitor.Real("speed_prior_mps", options.speed_prior_mps, 0.01, 100, "standard deviation of an unknown object's speed");
+  visitor.Real("speed_prior_mps", options.speed_prior_mps, 0.01, 100,
+               "standard deviation of an unknown object's speed");
   visitor.Real("acceleration_mps2", options.acceleration_mps2, 0.01, 100, "acceleration of driving objects");
   visitor.Real("wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
                "how far a parked object may seem to wander in one second, because the camera drifts");
@@ -68,8 +69,8 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
     parked_covariance_ = (Matrix2::Identity() - parked_gain) * parked.covariance;
 
     const double dt = stamp - stamp_;
-    const Matrix4 predicted = Transition(dt) * state_covariance_ * Transition(dt).transpose() +
-                              ProcessNoise(dt, options.acceleration_mps2);
+    const Matrix4 predicted =
+        Transition(dt) * state_covariance_ * Transition(dt).transpose() + ProcessNoise(dt, options.acceleration_mps2);
     const Eigen::Matrix<double, 4, 2> gain = predicted.leftCols<2>() * driving_innovation.inverse();
     state_ = Transition(dt) * state_ + gain * driving_error;
     state_covariance_ = predicted - gain * predicted.topRows<2>();
@@ -112,7 +113,8 @@ Motion MotionTest::Verdict(const MotionTestOptions& options) const {
 
 MotionTest::Prediction MotionTest::PredictParked(double stamp, const MotionTestOptions& options) const {
   const double dt = std::max(0., stamp - stamp_);
-  const double wander = options.wander_m_per_sqrt_s * options.wander_m_per_sqrt_s * std::min(dt, options.forget_after_s);
+  const double wander =
+      options.wander_m_per_sqrt_s * options.wander_m_per_sqrt_s * std::min(dt, options.forget_after_s);
   return {parked_, parked_covariance_ + wander * Matrix2::Identity()};
 }
 

@@ -166,8 +166,8 @@ void ObjectMap::Create(const AssociationQuery& query, const View& view) {
   landmark.label = query.detection->label;
   landmark.symmetry = labels_[landmark.label].symmetry;
   landmark.pose = ToUpright(view.T_world_cam * query.detection->T_cam_object, gravity_);
-  const Gallery::Mode mode = association_.method == AssociationOptions::Method::kPaper ? Gallery::Mode::kMean
-                                                                                       : Gallery::Mode::kByViewpoint;
+  const Gallery::Mode mode =
+      association_.method == AssociationOptions::Method::kPaper ? Gallery::Mode::kMean : Gallery::Mode::kByViewpoint;
   landmark.colour = Gallery(mode);
   landmark.embedding = Gallery(mode);
   const LandmarkId id = Insert(std::move(landmark));
@@ -192,7 +192,8 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
   landmark.colour.Add(detection.colour, query.viewpoint_rad);
   landmark.embedding.Add(detection.embedding, query.viewpoint_rad);
-  landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
+  landmark.sightings.push_back(
+      {view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
 
   // Running estimate until bundle adjustment takes over: the motion test's own position, the mean of height and yaw.
@@ -204,7 +205,8 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   const double height = landmark.pose.position.dot(gravity_.up);
   landmark.pose.position = place.x() * gravity_.forward + place.y() * gravity_.left +
                            (height + share * (query.height - height)) * gravity_.up;
-  landmark.pose.yaw = driving ? seen.yaw : WrapAngle(landmark.pose.yaw + share * WrapAngle(seen.yaw - landmark.pose.yaw, M_PI));
+  landmark.pose.yaw =
+      driving ? seen.yaw : WrapAngle(landmark.pose.yaw + share * WrapAngle(seen.yaw - landmark.pose.yaw, M_PI));
   landmark.dims = FuseDims(landmark.sightings);
   Reindex(landmark, view.stamp);
 }

@@ -67,8 +67,7 @@ Quadratic Eliminate(const Quadratic& q, int dropped) {
   const int kept = static_cast<int>(q.H.rows()) - dropped;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q.H.topLeftCorner(dropped, dropped));
   const double floor = 1e-12 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
-  const Eigen::VectorXd inverse =
-      eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
+  const Eigen::VectorXd inverse = eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
   const Eigen::MatrixXd H_inverse = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   const Eigen::MatrixXd coupling = q.H.bottomLeftCorner(kept, dropped) * H_inverse;
   return {q.H.bottomRightCorner(kept, kept) - coupling * q.H.topRightCorner(dropped, kept),
@@ -79,7 +78,8 @@ Quadratic Eliminate(const Quadratic& q, int dropped) {
 void SquareRoot(const Quadratic& q, BaPrior& prior) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (q.H + q.H.transpose()));
   const double floor = 1e-10 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
-  const Eigen::VectorXd root = eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? std::sqrt(v) : 0.; });
+  const Eigen::VectorXd root =
+      eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? std::sqrt(v) : 0.; });
   const Eigen::VectorXd inverse_root = root.unaryExpr([](double v) { return v > 0 ? 1. / v : 0.; });
   prior.J = root.asDiagonal() * eigen.eigenvectors().transpose();
   prior.r0 = inverse_root.asDiagonal() * eigen.eigenvectors().transpose() * q.b;
@@ -92,7 +92,8 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, c
   const std::set<int> gone_cameras(cameras.begin(), cameras.end()), gone_objects(objects.begin(), objects.end());
   BaTerms terms(problem, options);
 
-  // Residuals that touch what goes, and the states that those residuals touch: what stays of them is the prior's subject.
+  // Residuals that touch what goes, and the states that those residuals touch: what stays of them is the prior's
+  // subject.
   std::set<ceres::ResidualBlockId> residuals;
   const auto collect = [&](double* block) {
     std::vector<ceres::ResidualBlockId> touching;

@@ -107,8 +107,8 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
     const BaObject& object = problem.objects[sighting.object];
     const double range = sighting.T_cam_object.translation().norm();
     const double period = object.symmetry == Symmetry::kFull ? 0. : M_PI;
-    const ObjectResidual residual{sighting.T_cam_object,
-                                  SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)), period, problem.gravity};
+    const ObjectResidual residual{sighting.T_cam_object, SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)),
+                                  period, problem.gravity};
     const Vec3& p = object.pose.position;
     const double state[4] = {p.x(), p.y(), p.z(), object.pose.yaw};
     double r[4];

@@ -43,7 +43,8 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections, camera);
     record.matched = report.map.matched;
   }
-  for (Detection& detection : record.detections) {  // kept for associating anew at the end: what was seen, not how it looked
+  for (Detection& detection :
+       record.detections) {  // kept for associating anew at the end: what was seen, not how it looked
     detection.colour.clear();
     detection.embedding.clear();
   }

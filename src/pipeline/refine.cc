@@ -13,15 +13,16 @@ bool InMap(const MapLandmark& landmark, const RefineOptions& options) {
          static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
 }
 
-// What is seen often enough and has not been found driving belongs to the map, also where the stream ended too early for
-// it to be confirmed.
+// What is seen often enough and has not been found driving belongs to the map, also where the stream ended too early
+// for it to be confirmed.
 void ConfirmAll(ObjectMap& map, const Options& all) {
   const RefineOptions& options = all.refine;
   std::vector<LandmarkId> confirm, drop;
   for (const auto& [id, landmark] : map.landmarks()) {
     const bool enough = static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
     const bool open = landmark.state == LandmarkState::kTentative || landmark.state == LandmarkState::kStale;
-    const bool parked = landmark.symmetry == Symmetry::kFull || landmark.motion.Verdict(all.map.motion) == Motion::kParked;
+    const bool parked =
+        landmark.symmetry == Symmetry::kFull || landmark.motion.Verdict(all.map.motion) == Motion::kParked;
     if (open && enough && parked) confirm.push_back(landmark.id);
     if (landmark.state == LandmarkState::kConfirmed && !enough) drop.push_back(landmark.id);
   }
@@ -44,8 +45,8 @@ BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& fram
     camera_of_frame[frames[i].frame] = static_cast<int>(i);
     problem.cameras.push_back({frames[i].frame, frames[i].T_world_cam});
     if (i > 0)
-      problem.odometry.push_back({static_cast<int>(i) - 1, static_cast<int>(i),
-                                  frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam});
+      problem.odometry.push_back(
+          {static_cast<int>(i) - 1, static_cast<int>(i), frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam});
   }
   for (const auto& [id, landmark] : map.landmarks()) {
     if (!InMap(landmark, options.refine)) continue;
@@ -121,9 +122,8 @@ void FuseDuplicates(ObjectMap& map, std::vector<FrameRecord>& frames, const Refi
   std::vector<LandmarkId> order;
   for (const auto& [id, landmark] : map.landmarks())
     if (landmark.state == LandmarkState::kConfirmed) order.push_back({id});
-  std::stable_sort(order.begin(), order.end(), [&](LandmarkId a, LandmarkId b) {
-    return map.at(a).sightings.size() > map.at(b).sightings.size();
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](LandmarkId a, LandmarkId b) { return map.at(a).sightings.size() > map.at(b).sightings.size(); });
   std::map<int, LandmarkId> heir;
   for (const LandmarkId keep : order) {
     if (map.landmarks().count(keep.value) == 0) continue;

@@ -8,8 +8,7 @@ namespace {
 bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
   return hooks.with_image(frame.image_left, [&](const ImageView& image) {
     for (Detection& detection : frame.detections)
-      if (detection.box && detection.colour.empty())
-        detection.colour = ColourVector(image, *detection.box, options);
+      if (detection.box && detection.colour.empty()) detection.colour = ColourVector(image, *detection.box, options);
   });
 }
 

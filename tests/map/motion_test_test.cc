@@ -42,9 +42,7 @@ TEST(MotionTest, DrivingIsDriving) {
   }
 }
 
-TEST(MotionTest, OneSightingDecidesNothing) {
-  EXPECT_EQ(Watch(0, 0.1, 1, 1).Verdict({}), Motion::kUndecided);
-}
+TEST(MotionTest, OneSightingDecidesNothing) { EXPECT_EQ(Watch(0, 0.1, 1, 1).Verdict({}), Motion::kUndecided); }
 
 TEST(MotionTest, ACreepingBiasIsNotDriving) {  // a detector's bias turns with the viewing ray: 1 m in 4 s
   EXPECT_NE(Watch(0.25, 0.1, 40, 1).Verdict({}), Motion::kDriving);

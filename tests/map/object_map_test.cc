@@ -52,8 +52,9 @@ TEST_F(ObjectMapTest, ADrivingCarNeverEntersTheMap) {
   for (const double speed : {3., 8., -15.}) {
     ObjectMap map = Make();
     for (int frame = 0; frame < 30; ++frame) {
-      const MapUpdate update = map.AddFrame(frame, 0.1 * frame, Camera(frame),
-                                            {See(frame, {3, 1, 20}), See(frame, {0, 1, 40 + 0.1 * speed * frame})}, nullptr);
+      const MapUpdate update =
+          map.AddFrame(frame, 0.1 * frame, Camera(frame),
+                       {See(frame, {3, 1, 20}), See(frame, {0, 1, 40 + 0.1 * speed * frame})}, nullptr);
       ASSERT_EQ(update.matched.size(), 2u);
     }
     EXPECT_EQ(Count(map, LandmarkState::kConfirmed), 1) << "speed " << speed;
@@ -66,7 +67,9 @@ TEST_F(ObjectMapTest, ACarThatDrivesOffLeavesTheMap) {
   for (int frame = 0; frame < 60; ++frame) {
     const double z = 30 + (frame < 30 ? 0 : 0.5 * 2. * std::pow(0.1 * (frame - 30), 2));  // 2 m/s^2
     map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {0, 1, z})}, nullptr);
-    if (frame == 29) { EXPECT_EQ(Count(map, LandmarkState::kConfirmed), 1); }
+    if (frame == 29) {
+      EXPECT_EQ(Count(map, LandmarkState::kConfirmed), 1);
+    }
   }
   EXPECT_EQ(map.at({1}).state, LandmarkState::kDynamic);
 }
@@ -131,7 +134,8 @@ TEST_F(ObjectMapTest, FuseKeepsEverySightingOnce) {
 TEST_F(ObjectMapTest, EmptyFramesAndMatchAlone) {
   ObjectMap map = Make();
   EXPECT_TRUE(map.AddFrame(0, 0, Camera(0), {}, nullptr).matched.empty());
-  for (int frame = 1; frame < 6; ++frame) map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {3, 1, 20})}, nullptr);
+  for (int frame = 1; frame < 6; ++frame)
+    map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {3, 1, 20})}, nullptr);
   const auto matched = map.Match(0.6, Camera(6), {See(6, {3.1, 1, 20}), See(6, {30, 1, 20})}, nullptr);
   ASSERT_EQ(matched.size(), 2u);
   EXPECT_EQ(matched[0].value, 1);

@@ -51,8 +51,7 @@ BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigne
 double WorstCamera(const BaProblem& problem, const Truth& truth) {
   double worst = 0;
   for (std::size_t i = 0; i < truth.cameras.size(); ++i)
-    worst = std::max(worst,
-                     (problem.cameras[i].T_world_cam.translation() - truth.cameras[i].translation()).norm());
+    worst = std::max(worst, (problem.cameras[i].T_world_cam.translation() - truth.cameras[i].translation()).norm());
   return worst;
 }
 

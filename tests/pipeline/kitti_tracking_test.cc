@@ -48,7 +48,9 @@ TEST_P(KittiTracking, ReachesItsFigures) {
   run.reference = dataset.groundtruth ? dataset.groundtruth->poses : ScaledPath(result.odometry.poses, 0.975);
   run.truth = ReadKittiTrackingLabels(data + "/label_02/" + bar.sequence + ".txt");
   const MapMetrics metrics = ComputeMapMetrics(run);
-  if (dataset.groundtruth) { EXPECT_LE(ComputeAte(run.estimate, run.reference).error.rmse, bar.ate_m); }
+  if (dataset.groundtruth) {
+    EXPECT_LE(ComputeAte(run.estimate, run.reference).error.rmse, bar.ate_m);
+  }
   EXPECT_GE(*metrics.iou_map, bar.iou);
   EXPECT_GE(metrics.coverage, bar.coverage);
   EXPECT_GE(metrics.purity, bar.purity);

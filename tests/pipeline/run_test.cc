@@ -147,7 +147,9 @@ TEST(Mapper, RefineMayBeCalledAnyTime) {
   EXPECT_FALSE(mapper.Refine().usable) << "nothing seen yet";
   for (int i = 0; i < 120; ++i) {
     mapper.AddFrame(scene.frames[i]);
-    if (i == 60) { EXPECT_TRUE(mapper.Refine().usable); }
+    if (i == 60) {
+      EXPECT_TRUE(mapper.Refine().usable);
+    }
   }
   mapper.Refine();
   mapper.Refine();

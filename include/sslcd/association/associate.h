@@ -37,7 +37,7 @@ struct PlanarBelief {
 struct AssociationQuery {
   const Detection* detection = nullptr;
   PlanarBelief place;
-  double height = 0;  ///< of the centre above the world's origin [m]
+  double height = 0;         ///< of the centre above the world's origin [m]
   double viewpoint_rad = 0;  ///< bearing of the camera in the object frame
 };
 

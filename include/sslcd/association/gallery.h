@@ -7,9 +7,9 @@
 namespace sslcd {
 
 /// What a landmark has looked like: the paper's H_k and E_k, bounded.
-/// Eqs. 5 and 6 average the dot product with every past vector: O(n), and dominated by the side seen most. The average of
-/// dot products is the dot product with the average, so `kMean` keeps just that (same value, O(1)); `kByViewpoint` keeps
-/// one average per viewing direction and compares with the bin nearest to the current one.
+/// Eqs. 5 and 6 average the dot product with every past vector: O(n), and dominated by the side seen most. The average
+/// of dot products is the dot product with the average, so `kMean` keeps just that (same value, O(1)); `kByViewpoint`
+/// keeps one average per viewing direction and compares with the bin nearest to the current one.
 class Gallery {
  public:
   enum class Mode { kMean, kByViewpoint };
@@ -20,7 +20,8 @@ class Gallery {
   /// Vectors of one gallery have one length; an empty vector is ignored.
   void Add(const std::vector<float>& vector, double viewpoint_rad);
 
-  /// Similarity of a vector seen from `viewpoint_rad` in [0, 1] (negative dot products count as 0). None while either is empty.
+  /// Similarity of a vector seen from `viewpoint_rad` in [0, 1] (negative dot products count as 0). None while either
+  /// is empty.
   std::optional<double> Compare(const std::vector<float>& vector, double viewpoint_rad) const;
 
   /// Takes over what another gallery has seen (fusion of two landmarks), its viewpoints turned by `turn_rad`.

@@ -10,7 +10,7 @@ namespace sslcd {
 /// Rectified pinhole camera as a 3x4 projection P = K [I | t], the rows of KITTI's calib.txt. [px, m]
 struct Camera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
-  Vec3 offset{0, 0, 0};  ///< K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
+  Vec3 offset{0, 0, 0};       ///< K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
   int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
 };
 

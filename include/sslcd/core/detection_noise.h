@@ -7,15 +7,16 @@
 namespace sslcd {
 
 /// How far a 3D detector is off, as a function of range: sigma = (base + slope * range) * scale.
-/// The shape holds for detectors as different as LiDAR and stereo ones, whose errors differ by a factor of 3 to 10; that
-/// factor is the NoiseScale below, which is learnt during the run from the detections' own scatter about the landmarks.
+/// The shape holds for detectors as different as LiDAR and stereo ones, whose errors differ by a factor of 3 to 10;
+/// that factor is the NoiseScale below, which is learnt during the run from the detections' own scatter about the
+/// landmarks.
 struct DetectionNoise {
-  double radial_m = 0.06, radial_per_m = 0.003;      ///< along the viewing ray
-  double lateral_m = 0.04, lateral_per_m = 0.0015;   ///< across the ray, horizontal
+  double radial_m = 0.06, radial_per_m = 0.003;     ///< along the viewing ray
+  double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< across the ray, horizontal
   double vertical_m = 0.05, vertical_per_m = 0.0005;
   double yaw_rad = 0.02, yaw_per_m = 0.0005;
-  double size_relative = 0.05;                       ///< each dimension, relative to itself
-  double initial_scale = 2.;                         ///< of every component, before anything has been learnt
+  double size_relative = 0.05;  ///< each dimension, relative to itself
+  double initial_scale = 2.;    ///< of every component, before anything has been learnt
 };
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise);
 

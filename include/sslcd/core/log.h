@@ -11,7 +11,8 @@ enum class LogLevel { kDebug, kInfo, kWarning, kError };
 /// Where messages go. The library is silent until a host installs a sink; it never prints by itself.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// Installs the sink (empty: silent) and returns the one before. Not to be called while the library runs in another thread.
+/// Installs the sink (empty: silent) and returns the one before. Not to be called while the library runs in another
+/// thread.
 LogSink SetLogSink(LogSink sink);
 
 /// Hands one line to the sink.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <lie/se3.h>
+#include <Eigen/Core>
 
 namespace sslcd {
 
@@ -20,8 +20,8 @@ double WrapAngle(double angle_rad);
 double WrapAngle(double angle_rad, double period_rad);
 
 /// A gravity-aligned frame: which way is up, and the two horizontal axes that yaw is measured in.
-/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up x forward).
-/// KITTI camera axes: up = -y; VINS worlds: up = +z.
+/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up x
+/// forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
 struct GravityFrame {
   Vec3 up{0, -1, 0};
   Vec3 forward{1, 0, 0};

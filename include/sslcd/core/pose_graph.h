@@ -18,7 +18,8 @@ struct PoseGraph {
     int from = 0, to = 0;  ///< vertex ids
     Pose T_from_to;
     /// Information of Log(T_from_to^-1 T_world_from^-1 T_world_to), order [translation, rotation].
-    Eigen::Matrix<double, 6, 6, Eigen::DontAlign> information = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
+    Eigen::Matrix<double, 6, 6, Eigen::DontAlign> information =
+        Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
   };
   std::vector<Vertex> vertices;
   std::vector<Edge> edges;

@@ -30,9 +30,7 @@ class TimingTable {
 class ScopedTimer {
  public:
   ScopedTimer(TimingTable& table, const char* stage) : table_(table), stage_(stage) {}
-  ~ScopedTimer() {
-    table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count());
-  }
+  ~ScopedTimer() { table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count()); }
   ScopedTimer(const ScopedTimer&) = delete;
   ScopedTimer& operator=(const ScopedTimer&) = delete;
 

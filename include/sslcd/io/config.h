@@ -20,7 +20,8 @@ void LoadConfigFile(const std::string& path, const Describe& describe);
 /// The same for text that was read elsewhere; `name` stands for the file in messages.
 void LoadConfigText(const std::string& text, const std::string& name, const Describe& describe);
 
-/// Settings of the form `section.key=value`; all problems of all settings at once, each as `--set section.key=value: message`.
+/// Settings of the form `section.key=value`; all problems of all settings at once, each as `--set section.key=value:
+/// message`.
 void ApplySettings(const std::vector<std::string>& settings, const Describe& describe);
 
 /// YAML that loads back to identical values; with the meaning of each key as a comment if wanted.

@@ -38,8 +38,8 @@ std::string TimingJson(const TimingTable& timing);
 std::string MetricsJson(const Metrics& metrics);
 
 /// Writes trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o, loops.csv, timing.json,
-/// metrics.json and config.yaml into a folder that is made if need be, each file whole or not at all. Returns their paths.
-/// Throws Error(kOutput).
+/// metrics.json and config.yaml into a folder that is made if need be, each file whole or not at all. Returns their
+/// paths. Throws Error(kOutput).
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs);
 
 }  // namespace sslcd

@@ -27,21 +27,21 @@ struct MapLandmark {
   std::string label;
   Symmetry symmetry = Symmetry::kNone;
   LandmarkState state = LandmarkState::kTentative;
-  UprightPose pose;           ///< in the world
-  Vec3 dims{0, 0, 0};         ///< length, width, height [m]
+  UprightPose pose;    ///< in the world
+  Vec3 dims{0, 0, 0};  ///< length, width, height [m]
   MotionTest motion;
-  Gallery colour, embedding;  ///< H_k, E_k
+  Gallery colour, embedding;        ///< H_k, E_k
   std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
-  double last_seen = 0;       ///< [s]
+  double last_seen = 0;             ///< [s]
 };
 
-/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around it. Weights fall with
-/// range, as the detections' precision does. At least one sighting.
+/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around it. Weights fall
+/// with range, as the detections' precision does. At least one sighting.
 Vec3 FuseDims(const std::vector<Sighting>& sightings);
 
-/// Decides which way round the object stands by a vote of its sightings (a detector that takes front for back is wrong by
-/// half a turn, and bundle adjustment does not listen to that half turn). `yaws` are the sightings' yaws in the world.
-/// Returns `yaw` or `yaw + pi`, wrapped.
+/// Decides which way round the object stands by a vote of its sightings (a detector that takes front for back is wrong
+/// by half a turn, and bundle adjustment does not listen to that half turn). `yaws` are the sightings' yaws in the
+/// world. Returns `yaw` or `yaw + pi`, wrapped.
 double VoteHeading(double yaw, const std::vector<double>& yaws);
 
 }  // namespace sslcd

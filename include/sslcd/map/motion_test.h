@@ -14,16 +14,17 @@ namespace sslcd {
 /// A detector's bias turns with the viewing ray, so a parked object seems to creep as the camera drives by. Driving
 /// therefore also takes a real distance at a real speed.
 struct MotionTestOptions {
-  double speed_prior_mps = 8.;      ///< standard deviation of an unknown object's speed, per axis
-  double acceleration_mps2 = 2.;    ///< of the driving model
+  double speed_prior_mps = 8.;        ///< standard deviation of an unknown object's speed, per axis
+  double acceleration_mps2 = 2.;      ///< of the driving model
   double wander_m_per_sqrt_s = 0.02;  ///< of the standing model: what camera drift does to it
-  double decide_at = 6.;            ///< log Bayes factor at which an object is called driving (and, negated, parked)
-  double min_travel_m = 2.;         ///< nothing is called driving that has not come so far ...
-  double min_speed_mps = 0.7;       ///< ... at least so fast
-  double max_parked_speed_mps = 2.; ///< parked: the driving model's speed is below this, with one standard deviation to spare
-  double settle_s = 1.5;            ///< a driving object that stands for so long is a new parked one
-  double memory = 10.;              ///< the factor's limit: how much evidence a change of mind has to overcome
-  double forget_after_s = 5.;       ///< unseen for longer: start again
+  double decide_at = 6.;              ///< log Bayes factor at which an object is called driving (and, negated, parked)
+  double min_travel_m = 2.;           ///< nothing is called driving that has not come so far ...
+  double min_speed_mps = 0.7;         ///< ... at least so fast
+  double max_parked_speed_mps =
+      2.;                 ///< parked: the driving model's speed is below this, with one standard deviation to spare
+  double settle_s = 1.5;  ///< a driving object that stands for so long is a new parked one
+  double memory = 10.;    ///< the factor's limit: how much evidence a change of mind has to overcome
+  double forget_after_s = 5.;  ///< unseen for longer: start again
 };
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
 
@@ -69,7 +70,8 @@ class MotionTest {
   Covariance start_covariance_ = Covariance::Zero();
   Covariance parked_covariance_ = Covariance::Zero();
   Eigen::Matrix<double, 4, 1, Eigen::DontAlign> state_ = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>::Zero();
-  Eigen::Matrix<double, 4, 4, Eigen::DontAlign> state_covariance_ = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();
+  Eigen::Matrix<double, 4, 4, Eigen::DontAlign> state_covariance_ =
+      Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();
 };
 
 }  // namespace sslcd

@@ -14,14 +14,14 @@ namespace sslcd {
 
 /// Life cycle of landmarks.
 struct MapOptions {
-  int confirm_sightings = 3;       ///< sightings that turn tentative into confirmed
-  double birth_score = 0.5;        ///< a detection less certain than this makes no new landmark
-  double stale_after_s = 2.;       ///< a tentative or driving object unseen for longer is given up
-  double search_radius_m = 12.;    ///< how far from a detection its landmark is looked for
-  double caution = 1.5;            ///< factor on the learnt detection sigmas in gates and in the motion test: a detector's
-                                   ///< errors drift with range and viewpoint, so successive ones say less than they seem to
-  double min_noise_scale = 3.;     ///< added to that (in quadrature): a good detector's errors have long tails
-  bool learn_noise = true;         ///< learn the detector's noise scale from the scatter of its detections
+  int confirm_sightings = 3;     ///< sightings that turn tentative into confirmed
+  double birth_score = 0.5;      ///< a detection less certain than this makes no new landmark
+  double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is given up
+  double search_radius_m = 12.;  ///< how far from a detection its landmark is looked for
+  double caution = 1.5;  ///< factor on the learnt detection sigmas in gates and in the motion test: a detector's
+                         ///< errors drift with range and viewpoint, so successive ones say less than they seem to
+  double min_noise_scale = 3.;  ///< added to that (in quadrature): a good detector's errors have long tails
+  bool learn_noise = true;      ///< learn the detector's noise scale from the scatter of its detections
   MotionTestOptions motion;
 };
 void DescribeFields(FieldVisitor& visitor, MapOptions& options);

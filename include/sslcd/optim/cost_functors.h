@@ -15,12 +15,12 @@
 namespace sslcd {
 
 /// Robust form of Eq. 8: what a camera measured of an upright object, against where the map has it. Whitened.
-/// Residual [radial, lateral, vertical, yaw]: position error in the measured ray's frame, and heading error in the world
-/// folded into one yaw period.
+/// Residual [radial, lateral, vertical, yaw]: position error in the measured ray's frame, and heading error in the
+/// world folded into one yaw period.
 struct ObjectResidual {
-  Pose T_cam_object;        ///< measured
+  Pose T_cam_object;  ///< measured
   DetectionSigmas sigmas;
-  double yaw_period = 0;    ///< [rad]; 0: no yaw, the fourth component is zero
+  double yaw_period = 0;  ///< [rad]; 0: no yaw, the fourth component is zero
   GravityFrame gravity;
 
   template <class T>
@@ -80,7 +80,7 @@ struct PaperObjectResidual {
 /// Consecutive cameras against the odometry, whose translations are off by one common factor:
 /// r = diag(1/sigma) Log((s T_ij)^-1 T_i^-1 T_j), components [rho, phi], s T = (R, exp(log_scale) t).
 struct OdometryResidual {
-  Pose T_from_to;  ///< odometry, as measured
+  Pose T_from_to;                                    ///< odometry, as measured
   double sigma_translation = 1, sigma_rotation = 1;  ///< [m, rad]
 
   template <class T>

@@ -15,10 +15,10 @@ namespace sslcd {
 /// var = floor^2 + walk^2 d.
 struct OdometryNoise {
   double translation_floor_m = 0.003;
-  double translation_walk = 0.01;     ///< [m per sqrt(m)]
+  double translation_walk = 0.01;  ///< [m per sqrt(m)]
   double rotation_floor_rad = 2e-4;
-  double rotation_walk = 5e-4;        ///< [rad per sqrt(m)]
-  double scale_prior = 0.05;          ///< standard deviation of the log scale; 0 keeps the scale at one
+  double rotation_walk = 5e-4;  ///< [rad per sqrt(m)]
+  double scale_prior = 0.05;    ///< standard deviation of the log scale; 0 keeps the scale at one
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
@@ -35,8 +35,8 @@ struct BaOptions {
   Residual residual = Residual::kRobust;
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 30;
-  double loss_scale = 3.;      ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
-  double correlation = 2.;     ///< robust: factor on detection sigmas, because errors of successive frames are alike
+  double loss_scale = 3.;   ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
+  double correlation = 2.;  ///< robust: factor on detection sigmas, because errors of successive frames are alike
   OdometryNoise odometry;
 };
 void DescribeFields(FieldVisitor& visitor, BaOptions& options);
@@ -64,8 +64,8 @@ struct BaOdometry {
   Pose T_from_to;
 };
 
-/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order is
-/// cameras (6 each, tangent at x0), objects (4 each), log scale (1).
+/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order
+/// is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
 struct BaPrior {
   std::vector<int> frames, object_ids;  ///< whose states it talks about, by name
   std::vector<Pose> cameras;            ///< x0
@@ -100,8 +100,9 @@ struct BaSummary {
 /// geometry: a problem without sightings or with non-finite input comes back unchanged with `usable` false.
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options);
 
-/// The prior that replaces the given cameras and objects (sorted indices) and every residual that touches them, linearised
-/// where the problem stands (Schur complement). Objects not named must not be seen from a dropped camera only.
+/// The prior that replaces the given cameras and objects (sorted indices) and every residual that touches them,
+/// linearised where the problem stands (Schur complement). Objects not named must not be seen from a dropped camera
+/// only.
 BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, const std::vector<int>& objects,
                     const BaOptions& options);
 

@@ -55,9 +55,9 @@ class Mapper {
 
   const ObjectMap& map() const { return map_; }
   const std::vector<FrameRecord>& frames() const { return frames_; }
-  Trajectory CameraTrajectory() const;    ///< one pose a frame
+  Trajectory CameraTrajectory() const;     ///< one pose a frame
   std::vector<MapObject> Objects() const;  ///< every landmark, by id
-  double scale() const;                   ///< metres per odometry metre
+  double scale() const;                    ///< metres per odometry metre
   TimingTable& timing() { return timing_; }
 
  private:

@@ -34,7 +34,7 @@ struct RunResult {
   BaSummary refinement;
   TimingTable timing;
   int images_failed = 0;
-  bool stopped = false;             ///< the stop hook ended it early
+  bool stopped = false;  ///< the stop hook ended it early
 };
 
 /// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop). Deterministic.
