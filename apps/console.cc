@@ -48,7 +48,9 @@ void Console::EndProgress() const {
 }
 
 void Console::Say(const std::string& line) const {
-  if (!quiet) std::printf("%s\n", line.c_str());
+  if (quiet) return;
+  std::printf("%s\n", line.c_str());
+  std::fflush(stdout);  // also in a pipe: whoever waits there wants to know
 }
 
 std::string AlignedTable(const std::vector<std::vector<std::string>>& rows) {
