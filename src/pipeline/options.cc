@@ -40,6 +40,7 @@ Options DefaultOptions(Options::Mode mode) {
   Options options;
   options.mode = mode;
   if (mode == Options::Mode::kPaper) {
+    options.colour.method = ColourOptions::Method::kPaper;
     options.association.method = AssociationOptions::Method::kPaper;
     options.ba.residual = BaOptions::Residual::kPaper;
     options.ba.solver = BaOptions::Solver::kGaussNewton;

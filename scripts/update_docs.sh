@@ -1,0 +1,42 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Writes config/default.yaml and docs/configuration.md from the program's own field tables; with --check only tells
+# whether they are up to date (exit code 1 if not).
+#   scripts/update_docs.sh SSLCD_RUN [--check]
+set -euo pipefail
+run=$(realpath "${1:?usage: scripts/update_docs.sh SSLCD_RUN [--check]}")
+cd "$(dirname "$0")/.."
+
+configuration() {
+  cat <<'TEXT'
+# Configuration
+
+`sslcd_run run` starts from the defaults of its mode (`--mode robust|paper`, or `mode:` in the file), then applies the file
+given with `--config`, then each `--set section.key=value`. What a file leaves out keeps its default. Everything is strict,
+and all problems are reported at once, with exit code 4:
+```
+error: config/mine.yaml:3:3: unknown key 'max_iteratons' in 'ba' - did you mean 'max_iterations'?
+config/mine.yaml:7:12: 'caution' is 1000, must be in [1, 100]
+```
+`sslcd_run check-config FILE` checks a file, `sslcd_run dump-config` prints the configuration that a run would use; every run
+folder holds its own as `config.yaml`. `config/default.yaml` holds all defaults, `config/paper.yaml` what `mode: paper`
+changes. Units are the suffix of a key (`_m`, `_s`, `_rad`, `_px`, `_mps`).
+
+This page is written by `scripts/update_docs.sh` from the same field tables that load the files.
+
+TEXT
+  "$run" dump-config --markdown
+}
+
+defaults() {
+  echo "# The defaults (sslcd_run dump-config). Keys that a file leaves out keep these values."
+  "$run" dump-config
+}
+
+if [[ ${2:-} == --check ]]; then
+  diff <(configuration) docs/configuration.md && diff <(defaults) config/default.yaml ||
+    { echo "out of date: run scripts/update_docs.sh"; exit 1; }
+  exit 0
+fi
+configuration >docs/configuration.md
+defaults >config/default.yaml
