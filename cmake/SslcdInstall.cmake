@@ -11,6 +11,9 @@ install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
 set_target_properties(sslcd_lie PROPERTIES EXPORT_NAME lie)
 install(TARGETS sslcd sslcd_lie EXPORT sslcdTargets)
 install(EXPORT sslcdTargets NAMESPACE sslcd:: DESTINATION ${SSLCD_CONFIG_DIR})
+if(TARGET sslcd_run)  # finds a shared sslcd wherever the installed tree is moved to
+  set_target_properties(sslcd_run PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()
 
 get_target_property(SSLCD_LIBRARY_TYPE sslcd TYPE)
 configure_package_config_file(cmake/sslcdConfig.cmake.in sslcdConfig.cmake INSTALL_DESTINATION ${SSLCD_CONFIG_DIR})

@@ -93,7 +93,7 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
     const PosePrior gauge{problem.cameras.front().T_world_cam, 1e-3, 1e-4};
     ceres_.AddResidualBlock(AutoDiff<PosePrior, 6, 7>(gauge), nullptr, cameras_.front().data());
     if (options.odometry.scale_prior > 0) {
-      const ScalarPrior scale{0., options.odometry.scale_prior};
+      const ScalarPrior scale{problem.expected_log_scale, options.odometry.scale_prior};
       ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
     }
   }

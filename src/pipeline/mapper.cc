@@ -51,7 +51,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   report.keyframe = IsKeyframe(frame.T_odom_cam);
   frames_.push_back(std::move(record));
   if (report.keyframe) {
-    window_.push_back({static_cast<int>(frames_.size()) - 1});
+    window_.push_back(static_cast<int>(frames_.size()) - 1);
     if (options_.window.enabled) {
       const ScopedTimer timer(timing_, "object optimisation");
       report.window = OptimiseWindow();
@@ -68,7 +68,7 @@ Pose Mapper::Predict(const Pose& T_odom_cam) const {
 
 bool Mapper::IsKeyframe(const Pose& T_odom_cam) const {
   if (window_.empty()) return true;
-  const Pose step = frames_[window_.back().record].T_odom_cam.inverse() * T_odom_cam;
+  const Pose step = frames_[window_.back()].T_odom_cam.inverse() * T_odom_cam;
   return step.translation().norm() >= options_.window.keyframe_m ||
          step.so3().Log().norm() >= options_.window.keyframe_rad;
 }
@@ -79,19 +79,20 @@ BaProblem Mapper::WindowProblem() const {
   problem.noise = options_.noise;
   problem.noise_scale = map_.noise_scale();
   problem.log_scale = log_scale_;
+  problem.expected_log_scale = refined_log_scale_;
   problem.prior = prior_;
   for (std::size_t i = 0; i < window_.size(); ++i) {
-    const FrameRecord& record = frames_[window_[i].record];
+    const FrameRecord& record = frames_[window_[i]];
     problem.cameras.push_back({record.frame, record.T_world_cam});
     if (i == 0) continue;
-    const FrameRecord& before = frames_[window_[i - 1].record];
+    const FrameRecord& before = frames_[window_[i - 1]];
     problem.odometry.push_back(
         {static_cast<int>(i) - 1, static_cast<int>(i), before.T_odom_cam.inverse() * record.T_odom_cam});
   }
 
   std::set<int> ids(prior_.object_ids.begin(), prior_.object_ids.end());
-  for (const Keyframe& keyframe : window_) {
-    for (const LandmarkId id : frames_[keyframe.record].matched) {
+  for (const int keyframe : window_) {
+    for (const LandmarkId id : frames_[keyframe].matched) {
       const auto known = map_.landmarks().find(id.value);
       if (known == map_.landmarks().end() || known->second.state != LandmarkState::kConfirmed) continue;
       if (static_cast<int>(known->second.sightings.size()) >= options_.window.min_sightings) ids.insert(id.value);
@@ -116,8 +117,7 @@ BaSummary Mapper::OptimiseWindow() {
   BaProblem problem = WindowProblem();
   const BaSummary summary = SolveBa(problem, options_.ba);
   if (summary.usable) {
-    for (std::size_t i = 0; i < window_.size(); ++i)
-      frames_[window_[i].record].T_world_cam = problem.cameras[i].T_world_cam;
+    for (std::size_t i = 0; i < window_.size(); ++i) frames_[window_[i]].T_world_cam = problem.cameras[i].T_world_cam;
     for (const BaObject& object : problem.objects)
       if (map_.landmarks().at(object.id).state == LandmarkState::kConfirmed) map_.SetPose({object.id}, object.pose);
     log_scale_ = problem.log_scale;
@@ -136,14 +136,14 @@ void Mapper::SlideWindow(const BaProblem& problem) {
     if (!seen) gone_objects.push_back(k);
   }
   prior_ = Marginalise(problem, {0}, gone_objects, options_.ba);
-  const int left_behind = window_.front().record;
+  const int left_behind = window_.front();
   window_.erase(window_.begin());
   Propagate(left_behind);
 }
 
 // Frames between keyframes follow the keyframe before them.
 void Mapper::Propagate(std::size_t from_record) {
-  const std::size_t to = window_.empty() ? frames_.size() : window_.front().record;
+  const std::size_t to = window_.empty() ? frames_.size() : window_.front();
   for (std::size_t i = from_record + 1; i < to; ++i)
     frames_[i].T_world_cam = frames_[i - 1].T_world_cam * Step(frames_[i - 1], frames_[i].T_odom_cam, log_scale_);
 }
@@ -153,6 +153,7 @@ BaSummary Mapper::Refine() {
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
   const BaSummary summary = RefineMap(map_, frames_, log_scale_, options_, camera);
   // The window's prior speaks of poses that have just moved.
+  refined_log_scale_ = log_scale_;
   prior_ = {};
   if (!window_.empty()) window_.erase(window_.begin(), window_.end() - 1);
   return summary;

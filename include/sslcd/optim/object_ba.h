@@ -83,7 +83,8 @@ struct BaProblem {
   std::vector<BaSighting> sightings;
   std::vector<BaOdometry> odometry;
   double log_scale = 0;
-  BaPrior prior;  ///< empty: the first camera and the scale get their own
+  double expected_log_scale = 0;  ///< mean of the scale's prior, where `prior` is empty
+  BaPrior prior;                  ///< empty: the first camera and the scale get their own
   DetectionNoise noise;
   NoiseScale noise_scale;
 };

@@ -61,9 +61,6 @@ class Mapper {
   TimingTable& timing() { return timing_; }
 
  private:
-  struct Keyframe {
-    int record;  // index into frames_
-  };
   Pose Predict(const Pose& T_odom_cam) const;
   bool IsKeyframe(const Pose& T_odom_cam) const;
   BaSummary OptimiseWindow();
@@ -75,9 +72,10 @@ class Mapper {
   MapperContext context_;
   ObjectMap map_;
   std::vector<FrameRecord> frames_;
-  std::vector<Keyframe> window_;
+  std::vector<int> window_;  // the keyframes in it: indices into frames_
   BaPrior prior_;
   double log_scale_ = 0;
+  double refined_log_scale_ = 0;  // what the last full-map optimisation found
   TimingTable timing_;
 };
 
