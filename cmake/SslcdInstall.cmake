@@ -19,4 +19,4 @@ get_target_property(SSLCD_LIBRARY_TYPE sslcd TYPE)
 configure_package_config_file(cmake/sslcdConfig.cmake.in sslcdConfig.cmake INSTALL_DESTINATION ${SSLCD_CONFIG_DIR})
 write_basic_package_version_file(sslcdConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfigVersion.cmake
-  DESTINATION ${SSLCD_CONFIG_DIR})
+  cmake/FindFLANN.cmake DESTINATION ${SSLCD_CONFIG_DIR})

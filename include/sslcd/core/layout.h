@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/core/label.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// What an object has looked like from one direction.
+struct AppearanceView {
+  double viewpoint_rad = 0;   ///< bearing of the camera in the object frame, 0 = from the front
+  int count = 1;              ///< sightings behind it
+  std::vector<float> vector;  ///< unit length
+};
+
+/// An object as graph matching sees it: a vertex of the paper's G = (V, E) (IV-A). Coordinates are gravity-aligned:
+/// x forward, y left, z up (the axes of GravityFrame), origin anywhere.
+struct LayoutObject {
+  int id = -1;    ///< landmark id
+  int label = 0;  ///< the label's number; equal labels, equal numbers
+  Symmetry symmetry = Symmetry::kNone;
+  Vec3 position{0, 0, 0};                         ///< centre [m]
+  double yaw = 0;                                 ///< about z; NaN: unknown [rad]
+  Vec3 dims{0, 0, 0};                             ///< length, width, height [m]; zero: unknown
+  std::vector<AppearanceView> colour, embedding;  ///< one per direction it was seen from; empty: unknown
+};
+
+/// A turn about the vertical and a shift: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad, m]
+struct YawShift {
+  double yaw = 0;
+  Vec3 t{0, 0, 0};
+};
+
+}  // namespace sslcd

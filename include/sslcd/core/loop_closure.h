@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sslcd/core/landmark.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+enum class LoopDecision {
+  kNone,       ///< nothing found that could not be chance
+  kAmbiguous,  ///< something fits, but something else fits nearly as well
+  kAccepted,
+};
+
+/// "none", "ambiguous", "accepted".
+const char* ToString(LoopDecision decision);
+
+/// One attempt to close a loop, successful or not: a row of loops.csv.
+struct LoopClosure {
+  int query_frame = 0, match_frame = 0;
+  LoopDecision decision = LoopDecision::kNone;
+  std::string reason;  ///< why it was refused, or what settled it
+  double score = 0, second_score = 0;
+  Pose T_match_query;  ///< where the query camera stands in the match camera's frame
+  double viewpoint_change_rad = 0;
+  std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global
+};
+
+}  // namespace sslcd

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/core/layout.h"
+#include "sslcd/loop/layout_index.h"
+
+namespace sslcd {
+
+/// How much better the local layout is explained by "this is the map, seen under this pose" than by "these are other
+/// objects, strewn at the map's density". A log likelihood ratio, in nats: it speaks the same language on dense lots
+/// and lonely poles, and knows rare labels from common ones.
+struct LayoutLikelihoodOptions {
+  double wrong_label = 0.05;   ///< how often the detector takes one class for another
+  double mapped_prior = 10.;   ///< Beta prior of the share of local objects that the map has: has ...
+  double unmapped_prior = 2.;  ///< ... and has not
+  double min_gain = -1.5;      ///< a match that says less is none [nats]
+  double seen_prior = 3.;      ///< Beta prior of the share of mapped objects in sight that are seen again: seen ...
+  double unseen_prior = 1.5;   ///< ... and not seen
+};
+void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);
+
+struct LayoutFit {
+  std::vector<std::pair<int, int>> matches;  ///< local index, global index: one to one, in order of the local index
+  double score = 0;                          ///< log likelihood ratio of the layout under the pose [nats]
+  double evidence =
+      0;               ///< the same when the pose is not given but has to be found in this map: below 0, chance does it
+  double sigma = 0;    ///< how well matched objects agree, horizontally (standard deviation per axis) [m]
+  int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
+};
+
+class LayoutLikelihood {
+ public:
+  LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
+                   const LayoutLikelihoodOptions& options);
+
+  /// Matches under `pose` and what they say.
+  LayoutFit Evaluate(const YawShift& pose) const;
+
+  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates there.
+  LayoutFit Refine(YawShift& pose, int rounds) const;
+
+  /// Weight of a match by label alone: 1 for equal labels.
+  double LabelGain(int local_label, int global_label) const;
+
+ private:
+  std::vector<std::pair<int, int>> Matches(const YawShift& pose, double gate) const;
+  double Unseen(const YawShift& pose, const std::vector<std::pair<int, int>>& matches, int& should_see) const;
+
+  const std::vector<LayoutObject>& local_;
+  const LayoutIndex& index_;
+  LayoutLikelihoodOptions options_;
+  std::vector<double> label_share_;
+  std::vector<Vec2> hull_;  // of the local objects, counter-clockwise
+  Vec2 hull_centre_{0, 0};
+  double hull_radius_ = 0;
+};
+
+/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points; else yaw 0.
+YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
+
+/// The point where a pose takes it.
+Vec3 Apply(const YawShift& pose, const Vec3& point);
+
+}  // namespace sslcd

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/loop/pose_search.h"
+
+namespace sslcd {
+
+/// A pose that two objects propose, local to global with the local map's centre as origin, and how many others agree.
+struct CoarsePose {
+  float score = 0;             ///< soft count of objects that fall on one another
+  float cosine = 1, sine = 0;  ///< of the yaw
+  float x = 0, y = 0, z = 0;   ///< where it takes the centre [m]
+};
+
+/// The best `options.refine` distinct ones, best first.
+std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
+                                    const LayoutIndex& index, const PoseSearchOptions& options);
+
+}  // namespace sslcd
