@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sslcd/optim/pose_graph_solver.h"
+
+namespace sslcd {
+
+/// Graduated non-convexity with truncated least squares (GNC-TLS; Yang et al., RA-L 2020) over the loop edges. Edges
+/// that are no loops are always trusted.
+struct RobustPoseGraphOptions {
+  PoseGraphOptions graph;
+  double inlier_probability = 0.99;  ///< a true loop passes with this probability: sets the chi2 limit
+  double drift_factor = 3.;  ///< a loop is ruled out where odometry would have to be this many times worse than its
+                             ///< information says; such a loop comes back only if the others lead to it
+  double mu_factor = 1.4;    ///< how fast the cost turns from convex to truncated
+  int max_rounds = 100;      ///< weight updates
+};
+void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
+
+struct RobustPoseGraphSummary {
+  PoseGraphSummary graph;  ///< of the last solve, with the kept loops only; chi2 before and after counts these alone
+  std::vector<double> edge_weight;  ///< per edge: 1 trusted or kept, 0 loop refused
+  int loops_kept = 0, loops_refused = 0;
+  int rounds = 0;
+  double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
+};
+
+/// Decides which loops to believe and moves the vertices to the minimum with those. Nothing is remembered: hand in all
+/// loops ever proposed each time; a loop kept before may be refused once others contradict it, and come back.
+/// The start is the trusted edges' own geometry, which false loops cannot spoil; never throws, as SolvePoseGraph.
+RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options);
+
+/// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's approximation (within 0.5 %
+/// for dof >= 3 and probabilities from .9 to .999).
+double Chi2Quantile(double probability, int dof);
+
+}  // namespace sslcd

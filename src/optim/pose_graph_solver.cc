@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/optim/pose_graph_solver.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "optim/pose_graph_chordal.h"
+#include "optim/pose_graph_cost.h"
+#include "optim/pose_graph_index.h"
+#include "optim/pose_manifold.h"
+#include "sslcd/core/error.h"
+
+namespace sslcd {
+namespace {
+
+using Ends = std::vector<std::pair<int, int>>;
+
+double Chi2Of(const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
+              const std::vector<Pose>& poses) {
+  double chi2 = 0;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
+    chi2 += weights[e] * error.dot(graph.edges[e].information * error);
+  }
+  return chi2;
+}
+
+std::vector<Pose> PosesOf(const PoseGraph& graph) {
+  std::vector<Pose> poses;
+  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
+  return poses;
+}
+
+// Fixed vertices, and the first vertex of each part that has none.
+std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& component) {
+  std::vector<bool> anchored(graph.vertices.size()), held(graph.vertices.size());
+  for (std::size_t v = 0; v < anchored.size(); ++v)
+    if (graph.vertices[v].fixed) anchored[v] = held[component[v]] = true;
+  for (std::size_t v = 0; v < anchored.size(); ++v)
+    if (!held[component[v]]) anchored[v] = held[component[v]] = true;
+  return anchored;
+}
+
+// What is left of a measured rotation once roll and pitch of both ends are known: P_from^-1 Exp(up yaw) P_to with the
+// yaw nearest to the measurement.
+lie::SO3<double> YawPart(const lie::SO3<double>& R_from_to, const lie::SO3<double>& R_world_from,
+                         const lie::SO3<double>& R_world_to, const Vec3& up) {
+  // The twist about up of the turn that takes `to`, as measured, to `to` as it stands.
+  const auto q = (R_world_to * (R_world_from * R_from_to).inverse()).unit_quaternion();
+  const double yaw = 2 * std::atan2(q.vec().dot(up), q.w());
+  return R_world_from.inverse() * lie::SO3<double>::Exp(-yaw * up) * R_world_to;
+}
+
+// A chordal start pays where the poses are this much further from the measurements than noise explains.
+constexpr double kFarFromMeasurements = 10;
+
+bool IsFar(double chi2, const PoseGraph& graph, PoseFreedom freedom) {
+  return chi2 > kFarFromMeasurements * DegreesOfFreedom(freedom) * static_cast<double>(graph.edges.size());
+}
+
+ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres_options.num_threads = 1;
+  ceres_options.initial_trust_region_radius = 1e10;
+  return ceres_options;
+}
+
+}  // namespace
+
+int DegreesOfFreedom(PoseFreedom freedom) {
+  return freedom == PoseFreedom::kFull ? 6 : freedom == PoseFreedom::kUpright ? 4 : 3;
+}
+
+void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options) {
+  visitor.Enum("freedom", options.freedom, {"full", "upright", "planar"},
+               "what a pose may do: 6 DoF; 4 (translation and yaw); 3 (horizontal translation and yaw)");
+  visitor.Enum("start", options.start, {"auto", "given", "chordal"},
+               "start from the given poses, from a chordal initialisation, or from the better one");
+  visitor.Integer("max_iterations", options.max_iterations, 1, 10000, "iterations of one solve");
+  visitor.Real("tolerance", options.tolerance, 0, 1, "stop when an iteration lowers chi2 by less than this fraction");
+}
+
+Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose& T_world_to) {
+  return (edge.T_from_to.inverse() * (T_world_from.inverse() * T_world_to)).Log();
+}
+
+double Chi2(const PoseGraph& graph, const std::vector<double>& weights) {
+  const PoseGraphIndex index = IndexPoseGraph(graph);
+  if (!index.trouble.empty()) throw Error(ErrorKind::kBadInput, "pose graph: " + index.trouble);
+  return Chi2Of(graph, index.ends, weights.empty() ? std::vector<double>(graph.edges.size(), 1.) : weights,
+                PosesOf(graph));
+}
+
+PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
+                                const std::vector<double>& given_weights) {
+  PoseGraphSummary summary;
+  const PoseGraphIndex index = IndexPoseGraph(graph);
+  if (!index.trouble.empty() || graph.edges.empty()) {
+    summary.message = index.trouble.empty() ? "nothing to optimise: no edges" : "not optimised: " + index.trouble;
+    return summary;
+  }
+  std::vector<double> weights = given_weights;
+  weights.resize(graph.edges.size(), 1.);
+  std::vector<bool> use;
+  for (const double weight : weights) use.push_back(weight > 0);
+  const std::vector<int> component = Components(static_cast<int>(graph.vertices.size()), index.ends, use);
+  summary.components = 1 + *std::max_element(component.begin(), component.end());
+  const std::vector<bool> anchored = Anchors(graph, component);
+
+  std::vector<Pose> poses = PosesOf(graph);
+  summary.initial_chi2 = Chi2Of(graph, index.ends, weights, poses);
+  const bool try_chordal = options.start == PoseGraphStart::kChordal ||
+                           (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
+                            IsFar(summary.initial_chi2, graph, options.freedom));
+  if (try_chordal) {
+    const auto chordal = ChordalStart(graph, index.ends, weights, anchored);
+    summary.chordal = chordal && (options.start == PoseGraphStart::kChordal ||
+                                  Chi2Of(graph, index.ends, weights, *chordal) < summary.initial_chi2);
+    if (summary.chordal) poses = *chordal;
+  }
+
+  PoseManifold full;
+  UprightManifold upright(options.gravity, options.freedom == PoseFreedom::kPlanar);
+  ceres::Manifold* manifold = &full;
+  if (options.freedom != PoseFreedom::kFull) manifold = &upright;
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  for (std::size_t v = 0; v < poses.size(); ++v) {
+    problem.AddParameterBlock(poses[v].data(), 7, manifold);
+    if (anchored[v]) problem.SetParameterBlockConstant(poses[v].data());
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (weights[e] == 0) continue;
+    Pose& from = poses[index.ends[e].first];
+    Pose& to = poses[index.ends[e].second];
+    PoseGraph::Edge edge = graph.edges[e];
+    if (options.freedom != PoseFreedom::kFull)
+      edge.T_from_to.so3() = YawPart(edge.T_from_to.so3(), from.so3(), to.so3(), options.gravity.up);
+    problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
+  }
+  ceres::Solver::Summary result;
+  ceres::Solve(CeresOptions(options), &problem, &result);
+  summary.usable = result.IsSolutionUsable();
+  summary.converged = result.termination_type == ceres::CONVERGENCE;
+  summary.iterations = static_cast<int>(result.iterations.size()) - 1;
+  summary.message = result.message;
+  if (!summary.usable) return summary;
+  for (std::size_t v = 0; v < poses.size(); ++v) graph.vertices[v].T_world_vertex = poses[v];
+  summary.final_chi2 = Chi2Of(graph, index.ends, weights, poses);
+  return summary;
+}
+
+}  // namespace sslcd
