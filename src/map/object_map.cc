@@ -11,6 +11,7 @@ namespace sslcd {
 struct ObjectMap::View {
   int frame;
   double stamp;
+  double travelled;
   Pose T_world_cam;
   const Camera* camera;
 };
@@ -33,6 +34,8 @@ void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
                "a tentative or driving object unseen for longer is given up");
   visitor.Real("search_radius_m", options.search_radius_m, 0.1, 1000,
                "how far from a detection its landmark is looked for");
+  visitor.Real("memory_m", options.memory_m, 0, 1e6,
+               "a landmark out of sight for so much path is found again by loop closure only");
   visitor.Real("caution", options.caution, 1, 100,
                "factor on the learnt detection sigmas in gates and in the motion test, for errors that drift");
   visitor.Real("min_noise_scale", options.min_noise_scale, 0, 100,
@@ -51,12 +54,15 @@ ObjectMap::ObjectMap(const GravityFrame& gravity, const LabelTable& labels, cons
       noise_scale_(NoiseScale::Uniform(noise.initial_scale)) {}
 
 MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
-                              const std::vector<Detection>& detections, const Camera* camera) {
-  const View view{frame, stamp, T_world_cam, camera};
+                              const std::vector<Detection>& detections, const Camera* camera, double travelled_m) {
+  const View view{frame, stamp, travelled_m, T_world_cam, camera};
   for (const int id : open_) Reindex(landmarks_.at(id), stamp);
 
   const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
-  const std::vector<int> match = MatchIds(queries, CandidateIds(queries), view);
+  std::vector<int> ids;
+  for (const int id : CandidateIds(queries))
+    if (travelled_m - landmarks_.at(id).last_seen_at <= options_.memory_m) ids.push_back(id);
+  const std::vector<int> match = MatchIds(queries, ids, view);
 
   MapUpdate update;
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -79,7 +85,7 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
 
 std::vector<LandmarkId> ObjectMap::Match(double stamp, const Pose& T_world_cam,
                                          const std::vector<Detection>& detections, const Camera* camera) const {
-  const View view{0, stamp, T_world_cam, camera};
+  const View view{0, stamp, 0., T_world_cam, camera};
   const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
   std::vector<int> ids;
   for (const int id : CandidateIds(queries))
@@ -195,6 +201,7 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.sightings.push_back(
       {view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
+  landmark.last_seen_at = view.travelled;
 
   // Running estimate until bundle adjustment takes over: the motion test's own position, the mean of height and yaw.
   const double share = 1. / landmark.sightings.size();
@@ -316,6 +323,7 @@ void ObjectMap::Fuse(LandmarkId keep, LandmarkId drop) {
   kept.colour.Merge(dropped.colour, dropped.pose.yaw - kept.pose.yaw);
   kept.embedding.Merge(dropped.embedding, dropped.pose.yaw - kept.pose.yaw);
   kept.last_seen = std::max(kept.last_seen, dropped.last_seen);
+  kept.last_seen_at = std::max(kept.last_seen_at, dropped.last_seen_at);
   SetSightings(drop, {});
   SetSightings(keep, std::move(merged));
 }

@@ -35,12 +35,18 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     throw Error(ErrorKind::kBadInput, "frame " + std::to_string(frame.index) + ": its stamp " +
                                           std::to_string(frame.stamp) + " s is not after the one before it");
   FrameReport report;
-  FrameRecord record{frame.index, frame.stamp, frame.T_odom_cam, Predict(frame.T_odom_cam), frame.detections, {}};
+  double travelled = 0;
+  if (!frames_.empty()) {
+    const FrameRecord& before = frames_.back();
+    travelled = before.travelled + (frame.T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
+  }
+  FrameRecord record{frame.index,      frame.stamp, travelled, frame.T_odom_cam, Predict(frame.T_odom_cam),
+                     frame.detections, {}};
   {
     const ScopedTimer timer(timing_, "data association");
     report.filter = FilterDetections(record.detections, options_.filter);
     const Camera* camera = context_.camera ? &*context_.camera : nullptr;
-    report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections, camera);
+    report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections, camera, travelled);
     record.matched = report.map.matched;
   }
   for (Detection& detection :

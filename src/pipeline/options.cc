@@ -15,6 +15,8 @@ void DescribeFields(FieldVisitor& visitor, WindowOptions& options) {
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
   visitor.Flag("enabled", options.enabled, "optimise the full map at the end of a run");
   visitor.Integer("rounds", options.rounds, 1, 20, "times to optimise, associate anew and fuse");
+  visitor.Real("keyframe_m", options.keyframe_m, 0, 1000, "a camera of the optimisation every so many metres of path");
+  visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7, "or after such a turn; all other frames follow");
   visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
                   "objects seen less often do not enter the final map");
   visitor.Real("duplicate_m", options.duplicate_m, 0, 100, "landmarks of one label closer than this are one object");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/move.h"
+
 namespace sslcd {
 namespace {
 
@@ -33,27 +35,61 @@ void ConfirmAll(ObjectMap& map, const Options& all) {
   for (const LandmarkId id : drop) map.SetState(id, LandmarkState::kStale);
 }
 
-BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames, double log_scale,
-                      const Options& options) {
+// A frame as the optimisation sees it: its nearest keyframe, and where it is from there according to the odometry.
+struct Anchor {
+  int camera = 0;
+  Pose T_camera_frame;
+};
+
+std::vector<Anchor> Anchors(const std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
+                            double log_scale) {
+  std::vector<Anchor> anchors(frames.size());
+  const int last = static_cast<int>(keyframes.size()) - 1;
+  int camera = 0;
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const auto step_to = [&](int k) {
+      Pose T_key_frame = frames[keyframes[k]].T_odom_cam.inverse() * frames[i].T_odom_cam;
+      T_key_frame.translation() *= std::exp(log_scale);
+      return T_key_frame;
+    };
+    while (camera < last && keyframes[camera + 1] <= i) ++camera;
+    anchors[i] = {camera, step_to(camera)};
+    if (camera == last) continue;
+    const Pose from_next = step_to(camera + 1);
+    if (from_next.translation().norm() < anchors[i].T_camera_frame.translation().norm())
+      anchors[i] = {camera + 1, from_next};
+  }
+  return anchors;
+}
+
+// Keyframes are the problem's cameras; what other frames saw counts as seen from the keyframe next to them.
+BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
+                      double log_scale, const Options& options) {
   BaProblem problem;
   problem.gravity = map.gravity();
   problem.noise = options.noise;
   problem.noise_scale = map.noise_scale();
   problem.log_scale = log_scale;
-  std::map<int, int> camera_of_frame;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    camera_of_frame[frames[i].frame] = static_cast<int>(i);
-    problem.cameras.push_back({frames[i].frame, frames[i].T_world_cam});
-    if (i > 0)
-      problem.odometry.push_back(
-          {static_cast<int>(i) - 1, static_cast<int>(i), frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam});
+  for (const int keyframe : keyframes) {
+    const FrameRecord& record = frames[keyframe];
+    const int camera = static_cast<int>(problem.cameras.size());
+    if (camera > 0) {
+      const FrameRecord& before = frames[keyframes[camera - 1]];
+      problem.odometry.push_back({camera - 1, camera, before.T_odom_cam.inverse() * record.T_odom_cam});
+    }
+    problem.cameras.push_back({record.frame, record.T_world_cam});
   }
+  std::map<int, Anchor> anchor_of_frame;
+  const std::vector<Anchor> anchors = Anchors(frames, keyframes, log_scale);
+  for (std::size_t i = 0; i < frames.size(); ++i) anchor_of_frame[frames[i].frame] = anchors[i];
   for (const auto& [id, landmark] : map.landmarks()) {
     if (!InMap(landmark, options.refine)) continue;
     const int object = static_cast<int>(problem.objects.size());
     problem.objects.push_back({id, landmark.symmetry, landmark.pose});
-    for (const Sighting& sighting : landmark.sightings)
-      problem.sightings.push_back({camera_of_frame.at(sighting.frame), object, sighting.T_cam_object});
+    for (const Sighting& sighting : landmark.sightings) {
+      const Anchor& anchor = anchor_of_frame.at(sighting.frame);
+      problem.sightings.push_back({anchor.camera, object, anchor.T_camera_frame * sighting.T_cam_object});
+    }
   }
   return problem;
 }
@@ -68,7 +104,8 @@ std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int,
 }
 
 BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options) {
-  BaProblem problem = FullProblem(map, frames, log_scale, options);
+  const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
+  BaProblem problem = FullProblem(map, frames, keyframes, log_scale, options);
   BaSummary summary = SolveBa(problem, options.ba);
   if (summary.usable && options.map.learn_noise) {
     problem.noise_scale = EstimateNoiseScale(problem);
@@ -76,11 +113,11 @@ BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log
     map.SetNoiseScale(problem.noise_scale);
   }
   if (!summary.usable) return summary;
+  std::vector<Pose> poses;
+  for (const BaCamera& camera : problem.cameras) poses.push_back(camera.T_world_cam);
+  MoveKeyframes(frames, keyframes, poses);
   std::map<int, Pose> cameras;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames[i].T_world_cam = problem.cameras[i].T_world_cam;
-    cameras[frames[i].frame] = frames[i].T_world_cam;
-  }
+  for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
   for (BaObject& object : problem.objects) {
     std::vector<double> yaws;
     for (const UprightPose& seen : SeenAt(map.at({object.id}), cameras, map.gravity())) yaws.push_back(seen.yaw);

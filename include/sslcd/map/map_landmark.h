@@ -33,6 +33,7 @@ struct MapLandmark {
   Gallery colour, embedding;        ///< H_k, E_k
   std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
   double last_seen = 0;             ///< [s]
+  double last_seen_at = 0;          ///< path travelled by then [m]
 };
 
 /// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around it. Weights fall

@@ -18,6 +18,8 @@ struct MapOptions {
   double birth_score = 0.5;      ///< a detection less certain than this makes no new landmark
   double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is given up
   double search_radius_m = 12.;  ///< how far from a detection its landmark is looked for
+  double memory_m = 60.;         ///< a landmark out of sight for so much path is found again by loop closure only: by
+                                 ///< then the odometry may have drifted on to its neighbour
   double caution = 1.5;  ///< factor on the learnt detection sigmas in gates and in the motion test: a detector's
                          ///< errors drift with range and viewpoint, so successive ones say less than they seem to
   double min_noise_scale = 3.;  ///< added to that (in quadrature): a good detector's errors have long tails
@@ -39,9 +41,10 @@ class ObjectMap {
             const AssociationOptions& association, const MapOptions& options);
 
   /// Associates the detections of a frame seen from T_world_cam, and updates, creates and retires landmarks.
-  /// `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must increase from call to call.
+  /// `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must increase from call to call;
+  /// `travelled_m` is the path so far.
   MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
-                     const Camera* camera);
+                     const Camera* camera, double travelled_m = 0);
 
   /// Association alone, against the confirmed landmarks as they stand: the landmark of each detection (-1: none).
   std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,

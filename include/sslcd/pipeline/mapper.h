@@ -33,6 +33,7 @@ struct FrameReport {
 struct FrameRecord {
   int frame = 0;
   double stamp = 0;
+  double travelled = 0;  ///< path of the odometry so far [m]
   Pose T_odom_cam;
   Pose T_world_cam;
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors

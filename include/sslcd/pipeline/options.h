@@ -24,10 +24,12 @@ void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
 /// The full-map optimisation at the end of a run (callable any time).
 struct RefineOptions {
   bool enabled = true;
-  int rounds = 2;           ///< optimise, associate anew, fuse, and again
-  int min_sightings = 2;    ///< objects seen less often do not enter the final map
-  double duplicate_m = 1.;  ///< landmarks of one label closer than this are one object
-  double moved_m = 1.5;     ///< a landmark whose late sightings lie further than this from its early ones has moved
+  int rounds = 2;             ///< optimise, associate anew, fuse, and again
+  double keyframe_m = 1.;     ///< cameras of the optimisation: a keyframe every so far ...
+  double keyframe_rad = 0.1;  ///< ... or every such turn; all other frames follow
+  int min_sightings = 2;      ///< objects seen less often do not enter the final map
+  double duplicate_m = 1.;    ///< landmarks of one label closer than this are one object
+  double moved_m = 1.5;       ///< a landmark whose late sightings lie further than this from its early ones has moved
   double min_seen_share =
       0.4;  ///< a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by
 };
