@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
   Console console;
   const std::map<std::string, Command> commands = {{"run", AddRunCommand(app, console)},
                                                    {"eval", AddEvalCommand(app, console)},
+                                                   {"match", AddMatchCommand(app, console)},
+                                                   {"graph", AddGraphCommand(app, console)},
                                                    {"check-config", AddCheckConfigCommand(app, console)},
                                                    {"dump-config", AddDumpConfigCommand(app, console)},
                                                    {"version", AddVersionCommand(app)}};

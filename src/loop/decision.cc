@@ -7,20 +7,25 @@
 namespace sslcd {
 namespace {
 
-double LogSumExp(const std::vector<PoseHypothesis>& all, std::size_t except) {
-  double top = -1e9, sum = 0;
+// How probable all hypotheses but one are together with chance, as a log.
+double Rivals(const std::vector<PoseHypothesis>& all, std::size_t except, double chance) {
+  double top = chance;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i != except) top = std::max(top, all[i].fit.evidence);
+  double sum = std::exp(chance - top);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i != except) sum += std::exp(all[i].fit.evidence - top);
-  return sum > 0 ? top + std::log(sum) : top;
+  return top + std::log(sum);
 }
+
+std::string Nats(double value) { return std::to_string(std::lround(value)) + " nats"; }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, DecisionOptions& options) {
   visitor.Real("min_margin", options.min_margin, -100, 1000, "log odds of the best pose against all others [nats]");
-  visitor.Real("min_evidence", options.min_evidence, -1000, 1000, "below this chance explains the best pose [nats]");
+  visitor.Real("min_evidence", options.min_evidence, -1000, 1000,
+               "evidence that chance reaches: what is below proves nothing [nats]");
 }
 
 void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
@@ -35,28 +40,39 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
                           const LayoutMatchOptions& options) {
   LayoutAnswer answer;
   std::vector<LayoutObject> usable;
-  for (const LayoutObject& object : local)
-    if (object.position.allFinite()) usable.push_back(object);
-  answer.hypotheses = SearchPoses(usable, index, options.search, options.likelihood);
-  if (answer.hypotheses.empty()) {
-    answer.reason = "no pose brings enough objects together";
+  std::vector<int> origin;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (!local[i].position.allFinite()) continue;
+    usable.push_back(local[i]);
+    origin.push_back(static_cast<int>(i));
+  }
+  const std::size_t fewest = std::min(usable.size(), index.objects().size());
+  if (fewest < static_cast<std::size_t>(options.search.min_matches)) {
+    answer.reason = std::to_string(fewest) + " objects are too few: " + std::to_string(options.search.min_matches) +
+                    " have to agree";
     return answer;
   }
-  const double none = options.decision.min_evidence;  // "it is none of them" competes too
-  const auto log_odds = [&](std::size_t i) {
-    const double others = LogSumExp(answer.hypotheses, i);
-    return answer.hypotheses[i].fit.evidence - std::max(others, none);
-  };
+  std::vector<PoseHypothesis>& found = answer.hypotheses;
+  found = SearchPoses(usable, index, options.search, options.likelihood);
+  if (found.empty()) {
+    answer.reason = "no pose brings " + std::to_string(options.search.min_matches) + " objects together";
+    return answer;
+  }
+  for (PoseHypothesis& hypothesis : found)
+    for (auto& [i, j] : hypothesis.fit.matches) i = origin[i];
+  const double chance = options.decision.min_evidence;
+  const auto log_odds = [&](std::size_t i) { return found[i].fit.evidence - Rivals(found, i, chance); };
   answer.score = log_odds(0);
-  answer.second_score = answer.hypotheses.size() > 1 ? log_odds(1) : -answer.score;
-  if (answer.hypotheses[0].fit.evidence < none) {
-    answer.reason = "chance explains the best pose";
+  answer.second_score = found.size() > 1 ? log_odds(1) : chance - found[0].fit.evidence;
+  const std::string objects = std::to_string(found[0].fit.matches.size()) + " objects agree";
+  if (found[0].fit.evidence < chance) {
+    answer.reason = objects + ", which chance explains (" + Nats(found[0].fit.evidence) + ")";
   } else if (answer.score < options.decision.min_margin) {
     answer.decision = LoopDecision::kAmbiguous;
-    answer.reason = "another pose fits nearly as well";
+    answer.reason = objects + ", but other poses fit as well (odds " + Nats(answer.score) + ")";
   } else {
     answer.decision = LoopDecision::kAccepted;
-    answer.reason = std::to_string(answer.hypotheses[0].fit.matches.size()) + " objects agree";
+    answer.reason = objects;
   }
   return answer;
 }

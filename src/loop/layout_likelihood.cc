@@ -10,7 +10,8 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 // Scatter between the two maps' idea of one object. Which it is, the data say: [m].
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
-constexpr double kGate = 3.;  // matched within so many standard deviations
+constexpr double kHullMargin = 1.;  // objects of a straight row lie on its edge, this side or that [m]
+constexpr double kGate = 3.;        // matched within so many standard deviations
 
 double HeightSigma(double sigma) { return 0.06 + 0.4 * sigma; }
 
@@ -33,10 +34,11 @@ std::vector<Vec2> ConvexHull(std::vector<Vec2> points) {
   return hull;
 }
 
-bool Inside(const std::vector<Vec2>& hull, double x, double y) {
+// Within a convex polygon, or so close to it.
+bool Inside(const std::vector<Vec2>& hull, double margin, double x, double y) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 &a = hull[i], &b = hull[(i + 1) % hull.size()];
-    if ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x()) < 0) return false;
+    const Vec2 &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+    if (edge.x() * (y - a.y()) - edge.y() * (x - a.x()) < -margin * edge.norm()) return false;
   }
   return true;
 }
@@ -45,6 +47,23 @@ bool Inside(const std::vector<Vec2>& hull, double x, double y) {
 double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
   const auto log_beta = [](double a, double b) { return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b); };
   return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
+}
+
+double LogAdd(double a, double b) {
+  const double top = std::max(a, b);
+  return top + std::log(std::exp(a - top) + std::exp(b - top));
+}
+
+bool HasHeading(const LayoutObject& object) { return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw); }
+
+// Density of the difference of two headings of one object [1/rad]. Some are taken for their reverse, some for anything.
+double HeadingDensity(double difference, Symmetry symmetry) {
+  constexpr double kSharpness = 16., kFlipped = 0.05, kAny = 0.1;  // of a von Mises density: 15 degrees
+  const double peak = std::sqrt(kSharpness / (2 * kPi));
+  const double forward = peak * std::exp(kSharpness * (std::cos(difference) - 1));
+  const double reverse = peak * std::exp(kSharpness * (-std::cos(difference) - 1));
+  const double flipped = symmetry == Symmetry::kPi ? 0.5 : kFlipped;
+  return (1 - kAny) * ((1 - flipped) * forward + flipped * reverse) + kAny / (2 * kPi);
 }
 
 }  // namespace
@@ -60,6 +79,7 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
                "Beta prior of the share of mapped objects seen again: yes");
   visitor.Real("unseen_prior", options.unseen_prior, 0.1, 1000,
                "Beta prior of the share of mapped objects seen again: no");
+  visitor.Nested("appearance", options.appearance, "colour and embedding as evidence (paper IV-C)");
 }
 
 Vec3 Apply(const YawShift& pose, const Vec3& p) {
@@ -88,38 +108,50 @@ YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                    const LayoutLikelihoodOptions& options)
     : local_(local), index_(index), options_(options) {
-  int labels = 0;
-  for (const LayoutObject& object : local) labels = std::max(labels, object.label + 1);
-  for (const LayoutObject& object : index.objects()) labels = std::max(labels, object.label + 1);
-  label_share_.assign(labels, 1.);
-  double total = labels;
+  for (const LayoutObject& object : index.objects()) label_share_[object.label] += 1;
+  for (const LayoutObject& object : local) label_share_[object.label] += 0;
+  const double total = static_cast<double>(index.objects().size() + label_share_.size());
+  for (auto& [label, share] : label_share_) share = (share + 1) / total;
   for (const LayoutObject& object : index.objects()) {
-    label_share_[object.label] += 1;
-    total += 1;
+    if (!HasHeading(object)) continue;
+    for (int bin = 0; bin < kHeadings; ++bin)
+      heading_background_[bin] += HeadingDensity(2 * kPi * bin / kHeadings - object.yaw, object.symmetry);
+    ++headings_;
   }
-  for (double& share : label_share_) share /= total;
   std::vector<Vec2> points;
-  for (const LayoutObject& object : local) {
-    points.push_back(object.position.head<2>());
-    hull_centre_ += points.back() / static_cast<double>(local.size());
-  }
-  for (const Vec2& point : points) hull_radius_ = std::max(hull_radius_, (point - hull_centre_).norm());
+  for (const LayoutObject& object : local) points.push_back(object.position.head<2>());
   hull_ = ConvexHull(points);
 }
 
 double LayoutLikelihood::LabelGain(int local_label, int global_label) const {
   if (label_share_.size() < 2) return 0;
-  if (local_label == global_label) return std::log((1 - options_.wrong_label) / label_share_[local_label]);
+  if (local_label == global_label) return std::log((1 - options_.wrong_label) / label_share_.at(local_label));
   return std::log(options_.wrong_label);
 }
 
-std::vector<std::pair<int, int>> LayoutLikelihood::Matches(const YawShift& pose, double gate) const {
-  struct Candidate {
-    double gain;
-    int local, global;
-  };
+// How much better the headings agree than those of any two objects of this map would, under the same turn: where all
+// cars stand in rows, only front and back remain to tell.
+double LayoutLikelihood::HeadingGain(const LayoutObject& local, const LayoutObject& global, double yaw) const {
+  if (!HasHeading(local) || !HasHeading(global) || local.symmetry != global.symmetry) return 0;
+  const double turned = WrapAngle(local.yaw + yaw);
+  const int bin = static_cast<int>(std::floor((turned / (2 * kPi) + 1) * kHeadings + 0.5)) % kHeadings;
+  const double background = (heading_background_[bin] + 1 / (2 * kPi)) / (headings_ + 1);
+  return std::log(HeadingDensity(turned - global.yaw, global.symmetry) / background);
+}
+
+double LayoutLikelihood::Appearance(int i, int j) const {
+  const LayoutObject &local = local_[i], &global = index_.objects()[j];
+  if ((local.embedding.empty() || global.embedding.empty()) && (local.colour.empty() || global.colour.empty()))
+    return 0;
+  const auto [known, fresh] = appearance_.try_emplace({i, j}, 0.);
+  if (fresh) known->second = AppearanceGain(local, global, options_.appearance);
+  return known->second;
+}
+
+std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose) const {
   std::vector<Candidate> candidates;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  const double reach2 = index_.reach() * index_.reach();
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Vec3& p = local_[i].position;
     const double x = c * p.x() - s * p.y() + pose.t.x(), y = s * p.x() + c * p.y() + pose.t.y();
@@ -127,104 +159,118 @@ std::vector<std::pair<int, int>> LayoutLikelihood::Matches(const YawShift& pose,
       const LayoutObject& object = index_.objects()[j];
       const double dx = object.position.x() - x, dy = object.position.y() - y;
       const double dz = object.position.z() - p.z() - pose.t.z();
-      const double d2 = dx * dx + dy * dy + dz * dz;
-      if (d2 > gate * gate) continue;
-      candidates.push_back(
-          {-4.5 * d2 / (gate * gate) + LabelGain(local_[i].label, object.label), static_cast<int>(i), j});
+      const double d2 = dx * dx + dy * dy;
+      if (d2 >= reach2) continue;
+      const int local = static_cast<int>(i);
+      const double gain =
+          LabelGain(local_[i].label, object.label) + HeadingGain(local_[i], object, pose.yaw) + Appearance(local, j);
+      candidates.push_back({local, j, d2, dz * dz, gain, 0});
     }
   }
+  return candidates;
+}
+
+// Objects of the map among the local ones: they should have been seen.
+std::vector<char> LayoutLikelihood::InView(const YawShift& pose) const {
+  std::vector<char> in_view(index_.objects().size(), 0);
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  for (std::size_t j = 0; j < in_view.size(); ++j) {
+    const Vec3& g = index_.objects()[j].position;
+    const double dx = g.x() - pose.t.x(), dy = g.y() - pose.t.y();
+    in_view[j] = Inside(hull_, kHullMargin, c * dx + s * dy, -s * dx + c * dy);
+  }
+  return in_view;
+}
+
+// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what the shares of
+// mapped and of seen objects say.
+LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view,
+                                   double sigma) const {
+  const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
+  const double constant = -std::log(2 * kPi * sigma * sigma * index_.density()) + std::log(background_z / sigma_z);
+  const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z);
+  for (Candidate& candidate : candidates)
+    candidate.gain = constant - 0.5 * candidate.d2 / (sigma * sigma) + per_z2 * candidate.z2 + candidate.semantic_gain;
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  const double n_local = static_cast<double>(local_.size());
+  double all = static_cast<double>(std::count(in_view.begin(), in_view.end(), 1));
+  double score = LogBetaBinomial(0, n_local, options_.mapped_prior, options_.unmapped_prior) +
+                 LogBetaBinomial(0, all, options_.seen_prior, options_.unseen_prior);
+  LayoutFit fit;
+  fit.sigma = sigma;
+  fit.score = score;
+  fit.should_see = static_cast<int>(all);
   std::vector<std::pair<int, int>> matches;
   for (const Candidate& candidate : candidates) {
+    if (candidate.gain < options_.min_gain) break;
     const bool taken = std::any_of(matches.begin(), matches.end(), [&](const auto& match) {
       return match.first == candidate.local || match.second == candidate.global;
     });
-    if (!taken) matches.push_back({candidate.local, candidate.global});
+    if (taken) continue;
+    const double n = static_cast<double>(matches.size());
+    score += candidate.gain + std::log((n + options_.mapped_prior) / (n_local - n - 1 + options_.unmapped_prior));
+    if (in_view[candidate.global]) {
+      score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
+    } else {
+      score += std::log((n + options_.seen_prior) / (all + options_.seen_prior + options_.unseen_prior));
+      all += 1;
+    }
+    matches.push_back({candidate.local, candidate.global});
+    if (score < fit.score) continue;
+    fit.score = score;
+    fit.matches = matches;
+    fit.should_see = static_cast<int>(all);
   }
-  std::sort(matches.begin(), matches.end());
-  return matches;
-}
-
-// Mapped objects among the local ones that were not seen: log of the Beta-binomial of seen and unseen ones.
-double LayoutLikelihood::Unseen(const YawShift& pose, const std::vector<std::pair<int, int>>& matches,
-                                int& should_see) const {
-  int seen = 0, all = 0;
-  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  std::vector<char> matched(index_.objects().size(), 0);
-  for (const auto& [local, global] : matches) matched[global] = 1;
-  seen = static_cast<int>(matches.size());
-  all = seen;
-  for (std::size_t j = 0; j < index_.objects().size(); ++j) {
-    if (matched[j]) continue;
-    const Vec3& g = index_.objects()[j].position;
-    const double dx = g.x() - pose.t.x(), dy = g.y() - pose.t.y();
-    if (Inside(hull_, c * dx + s * dy, -s * dx + c * dy)) ++all;
-  }
-  should_see = all;
-  return LogBetaBinomial(seen, all - seen, options_.seen_prior, options_.unseen_prior);
+  std::sort(fit.matches.begin(), fit.matches.end());
+  return fit;
 }
 
 LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
+  const std::vector<Candidate> candidates = Candidates(pose);
+  const std::vector<char> in_view = InView(pose);
+  const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / index_.density();
   LayoutFit best;
-  best.score = -1e9;
-  const std::vector<std::pair<int, int>> all = Matches(pose, kGate * kSigmas[3]);
-  const double density = index_.density();
+  best.score = best.evidence = -1e9;
+  double score = -1e9, evidence = -1e9;
   for (const double sigma : kSigmas) {
-    const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
-    LayoutFit fit;
-    fit.sigma = sigma;
+    LayoutFit fit = Assign(candidates, in_view, sigma);
     Vec2 centre(0, 0);
-    for (const auto& [i, j] : all) {
-      const LayoutObject& object = index_.objects()[j];
-      const Vec3 d = object.position - Apply(pose, local_[i].position);
-      const double d2 = d.head<2>().squaredNorm() / (sigma * sigma), z2 = d.z() * d.z();
-      if (d2 > kGate * kGate) continue;
-      const double gain = -d2 / 2 - std::log(2 * kPi * sigma * sigma * density) - z2 / (2 * sigma_z * sigma_z) -
-                          std::log(sigma_z) + z2 / (2 * background_z * background_z) + std::log(background_z) +
-                          LabelGain(local_[i].label, object.label);
-      if (gain < options_.min_gain) continue;
-      fit.score += gain;
-      fit.matches.push_back({i, j});
-      centre += object.position.head<2>();
-    }
     const double n = static_cast<double>(fit.matches.size());
-    fit.score +=
-        LogBetaBinomial(n, static_cast<double>(local_.size()) - n, options_.mapped_prior, options_.unmapped_prior);
-    fit.score += Unseen(pose, fit.matches, fit.should_see);
-    fit.score -= std::log(4.);
+    for (const auto& [i, j] : fit.matches) centre += index_.objects()[j].position.head<2>() / n;
     double spread = 1e-3;
-    for (const auto& [i, j] : fit.matches)
-      spread += (index_.objects()[j].position.head<2>() - centre / n).squaredNorm();
+    for (const auto& [i, j] : fit.matches) spread += (index_.objects()[j].position.head<2>() - centre).squaredNorm();
     const double volume = std::pow(2 * kPi, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
-    const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / density;
     fit.evidence = fit.score + std::log(volume / searched);
+    score = LogAdd(score, fit.score - std::log(4.));
+    evidence = LogAdd(evidence, fit.evidence - std::log(4.));
     if (fit.score > best.score) best = fit;
   }
+  best.score = score;
+  best.evidence = evidence;
   return best;
 }
 
 LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
-  double gate = index_.reach();
-  for (int round = 0; round < rounds; ++round) {
-    const std::vector<std::pair<int, int>> matches = Matches(pose, gate);
-    if (matches.size() < 2) break;
+  // Hard matches with a shrinking gate first, then the likelihood's own.
+  const auto align = [&](const std::vector<std::pair<int, int>>& matches) {
     std::vector<Vec3> from, to;
     for (const auto& [i, j] : matches) {
       from.push_back(local_[i].position);
       to.push_back(index_.objects()[j].position);
     }
-    pose = AlignPoints(from, to);
-    gate = std::max(1., 0.85 * gate);
+    return AlignPoints(from, to);
+  };
+  double sigma = index_.reach() / kGate;
+  for (int round = 0; round < rounds; ++round) {
+    const LayoutFit fit = Assign(Candidates(pose), std::vector<char>(index_.objects().size(), 0), sigma);
+    if (fit.matches.size() < 2) break;
+    pose = align(fit.matches);
+    sigma = std::max(0.33, 0.85 * sigma);
   }
   LayoutFit fit = Evaluate(pose);
   for (int round = 0; round < 2 && fit.matches.size() >= 2; ++round) {
-    std::vector<Vec3> from, to;
-    for (const auto& [i, j] : fit.matches) {
-      from.push_back(local_[i].position);
-      to.push_back(index_.objects()[j].position);
-    }
-    const YawShift moved = AlignPoints(from, to);
+    const YawShift moved = align(fit.matches);
     const LayoutFit better = Evaluate(moved);
     if (better.score <= fit.score) break;
     fit = better;

@@ -84,12 +84,13 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
 }
 
 std::vector<LandmarkId> ObjectMap::Match(double stamp, const Pose& T_world_cam,
-                                         const std::vector<Detection>& detections, const Camera* camera) const {
+                                         const std::vector<Detection>& detections, const Camera* camera,
+                                         const std::function<bool(const MapLandmark&)>& may) const {
   const View view{0, stamp, 0., T_world_cam, camera};
   const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
   std::vector<int> ids;
   for (const int id : CandidateIds(queries))
-    if (landmarks_.at(id).state == LandmarkState::kConfirmed) ids.push_back(id);
+    if (landmarks_.at(id).state == LandmarkState::kConfirmed && (!may || may(landmarks_.at(id)))) ids.push_back(id);
   std::vector<LandmarkId> matched;
   for (const int id : MatchIds(queries, ids, view)) matched.push_back({id});
   return matched;

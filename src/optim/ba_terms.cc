@@ -2,14 +2,12 @@
 #include "optim/ba_terms.h"
 
 #include <ceres/autodiff_cost_function.h>
-#include <ceres/loss_function.h>
-#include <ceres/manifold.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "optim/ba_costs.h"
 #include "optim/marginal_prior.h"
-#include "optim/pose_manifold.h"
 #include "sslcd/optim/cost_functors.h"
 
 namespace sslcd {
@@ -20,20 +18,32 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
   return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
 }
 
+// What blocks have in common is ours, and there once.
+ceres::Problem::Options Shared() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
 }  // namespace
 
 BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
-    : cameras_(problem.cameras.size()), objects_(problem.objects.size()), log_scale_(problem.log_scale) {
+    : loss_(options.loss_scale > 0 ? options.loss_scale : 1.),
+      ceres_(Shared()),
+      cameras_(problem.cameras.size()),
+      objects_(problem.objects.size()),
+      log_scale_(problem.log_scale) {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     std::copy_n(problem.cameras[i].T_world_cam.data(), 7, cameras_[i].data());
-    ceres_.AddParameterBlock(cameras_[i].data(), 7, new PoseManifold);
+    ceres_.AddParameterBlock(cameras_[i].data(), 7, &pose_manifold_);
   }
   for (std::size_t k = 0; k < objects_.size(); ++k) {
     const UprightPose& pose = problem.objects[k].pose;
     objects_[k] = {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw};
     // An object without yaw keeps the one it has; nothing measures it.
     if (problem.objects[k].symmetry == Symmetry::kFull)
-      ceres_.AddParameterBlock(objects_[k].data(), 4, new ceres::SubsetManifold(4, {3}));
+      ceres_.AddParameterBlock(objects_[k].data(), 4, &without_yaw_);
     else
       ceres_.AddParameterBlock(objects_[k].data(), 4);
   }
@@ -60,17 +70,16 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
     // Detectors take front for back now and then, so even a car's heading is only trusted up to half a turn here.
     const double period = problem.objects[sighting.object].symmetry == Symmetry::kFull ? 0. : M_PI;
     const ObjectResidual residual{sighting.T_cam_object, sigmas, period, problem.gravity};
-    ceres::LossFunction* loss = options.loss_scale > 0 ? new ceres::CauchyLoss(options.loss_scale) : nullptr;
-    ceres_.AddResidualBlock(AutoDiff<ObjectResidual, 4, 7, 4>(residual), loss, camera, object);
+    ceres_.AddResidualBlock(new ObjectCost(residual), options.loss_scale > 0 ? &loss_ : nullptr, camera, object);
   }
 }
 
 void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
   for (const BaOdometry& edge : problem.odometry) {
-    const OdometrySigmas sigmas = SigmasOver(edge.T_from_to.translation().norm(), options.odometry);
+    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options.odometry);
     const OdometryResidual residual{edge.T_from_to, sigmas.translation, sigmas.rotation};
-    ceres_.AddResidualBlock(AutoDiff<OdometryResidual, 6, 7, 7, 1>(residual), nullptr, cameras_[edge.from].data(),
-                            cameras_[edge.to].data(), &log_scale_);
+    ceres_.AddResidualBlock(new OdometryCost(residual), nullptr, cameras_[edge.from].data(), cameras_[edge.to].data(),
+                            &log_scale_);
   }
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
 #include <ceres/problem.h>
 
 #include <array>
 #include <vector>
 
+#include "optim/pose_manifold.h"
 #include "sslcd/optim/object_ba.h"
 
 namespace sslcd {
@@ -28,7 +31,10 @@ class BaTerms {
   void AddOdometry(const BaProblem& problem, const BaOptions& options);
   void AddPriors(const BaProblem& problem, const BaOptions& options);
 
-  ceres::Problem ceres_;
+  PoseManifold pose_manifold_;
+  ceres::SubsetManifold without_yaw_{4, {3}};
+  ceres::CauchyLoss loss_;
+  ceres::Problem ceres_;  // refers to what stands above
   std::vector<std::array<double, 7>> cameras_;
   std::vector<std::array<double, 4>> objects_;
   double log_scale_ = 0;

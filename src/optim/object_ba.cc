@@ -15,13 +15,13 @@ namespace {
 ceres::Solver::Options SolverOptions(const BaOptions& options) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
-  if (!ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::SUITE_SPARSE))
-    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  // Eigen's sparse Cholesky: SuiteSparse's supernodes gain nothing on blocks this small, and it may start threads.
+  solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
   solver.num_threads = 1;  // sums in a fixed order: same bytes on every machine size
   solver.logging_type = ceres::SILENT;
-  solver.function_tolerance = 1e-6;
+  solver.function_tolerance = 1e-5;          // steps that gain less change no state by anything that counts
+  solver.initial_trust_region_radius = 1e6;  // weak modes (a long chain's bend) take many steps under more damping
   if (options.solver == BaOptions::Solver::kGaussNewton) {  // Levenberg-Marquardt with the damping off
     solver.initial_trust_region_radius = 1e32;
     solver.max_trust_region_radius = 1e33;
@@ -51,20 +51,6 @@ double Median(std::vector<double>& values) {
 }
 
 }  // namespace
-
-void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
-  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10, "translation error of any two frames");
-  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "translation random walk, m per sqrt(m)");
-  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1, "rotation error of any two frames");
-  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
-  visitor.Real("scale_prior", noise.scale_prior, 0, 1,
-               "standard deviation of the odometry's log scale; 0 keeps the scale at one");
-}
-
-OdometrySigmas SigmasOver(double distance_m, const OdometryNoise& noise) {
-  return {std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(distance_m)),
-          std::hypot(noise.rotation_floor_rad, noise.rotation_walk * std::sqrt(distance_m))};
-}
 
 void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
   visitor.Enum("residual", options.residual, {"robust", "paper"}, "whitened and symmetric, or Eq. 8 as printed");

@@ -108,8 +108,11 @@ std::optional<std::vector<Pose>> ChordalStart(const PoseGraph& graph, const Ends
   if (!translation_graph.Solve(translations)) return std::nullopt;
 
   std::vector<Pose> poses;
-  for (std::size_t v = 0; v < rotations.size(); ++v)
-    poses.emplace_back(lie::SO3<double>::FromMatrix(rotations[v].transpose()), translations[v].transpose());
+  for (std::size_t v = 0; v < rotations.size(); ++v) {
+    poses.push_back(graph.vertices[v].T_world_vertex);
+    if (anchored[v]) continue;
+    poses[v] = Pose(lie::SO3<double>::FromMatrix(rotations[v].transpose()), translations[v].transpose());
+  }
   return poses;
 }
 

@@ -25,7 +25,30 @@ void StoreAmbient(const Matrix6& J, const double* pose, double* jacobian) {
   ambient = J.lazyProduct(minus);
 }
 
+constexpr double kCertain = 1e8;  // information [1/m^2, 1/rad^2] of what the vertices cannot change
+
 }  // namespace
+
+PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& measured,
+                           const Pose& T_world_from, const Pose& T_world_to) {
+  PoseGraph::Edge edge = measured;
+  if (freedom == PoseFreedom::kFull) return edge;
+  const auto &R_from = T_world_from.so3(), &R_to = T_world_to.so3();
+  // The twist about up of the turn from `to` as measured to `to` as it stands is the measurement's yaw error.
+  const auto q = (R_to * (R_from * measured.T_from_to.so3()).inverse()).unit_quaternion();
+  const double yaw = 2 * std::atan2(q.vec().dot(up), q.w());
+  edge.T_from_to.so3() = R_from.inverse() * lie::SO3<double>::Exp(-yaw * up) * R_to;
+  const Vec3 up_to = R_to.inverse() * up;
+  const Eigen::Matrix3d vertical = up_to * up_to.transpose();
+  edge.information.bottomRightCorner<3, 3>() += kCertain * (Eigen::Matrix3d::Identity() - vertical);
+  if (freedom == PoseFreedom::kPlanar) {
+    const Vec3 step = T_world_to.translation() - T_world_from.translation();
+    edge.T_from_to.translation() +=
+        R_from.inverse() * Vec3(up * up.dot(step - R_from * Vec3(measured.T_from_to.translation())));
+    edge.information.topLeftCorner<3, 3>() += kCertain * vertical;
+  }
+  return edge;
+}
 
 EdgeCost::EdgeCost(const PoseGraph::Edge& edge, const double* weight)
     : T_to_from_(edge.T_from_to.inverse()),

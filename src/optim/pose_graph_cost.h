@@ -5,8 +5,14 @@
 #include <ceres/sized_cost_function.h>
 
 #include "sslcd/core/pose_graph.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
+
+/// An edge as vertices of that freedom can meet it. What they cannot change (roll, pitch; height when planar) is taken
+/// from the poses of its ends and certain; of the measurement remain yaw and translation. kFull: the edge itself.
+PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& edge, const Pose& T_world_from,
+                           const Pose& T_world_to);
 
 /// One edge: r = sqrt(weight) L^T Log(T_from_to^-1 T_world_from^-1 T_world_to) with information = L L^T, so that
 /// |r|^2 = weight e^T I e. Both parameter blocks are poses [qx qy qz qw tx ty tz]; derivatives in closed form, so that

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "optim/pose_graph_chains.h"
+#include "optim/pose_graph_cost.h"
 #include "optim/pose_graph_index.h"
 #include "optim/pose_graph_tree.h"
 
 namespace sslcd {
 namespace {
 
-constexpr int kInnerIterations = 3;  // per weight update: the next one starts where this one ended
+constexpr int kInnerIterations =
+    20;  // per weight update; the next one starts where this one ended and takes one or two
 
 double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends, std::size_t e) {
   const PoseGraph::Edge& edge = graph.edges[e];
@@ -27,35 +30,94 @@ double Weight(double chi2, double mu, double limit) {
   return std::sqrt(limit / chi2 * mu * (mu + 1)) - mu;
 }
 
-// GNC over the loops of a graph that starts at its trusted edges' geometry; moves all of its vertices.
-void Graduate(PoseGraph& graph, const RobustPoseGraphOptions& options, RobustPoseGraphSummary& summary) {
-  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
-  PoseGraph& small = condensed.graph();
-  const std::vector<std::pair<int, int>> ends = IndexPoseGraph(small).ends;
-  std::vector<double> weights, chi2(small.edges.size());
-  for (const PoseGraph::Edge& edge : small.edges) weights.push_back(edge.loop ? 0 : 1);
-  PoseGraphOptions inner = options.graph;
-  inner.start = PoseGraphStart::kGiven;
-  const auto solve = [&] {
-    SolvePoseGraph(small, inner, weights);
-    double worst = 0;
-    for (std::size_t e = 0; e < ends.size(); ++e)
-      if (small.edges[e].loop) worst = std::max(worst, chi2[e] = EdgeChi2(small, ends, e));
-    return worst;
-  };
-  const double limit = summary.chi2_limit, worst = solve();
-  inner.max_iterations = kInnerIterations;
-  double mu = limit / std::max(2 * worst - limit, 1e-3 * limit);
-  for (bool undecided = worst > 0; undecided && summary.rounds < options.max_rounds; mu *= options.mu_factor) {
-    undecided = false;
-    for (std::size_t e = 0; e < ends.size(); ++e) {
-      if (small.edges[e].loop) weights[e] = Weight(chi2[e], mu, limit);
-      undecided |= weights[e] > 0 && weights[e] < 1;
-    }
-    solve();
-    ++summary.rounds;
+// Truncated least squares over the loops of a graph, from one start.
+class Gnc {
+ public:
+  Gnc(const PoseGraph& graph, const RobustPoseGraphOptions& options, double limit)
+      : graph_(graph),
+        ends_(IndexPoseGraph(graph).ends),
+        options_(options),
+        limit_(limit),
+        weights_(ends_.size(), 1.),
+        chi2_(ends_.size()) {
+    options_.graph.start = PoseGraphStart::kGiven;
+    options_.graph.max_iterations = kInnerIterations;
   }
+
+  /// Solves with all loops on (1) or off (0).
+  void Start(double weight) {
+    SetWeights([weight](double) { return weight; });
+    Solve();
+  }
+
+  void Graduate() {
+    double mu = limit_ / std::max(2 * Worst() - limit_, 1e-3 * limit_);
+    for (bool undecided = true; undecided && rounds_ < options_.max_rounds; mu *= options_.mu_factor) {
+      SetWeights([&](double loop_chi2) { return Weight(loop_chi2, mu, limit_); });
+      undecided = std::any_of(weights_.begin(), weights_.end(), [](double w) { return w > 0 && w < 1; });
+      Solve();
+      ++rounds_;
+    }
+  }
+
+  /// No more misfit than that many true loops bring along, and no loop that stands out.
+  bool AllAgree() const {
+    const auto loops = std::count_if(graph_.edges.begin(), graph_.edges.end(), [](const auto& e) { return e.loop; });
+    const double expected = static_cast<double>(loops) * DegreesOfFreedom(options_.graph.freedom);
+    return Worst() <= limit_ && std::accumulate(chi2_.begin(), chi2_.end(), 0.) <= expected;
+  }
+
+  /// What is minimised: a loop beyond the limit costs the limit.
+  double Cost() const {
+    double cost = 0;
+    for (std::size_t e = 0; e < chi2_.size(); ++e) cost += graph_.edges[e].loop ? std::min(chi2_[e], limit_) : chi2_[e];
+    return cost;
+  }
+
+  const PoseGraph& graph() const { return graph_; }
+  int rounds() const { return rounds_; }
+
+ private:
+  template <class WeightOfChi2>
+  void SetWeights(const WeightOfChi2& weight) {
+    for (std::size_t e = 0; e < ends_.size(); ++e)
+      if (graph_.edges[e].loop) weights_[e] = weight(chi2_[e]);
+  }
+  void Solve() {
+    SolvePoseGraph(graph_, options_.graph, weights_);
+    for (std::size_t e = 0; e < ends_.size(); ++e) chi2_[e] = EdgeChi2(graph_, ends_, e);
+  }
+  double Worst() const {
+    double worst = 0;
+    for (std::size_t e = 0; e < ends_.size(); ++e)
+      if (graph_.edges[e].loop) worst = std::max(worst, chi2_[e]);
+    return worst;
+  }
+
+  PoseGraph graph_;
+  std::vector<std::pair<int, int>> ends_;
+  RobustPoseGraphOptions options_;
+  double limit_;
+  std::vector<double> weights_, chi2_;  // per edge
+  int rounds_ = 0;
+};
+
+// Moves all vertices of a graph that starts at its trusted edges' geometry. GNC ends in a local minimum at times, so
+// it is run from all loops and from none, and the lower cost wins; where all loops agree nothing needs deciding.
+int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, double limit) {
+  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
+  Gnc from_all(condensed.graph(), options, limit), from_none = from_all;
+  from_all.Start(1);
+  const Gnc* best = &from_all;
+  if (!from_all.AllAgree()) {
+    from_all.Graduate();
+    from_none.Start(0);
+    from_none.Graduate();
+    if (from_none.Cost() <= from_all.Cost()) best = &from_none;
+  }
+  condensed.graph() = best->graph();
   condensed.Expand(graph);
+  return from_all.rounds() + from_none.rounds();
 }
 
 // Keeps the loops within the limit; false if these are the ones kept already.
@@ -102,29 +164,37 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
     return summary;
   }
   summary.chi2_limit = Chi2Quantile(options.inlier_probability, DegreesOfFreedom(options.graph.freedom));
-  const TrustedTree tree(graph, index.ends);
+  PoseGraph work = graph;  // measurements as the vertices' freedom allows them, so that a loop is judged by these alone
+  for (std::size_t e = 0; e < work.edges.size(); ++e) {
+    const auto [from, to] = index.ends[e];
+    work.edges[e] = EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
+                               work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
+  }
+  const TrustedTree tree(work, index.ends);
   PoseGraph candidates;  // with the loops that odometry does not rule out
-  candidates.vertices = graph.vertices;
-  for (std::size_t v = 0; v < graph.vertices.size(); ++v)
-    if (!graph.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];
+  candidates.vertices = work.vertices;
+  for (std::size_t v = 0; v < work.vertices.size(); ++v)
+    if (!work.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];
   const double ruled_out = summary.chi2_limit * options.drift_factor * options.drift_factor;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    const PoseGraph::Edge& edge = graph.edges[e];
+  for (std::size_t e = 0; e < work.edges.size(); ++e) {
+    const PoseGraph::Edge& edge = work.edges[e];
     if (!edge.loop || tree.Disagreement(edge, index.ends[e].first, index.ends[e].second) <= ruled_out)
       candidates.edges.push_back(edge);
   }
-  Graduate(candidates, options, summary);
-  for (std::size_t v = 0; v < graph.vertices.size(); ++v)
-    graph.vertices[v].T_world_vertex = candidates.vertices[v].T_world_vertex;
+  summary.rounds = SolveTruncated(candidates, options, summary.chi2_limit);
+  work.vertices = candidates.vertices;
 
   // All loops are judged by where that leads, those that were ruled out, too; a few times, until nothing changes.
-  PoseGraphOptions final_solve = options.graph;
-  for (int i = 0; i < 5 && KeepConsistent(graph, index.ends, summary); ++i) {
-    summary.graph = SolvePoseGraph(graph, final_solve, summary.edge_weight);
+  for (int i = 0; i < 5 && KeepConsistent(work, index.ends, summary); ++i) {
+    summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
     if (!summary.graph.usable) break;
   }
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
     if (graph.edges[e].loop) ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
+  summary.graph.initial_chi2 = Chi2(graph, summary.edge_weight);
+  if (!summary.graph.usable) return summary;
+  graph.vertices = work.vertices;
+  summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
   return summary;
 }
 

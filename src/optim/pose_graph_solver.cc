@@ -44,21 +44,18 @@ std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& compon
   return anchored;
 }
 
-// What is left of a measured rotation once roll and pitch of both ends are known: P_from^-1 Exp(up yaw) P_to with the
-// yaw nearest to the measurement.
-lie::SO3<double> YawPart(const lie::SO3<double>& R_from_to, const lie::SO3<double>& R_world_from,
-                         const lie::SO3<double>& R_world_to, const Vec3& up) {
-  // The twist about up of the turn that takes `to`, as measured, to `to` as it stands.
-  const auto q = (R_world_to * (R_world_from * R_from_to).inverse()).unit_quaternion();
-  const double yaw = 2 * std::atan2(q.vec().dot(up), q.w());
-  return R_world_from.inverse() * lie::SO3<double>::Exp(-yaw * up) * R_world_to;
-}
+// A chordal start pays where the poses are this much further from the measurements than noise explains, or where one
+// of them is turned this far: beyond, a linearised rotation leads astray.
+constexpr double kFarFromMeasurements = 10, kFarTurned = 0.5;
 
-// A chordal start pays where the poses are this much further from the measurements than noise explains.
-constexpr double kFarFromMeasurements = 10;
-
-bool IsFar(double chi2, const PoseGraph& graph, PoseFreedom freedom) {
-  return chi2 > kFarFromMeasurements * DegreesOfFreedom(freedom) * static_cast<double>(graph.edges.size());
+bool IsFar(double chi2, const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
+           const std::vector<Pose>& poses) {
+  if (chi2 > kFarFromMeasurements * 6 * static_cast<double>(graph.edges.size())) return true;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
+    if (weights[e] > 0 && error.tail<3>().norm() > kFarTurned) return true;
+  }
+  return false;
 }
 
 ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
@@ -68,7 +65,7 @@ ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
   ceres_options.function_tolerance = options.tolerance;
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.num_threads = 1;
-  ceres_options.initial_trust_region_radius = 1e10;
+  ceres_options.initial_trust_region_radius = 1e10;  // the first step is Gauss-Newton's
   return ceres_options;
 }
 
@@ -118,7 +115,7 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   summary.initial_chi2 = Chi2Of(graph, index.ends, weights, poses);
   const bool try_chordal = options.start == PoseGraphStart::kChordal ||
                            (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
-                            IsFar(summary.initial_chi2, graph, options.freedom));
+                            IsFar(summary.initial_chi2, graph, index.ends, weights, poses));
   if (try_chordal) {
     const auto chordal = ChordalStart(graph, index.ends, weights, anchored);
     summary.chordal = chordal && (options.start == PoseGraphStart::kChordal ||
@@ -141,15 +138,13 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
     if (weights[e] == 0) continue;
     Pose& from = poses[index.ends[e].first];
     Pose& to = poses[index.ends[e].second];
-    PoseGraph::Edge edge = graph.edges[e];
-    if (options.freedom != PoseFreedom::kFull)
-      edge.T_from_to.so3() = YawPart(edge.T_from_to.so3(), from.so3(), to.so3(), options.gravity.up);
+    const PoseGraph::Edge edge = EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
     problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
   }
   ceres::Solver::Summary result;
   ceres::Solve(CeresOptions(options), &problem, &result);
   summary.usable = result.IsSolutionUsable();
-  summary.converged = result.termination_type == ceres::CONVERGENCE;
+  summary.converged = result.termination_type == ceres::CONVERGENCE || result.termination_type == ceres::USER_SUCCESS;
   summary.iterations = static_cast<int>(result.iterations.size()) - 1;
   summary.message = result.message;
   if (!summary.usable) return summary;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/close_loops.h"
 #include "pipeline/refine.h"
 #include "sslcd/core/error.h"
 
@@ -23,7 +24,10 @@ Pose Step(const FrameRecord& from, const Pose& T_odom_cam, double log_scale) {
 Mapper::Mapper(const Options& options, const MapperContext& context)
     : options_(options),
       context_(context),
-      map_(context.gravity, context.labels, options.noise, options.association, options.map) {}
+      map_(context.gravity, context.labels, options.noise, options.association, options.map),
+      loops_(std::make_unique<LoopCloser>(options, map_, frames_)) {}
+
+Mapper::~Mapper() = default;
 
 double Mapper::scale() const { return std::exp(log_scale_); }
 
@@ -62,6 +66,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
       const ScopedTimer timer(timing_, "object optimisation");
       report.window = OptimiseWindow();
     }
+    if (options_.loop.enabled && loops_->AddKeyframe(scale(), timing_)) ResetWindow();
   }
   report.T_world_cam = frames_.back().T_world_cam;
   return report;
@@ -158,12 +163,18 @@ BaSummary Mapper::Refine() {
   const ScopedTimer timer(timing_, "full-map optimisation");
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
   const BaSummary summary = RefineMap(map_, frames_, log_scale_, options_, camera);
-  // The window's prior speaks of poses that have just moved.
   refined_log_scale_ = log_scale_;
-  prior_ = {};
-  if (!window_.empty()) window_.erase(window_.begin(), window_.end() - 1);
+  ResetWindow();
   return summary;
 }
+
+// After poses have moved that the window's prior speaks of.
+void Mapper::ResetWindow() {
+  prior_ = {};
+  if (!window_.empty()) window_.erase(window_.begin(), window_.end() - 1);
+}
+
+std::vector<LoopClosure> Mapper::LoopClosures() const { return loops_->closures(); }
 
 Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;

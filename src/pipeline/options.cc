@@ -26,6 +26,25 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
                "a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by");
 }
 
+void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
+  visitor.Flag("enabled", options.enabled, "close loops");
+  visitor.Real("every_m", options.every_m, 0, 1000, "an attempt every so many metres of path");
+  visitor.Real("local_m", options.local_m, 1, 10000, "the local map: objects seen on the last so many metres of path");
+  visitor.Real("gap_m", options.gap_m, 0, 10000, "the global map: objects on passes that ended so many metres ago");
+  visitor.Real("split_m", options.split_m, 0, 10000, "an object unseen for so much path is on another pass");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000, "objects seen less often on a pass take no part");
+  visitor.Real("min_margin", options.min_margin, -100, 1000, "log odds from which a pose is believed [nats]");
+  visitor.Real("drift_share", options.drift_share, 0, 1, "drift");
+  visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "drift");
+  visitor.Real("surprise", options.surprise, 0, 1, "share");
+  visitor.Real("sigma_m", options.sigma_m, 0, 100, "edge");
+  visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "edge");
+  visitor.Nested("odometry", options.odometry, "odometry");
+  visitor.Nested("graph", options.graph, "graph");
+  visitor.Nested("match", options.match, "layout matching (paper IV-B, IV-C)");
+  visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
+}
+
 void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Enum("mode", options.mode, {"robust", "paper"}, "robust, or the paper's equations as printed");
   visitor.Nested("filter", options.filter, "which detections are used (paper III-A.1)");
@@ -35,6 +54,7 @@ void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Nested("map", options.map, "life cycle of landmarks");
   visitor.Nested("window", options.window, "sliding window");
   visitor.Nested("ba", options.ba, "object bundle adjustment (paper III-C)");
+  visitor.Nested("loop", options.loop, "loop closure (paper IV)");
   visitor.Nested("refine", options.refine, "the full-map optimisation at the end");
 }
 

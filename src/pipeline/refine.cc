@@ -5,7 +5,9 @@
 #include <cmath>
 #include <map>
 
+#include "pipeline/fuse.h"
 #include "pipeline/move.h"
+#include "pipeline/stretches.h"
 
 namespace sslcd {
 namespace {
@@ -129,7 +131,8 @@ BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log
 }
 
 // Every detection that does not belong to a driving object looks for its landmark again, with the refined poses.
-void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Camera* camera) {
+void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Options& options, const Camera* camera) {
+  const Stretches stretches(map, frames, options.map.memory_m);
   std::map<int, std::vector<Sighting>> sightings;
   for (FrameRecord& record : frames) {
     std::vector<Detection> open;
@@ -140,7 +143,8 @@ void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Camer
       open.push_back(record.detections[i]);
       index.push_back(i);
     }
-    const std::vector<LandmarkId> matched = map.Match(record.stamp, record.T_world_cam, open, camera);
+    const auto tied = [&](const MapLandmark& landmark) { return stretches.Tied(record, landmark); };
+    const std::vector<LandmarkId> matched = map.Match(record.stamp, record.T_world_cam, open, camera, tied);
     for (std::size_t k = 0; k < open.size(); ++k) {
       record.matched[index[k]] = matched[k];
       if (matched[k].value < 0) continue;
@@ -152,29 +156,6 @@ void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Camer
   for (const auto& [id, landmark] : map.landmarks())
     if (landmark.state == LandmarkState::kConfirmed) confirmed.push_back({id});
   for (const LandmarkId id : confirmed) map.SetSightings(id, std::move(sightings[id.value]));
-}
-
-// Landmarks of one label that stand in one place are one object: the one seen more often keeps its name.
-void FuseDuplicates(ObjectMap& map, std::vector<FrameRecord>& frames, const RefineOptions& options) {
-  std::vector<LandmarkId> order;
-  for (const auto& [id, landmark] : map.landmarks())
-    if (landmark.state == LandmarkState::kConfirmed) order.push_back({id});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](LandmarkId a, LandmarkId b) { return map.at(a).sightings.size() > map.at(b).sightings.size(); });
-  std::map<int, LandmarkId> heir;
-  for (const LandmarkId keep : order) {
-    if (map.landmarks().count(keep.value) == 0) continue;
-    for (const LandmarkId other : map.Near(map.at(keep).pose.position, options.duplicate_m)) {
-      const MapLandmark& twin = map.at(other);
-      if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != map.at(keep).label) continue;
-      if (twin.sightings.size() > map.at(keep).sightings.size()) continue;
-      map.Fuse(keep, other);
-      heir[other.value] = keep;
-    }
-  }
-  for (FrameRecord& record : frames)
-    for (LandmarkId& id : record.matched)
-      while (heir.count(id.value) > 0) id = heir.at(id.value);
 }
 
 // Compares where a landmark was seen early with where it was seen late.
@@ -234,8 +215,8 @@ BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& lo
   BaSummary summary = Optimise(map, frames, log_scale, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
     RejectMoved(map, frames, options);
-    FuseDuplicates(map, frames, options.refine);
-    AssociateAnew(map, frames, camera);
+    FuseDuplicates(map, frames, options);
+    AssociateAnew(map, frames, options, camera);
     ConfirmAll(map, options);
     summary = Optimise(map, frames, log_scale, options);
   }

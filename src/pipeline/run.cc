@@ -22,7 +22,7 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     edge.from = frames[i - 1].frame;
     edge.to = frames[i].frame;
     edge.T_from_to = frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam;
-    const OdometrySigmas sigmas = SigmasOver(edge.T_from_to.translation().norm(), noise);
+    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, noise);
     edge.T_from_to.translation() *= mapper.scale();
     edge.information.setZero();
     edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));

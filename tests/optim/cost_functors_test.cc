@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "optim/ba_costs.h"
 #include "optim/marginal_prior.h"
 #include "optim/pose_manifold.h"
 
@@ -57,6 +58,33 @@ TEST_P(Functors, ObjectResidualGradient) {
   const ObjectResidual residual{Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, M_PI, gravity};
   const ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4> cost(new ObjectResidual(residual));
   Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
+}
+
+// A cost with derivatives by hand is the functor that specifies it.
+void ExpectSame(const ceres::CostFunction& ours, const ceres::CostFunction& automatic,
+                const std::vector<const double*>& blocks) {
+  Eigen::VectorXd r(ours.num_residuals()), expected(ours.num_residuals());
+  ASSERT_TRUE(ours.Evaluate(blocks.data(), r.data(), nullptr));
+  ASSERT_TRUE(automatic.Evaluate(blocks.data(), expected.data(), nullptr));
+  EXPECT_TRUE((r - expected).cwiseAbs().maxCoeff() <= 1e-9 * (1 + expected.norm())) << r << "\n" << expected;
+}
+
+TEST_P(Functors, ObjectCostIsObjectResidual) {
+  for (const double yaw_period : {0., M_PI, 2 * M_PI}) {
+    const ObjectResidual residual{Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, yaw_period, gravity};
+    const ObjectCost cost(residual);
+    Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
+    ExpectSame(cost, ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4>(new ObjectResidual(residual)),
+               {camera.data(), state});
+  }
+}
+
+TEST_P(Functors, OdometryCostIsOdometryResidual) {
+  const OdometryResidual residual{RandomPose(random, 0.3), 0.1, 0.01};
+  const OdometryCost cost(residual);
+  Check(cost, {camera.data(), next.data(), &log_scale}, {&pose_manifold, &pose_manifold, nullptr});
+  ExpectSame(cost, ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1>(new OdometryResidual(residual)),
+             {camera.data(), next.data(), &log_scale});
 }
 
 TEST_P(Functors, PaperObjectResidualGradient) {

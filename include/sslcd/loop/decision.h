@@ -12,10 +12,12 @@
 
 namespace sslcd {
 
-/// When is the best pose believed?
+/// When is the best pose believed? The likelihoods are calibrated: if the place is in the map at all, the log odds are
+/// about those of being right. Where it need not be in the map, ask for more (docs/results.md has the curve): a score
+/// of 5 still refuses what only looks alike 9 times of 10, of 10 99 times of 100.
 struct DecisionOptions {
-  double min_margin = 1.25;   ///< log odds of the best pose against all others found [nats]
-  double min_evidence = -8.;  ///< below this, chance explains what was found [nats]
+  double min_margin = 0.75;    ///< log odds of the best pose against all others found [nats]
+  double min_evidence = -10.;  ///< evidence that chance reaches: competes with the poses found [nats]
 };
 void DescribeFields(FieldVisitor& visitor, DecisionOptions& options);
 
@@ -32,10 +34,12 @@ void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
 /// Where the local map lies in the global one - or why nobody can know.
 struct LayoutAnswer {
   LoopDecision decision = LoopDecision::kNone;
-  std::string reason;                      ///< why it was refused, or what speaks for it; for people
-  double score = 0;                        ///< log odds that the best pose is the right one [nats]
-  double second_score = 0;                 ///< the same of the second best
-  std::vector<PoseHypothesis> hypotheses;  ///< distinct poses, best first; may be empty. The answer is the first
+  std::string reason;       ///< why it was refused, or what speaks for it; for people
+  double score = 0;         ///< log odds that the best pose is the right one [nats]
+  double second_score = 0;  ///< the same of the second best
+  /// Distinct poses, best first; may be empty. The answer is the first. Matches are indices into the local objects as
+  /// given and into `index.objects()`.
+  std::vector<PoseHypothesis> hypotheses;
 };
 
 /// Searches all poses of the local map in the global one and decides whether the best of them can be trusted. Labels,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <map>
 #include <utility>
 #include <vector>
 
 #include "sslcd/core/fields.h"
 #include "sslcd/core/layout.h"
+#include "sslcd/loop/appearance_likelihood.h"
 #include "sslcd/loop/layout_index.h"
 
 namespace sslcd {
@@ -14,12 +17,13 @@ namespace sslcd {
 /// objects, strewn at the map's density". A log likelihood ratio, in nats: it speaks the same language on dense lots
 /// and lonely poles, and knows rare labels from common ones.
 struct LayoutLikelihoodOptions {
-  double wrong_label = 0.05;   ///< how often the detector takes one class for another
+  double wrong_label = 0.03;   ///< how often the detector takes one class for another
   double mapped_prior = 10.;   ///< Beta prior of the share of local objects that the map has: has ...
   double unmapped_prior = 2.;  ///< ... and has not
   double min_gain = -1.5;      ///< a match that says less is none [nats]
   double seen_prior = 3.;      ///< Beta prior of the share of mapped objects in sight that are seen again: seen ...
   double unseen_prior = 1.5;   ///< ... and not seen
+  AppearanceOptions appearance;
 };
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);
 
@@ -47,16 +51,27 @@ class LayoutLikelihood {
   double LabelGain(int local_label, int global_label) const;
 
  private:
-  std::vector<std::pair<int, int>> Matches(const YawShift& pose, double gate) const;
-  double Unseen(const YawShift& pose, const std::vector<std::pair<int, int>>& matches, int& should_see) const;
+  struct Candidate {
+    int local, global;
+    double d2, z2;         // squared distance, horizontal and vertical [m^2]
+    double semantic_gain;  // label, heading, appearance [nats]
+    double gain;
+  };
+  std::vector<Candidate> Candidates(const YawShift& pose) const;
+  double HeadingGain(const LayoutObject& local, const LayoutObject& global, double yaw) const;
+  double Appearance(int local, int global) const;
+  std::vector<char> InView(const YawShift& pose) const;
+  LayoutFit Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view, double sigma) const;
 
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
-  std::vector<double> label_share_;
-  std::vector<Vec2> hull_;  // of the local objects, counter-clockwise
-  Vec2 hull_centre_{0, 0};
-  double hull_radius_ = 0;
+  static constexpr int kHeadings = 72;
+  std::map<int, double> label_share_;
+  std::array<double, kHeadings> heading_background_{};  // sum over the map's objects, by direction [1/rad]
+  int headings_ = 0;
+  mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
+  std::vector<Vec2> hull_;                                    // of the local objects, counter-clockwise
 };
 
 /// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points; else yaw 0.

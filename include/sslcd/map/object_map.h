@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -47,8 +48,9 @@ class ObjectMap {
                      const Camera* camera, double travelled_m = 0);
 
   /// Association alone, against the confirmed landmarks as they stand: the landmark of each detection (-1: none).
+  /// `may`: which landmarks come into question; empty: all.
   std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
-                                const Camera* camera) const;
+                                const Camera* camera, const std::function<bool(const MapLandmark&)>& may = {}) const;
 
   const std::map<int, MapLandmark>& landmarks() const { return landmarks_; }
   const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id.value); }

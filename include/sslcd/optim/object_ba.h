@@ -8,25 +8,9 @@
 #include "sslcd/core/fields.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/upright.h"
+#include "sslcd/optim/odometry_noise.h"
 
 namespace sslcd {
-
-/// How far the odometry is off: a random walk, so variances grow with the distance d between two frames:
-/// var = floor^2 + walk^2 d.
-struct OdometryNoise {
-  double translation_floor_m = 0.003;
-  double translation_walk = 0.01;  ///< [m per sqrt(m)]
-  double rotation_floor_rad = 2e-4;
-  double rotation_walk = 5e-4;  ///< [rad per sqrt(m)]
-  double scale_prior = 0.05;    ///< standard deviation of the log scale; 0 keeps the scale at one
-};
-void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
-
-/// Standard deviations between two frames that are `distance_m` apart. [m, rad]
-struct OdometrySigmas {
-  double translation = 0, rotation = 0;
-};
-OdometrySigmas SigmasOver(double distance_m, const OdometryNoise& noise);
 
 /// Object bundle adjustment, paper III-C.
 struct BaOptions {

@@ -16,21 +16,23 @@ struct RobustPoseGraphOptions {
   double drift_factor = 3.;  ///< a loop is ruled out where odometry would have to be this many times worse than its
                              ///< information says; such a loop comes back only if the others lead to it
   double mu_factor = 1.4;    ///< how fast the cost turns from convex to truncated
-  int max_rounds = 100;      ///< weight updates
+  int max_rounds = 100;      ///< weight updates, from each of two starts
 };
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
 
 struct RobustPoseGraphSummary {
-  PoseGraphSummary graph;  ///< of the last solve, with the kept loops only; chi2 before and after counts these alone
+  PoseGraphSummary graph;           ///< chi2, of the given and of the returned poses, counts the kept loops only
   std::vector<double> edge_weight;  ///< per edge: 1 trusted or kept, 0 loop refused
   int loops_kept = 0, loops_refused = 0;
-  int rounds = 0;
+  int rounds = 0;         ///< weight updates; 0 where all loops agreed at once
   double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
 };
 
 /// Decides which loops to believe and moves the vertices to the minimum with those. Nothing is remembered: hand in all
 /// loops ever proposed each time; a loop kept before may be refused once others contradict it, and come back.
-/// The start is the trusted edges' own geometry, which false loops cannot spoil; never throws, as SolvePoseGraph.
+/// Where the loops contradict each other or the odometry, those are kept that leave the least misfit, a refused loop
+/// counting chi2_limit. The start is the trusted edges' own geometry, which false loops cannot spoil. Loops are judged
+/// by what the vertices' freedom lets them change (4 DoF: not by roll and pitch). Never throws, as SolvePoseGraph.
 RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options);
 
 /// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's approximation (within 0.5 %

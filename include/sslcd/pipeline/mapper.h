@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/loop_closure.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/map/object_map.h"
@@ -40,12 +42,15 @@ struct FrameRecord {
   std::vector<LandmarkId> matched;    ///< landmark of each detection
 };
 
+class LoopCloser;
+
 /// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III). The world is the
 /// odometry's frame, made metric: the first camera stays where the odometry has it.
 /// Not thread-safe; one mapper per sequence.
 class Mapper {
  public:
   Mapper(const Options& options, const MapperContext& context);
+  ~Mapper();
 
   /// Frames in order of time. O(window), whatever the size of the map. Throws Error(kBadInput) on a stamp that does not
   /// increase or a pose that is not finite; the mapper is then as it was before.
@@ -56,9 +61,10 @@ class Mapper {
 
   const ObjectMap& map() const { return map_; }
   const std::vector<FrameRecord>& frames() const { return frames_; }
-  Trajectory CameraTrajectory() const;     ///< one pose a frame
-  std::vector<MapObject> Objects() const;  ///< every landmark, by id
-  double scale() const;                    ///< metres per odometry metre
+  Trajectory CameraTrajectory() const;            ///< one pose a frame
+  std::vector<MapObject> Objects() const;         ///< every landmark, by id
+  std::vector<LoopClosure> LoopClosures() const;  ///< every attempt, refused ones too
+  double scale() const;                           ///< metres per odometry metre
   TimingTable& timing() { return timing_; }
 
  private:
@@ -67,6 +73,7 @@ class Mapper {
   BaSummary OptimiseWindow();
   void SlideWindow(const BaProblem& problem);
   BaProblem WindowProblem() const;
+  void ResetWindow();
   void Propagate(std::size_t from_record);
 
   Options options_;
@@ -78,6 +85,7 @@ class Mapper {
   double log_scale_ = 0;
   double refined_log_scale_ = 0;  // what the last full-map optimisation found
   TimingTable timing_;
+  std::unique_ptr<LoopCloser> loops_;
 };
 
 }  // namespace sslcd

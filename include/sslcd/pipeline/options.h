@@ -4,8 +4,11 @@
 #include "sslcd/association/associate.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
+#include "sslcd/loop/pose_tracks.h"
 #include "sslcd/map/object_map.h"
+#include "sslcd/optim/drift.h"
 #include "sslcd/optim/object_ba.h"
+#include "sslcd/optim/pose_graph_robust.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/perception/filter.h"
 
@@ -35,6 +38,29 @@ struct RefineOptions {
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 
+/// Loop closure (paper IV).
+struct LoopOptions {
+  bool enabled = true;
+  double every_m = 5.;                      ///< an attempt every so much path
+  double local_m = 75.;                     ///< the local map: objects seen on the last so much path
+  double gap_m = 10.;                       ///< the global map: objects on passes that ended so long ago
+  double split_m = 30.;                     ///< unseen for so much path: another pass
+  int min_sightings = 2;                    ///< objects seen less often on a pass take no part
+  double min_margin = 5.;                   ///< log odds from which a pose is believed [nats]
+  double drift_share = 0.02;                ///< how far odometry may be off: translation, share of the path ...
+  double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
+  double surprise = 0.2;                    ///< share of loops that these do not hold for
+  double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
+  double keyframe_m = 5.;
+  double fuse_m = 3.;
+  OdometryNoise odometry{0.02, 0.05, 2e-3, 5e-3, 0.05, 0.05};
+  LayoutMatchOptions match;
+  PoseTrackOptions tracks;
+  DriftOptions drift{true, 0.03};
+  RobustPoseGraphOptions graph;
+};
+void DescribeFields(FieldVisitor& visitor, LoopOptions& options);
+
 /// Everything that can be configured.
 struct Options {
   enum class Mode { kRobust, kPaper };
@@ -46,6 +72,7 @@ struct Options {
   MapOptions map;
   WindowOptions window;
   BaOptions ba;
+  LoopOptions loop;
   RefineOptions refine;
 };
 void DescribeFields(FieldVisitor& visitor, Options& options);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "commands.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/pairs_reader.h"
+#include "sslcd/loop/decision.h"
+#include "sslcd/loop/paper_match.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct MatchArguments {
+  std::string pairs, out;
+  ConfigArguments config;
+  int threads = 1;
+};
+
+// A row of the answers.
+struct Answer {
+  LoopDecision decision = LoopDecision::kNone;
+  YawShift pose;
+  double score = 0, second_score = 0;
+  std::size_t matches = 0;
+  double ms = 0;
+};
+
+Answer MatchRobust(const LayoutPair& pair, const LayoutMatchOptions& options) {
+  const LayoutIndex index(pair.global, options.max_pair_m, options.reach_m);
+  const LayoutAnswer found = MatchLayouts(pair.local, index, options);
+  Answer answer{found.decision, {}, found.score, found.second_score};
+  if (!found.hypotheses.empty()) {
+    answer.pose = found.hypotheses[0].pose;
+    answer.matches = found.hypotheses[0].fit.matches.size();
+  }
+  return answer;
+}
+
+// The paper's two stages and a least-squares pose of all matches; it never doubts.
+Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
+  Answer answer;
+  const auto matches = PaperMatch(pair.local, pair.global, options);
+  if (!matches) return answer;
+  std::vector<Vec3> from, to;
+  for (const ObjectMatch& match : *matches) {
+    from.push_back(pair.local[match.local].position);
+    to.push_back(pair.global[match.global].position);
+    answer.score += match.similarity;
+  }
+  answer.decision = LoopDecision::kAccepted;
+  answer.pose = AlignPoints(from, to);
+  answer.matches = matches->size();
+  return answer;
+}
+
+Answer TimedMatch(const LayoutPair& pair, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  Answer answer = options.mode == Options::Mode::kPaper ? MatchPaper(pair, {}) : MatchRobust(pair, options.loop.match);
+  answer.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return answer;
+}
+
+std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options, int threads,
+                             const Console& console) {
+  std::vector<Answer> answers(pairs.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&](bool tells) {
+    for (std::size_t i = next++; i < pairs.size(); i = next++) {
+      answers[i] = TimedMatch(pairs[i], options);
+      if (tells) console.Progress("pair", static_cast<int>(i) + 1, static_cast<int>(pairs.size()));
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work, false);
+  work(true);
+  for (std::thread& helper : helpers) helper.join();
+  console.EndProgress();
+  return answers;
+}
+
+std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>& answers) {
+  std::string text = "pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,ms\n";
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Answer& a = answers[i];
+    text += std::to_string(pairs[i].id) + "," + ToString(a.decision) + "," + Number("%.6f", a.pose.yaw);
+    for (int axis = 0; axis < 3; ++axis) text += "," + Number("%.4f", a.pose.t[axis]);
+    text += "," + Number("%.3f", a.score) + "," + Number("%.3f", a.second_score) + "," + std::to_string(a.matches) +
+            "," + Number("%.3f", a.ms) + "\n";
+  }
+  return text;
+}
+
+int Match(const MatchArguments& a, const Console& console) {
+  const Options options = a.config.Load();
+  const std::vector<LayoutPair> pairs = ReadLayoutPairs(a.pairs);
+  const std::vector<Answer> answers = MatchAll(pairs, options, a.threads, console);
+  if (a.out.empty()) {
+    std::fputs(Csv(pairs, answers).c_str(), stdout);
+    return 0;
+  }
+  WriteFileAtomically(a.out, Csv(pairs, answers));
+  int count[3] = {0, 0, 0};
+  for (const Answer& answer : answers) ++count[static_cast<int>(answer.decision)];
+  console.Say(std::to_string(pairs.size()) + " pairs: " + std::to_string(count[2]) + " accepted, " +
+              std::to_string(count[1]) + " ambiguous, " + std::to_string(count[0]) + " none");
+  console.Say("wrote " + a.out);
+  return 0;
+}
+
+}  // namespace
+
+Command AddMatchCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("match", "find local maps in global ones, without any prior pose");
+  const auto arguments = std::make_shared<MatchArguments>();
+  command->add_option("PAIRS", arguments->pairs, "file of map pairs, see docs/formats.md")->required();
+  command->add_option("--out", arguments->out, "CSV file to write; default: standard output");
+  arguments->config.AddTo(*command);
+  command->add_option("--threads", arguments->threads, "the answers do not depend on it")->check(CLI::Range(1, 1024));
+  command->add_flag("-q,--quiet", console.quiet, "print the answers and errors only");
+  return [arguments, &console] {
+    console.InstallLog();
+    return Match(*arguments, console);
+  };
+}
+
+}  // namespace sslcd::apps

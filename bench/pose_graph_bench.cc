@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Pose graphs: known minima, and loops of which many are false. usage: pose_graph_bench DATA_FOLDER [OUT_FOLDER]
+// Prints one row for each graph; with OUT_FOLDER the synthetic graphs are written there for others to solve
+// (pose_graph_gtsam.py runs this program and GTSAM on the same files).
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "optim/pose_graph_world.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/g2o.h"
+#include "sslcd/io/run_folder.h"
+#include "sslcd/optim/pose_graph_robust.h"
+
+namespace sslcd {
+namespace {
+
+constexpr int kRepetitions = 5;  // the fastest counts
+
+double BestSeconds(const std::function<void()>& run) {
+  double best = 1e9;
+  for (int i = 0; i < kRepetitions; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return best;
+}
+
+std::vector<Pose> PosesOf(const PoseGraph& graph) {
+  std::vector<Pose> poses;
+  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
+  return poses;
+}
+
+void Minimum(const std::string& name, const PoseGraph& given) {
+  PoseGraphSummary summary;
+  const double seconds = BestSeconds([&] {
+    PoseGraph graph = given;
+    summary = SolvePoseGraph(graph, {});
+  });
+  std::printf("%-16s chi2 %.6g -> %.6g  iterations %d  seconds %.3f\n", name.c_str(), summary.initial_chi2,
+              summary.final_chi2, summary.iterations, seconds);
+}
+
+void Robust(const std::string& name, const PoseGraph& given, const std::vector<Pose>& truth,
+            const RobustPoseGraphOptions& options) {
+  PoseGraph plain = given, robust;
+  SolvePoseGraph(plain, options.graph);
+  RobustPoseGraphSummary summary;
+  const double seconds = BestSeconds([&] { summary = SolveRobust(robust = given, options); });
+  std::printf("%-16s ATE odometry %.2f  plain %.2f  robust %.3f m  kept %d  refused %d  rounds %d  seconds %.3f\n",
+              name.c_str(), AteRmse(given, truth), AteRmse(plain, truth), AteRmse(robust, truth), summary.loops_kept,
+              summary.loops_refused, summary.rounds, seconds);
+}
+
+void Kitti(const std::string& folder, const std::string& sequence) {
+  RobustPoseGraphOptions options;
+  options.graph.freedom = PoseFreedom::kPlanar;
+  options.graph.gravity = GravityFrame::FromUp(Vec3(0, 0, 1));
+  const std::string prefix = folder + "/kitti_" + sequence;
+  const std::vector<Pose> truth = PosesOf(ReadG2o(prefix + "_GT.g2o").graph);
+  PoseGraph only_true = ReadG2o(prefix + "_odom_GT_LC.g2o").graph;
+  SolvePoseGraph(only_true, options.graph);
+  std::printf("%-16s ATE with the true loops only %.3f m\n", ("kitti " + sequence).c_str(), AteRmse(only_true, truth));
+  for (const std::string alpha : {"0.50", "0.15", "0.00"})
+    Robust("  alpha " + alpha, ReadG2o(prefix + "_alpha_" + alpha + ".g2o").graph, truth, options);
+}
+
+}  // namespace
+}  // namespace sslcd
+
+int main(int argc, char** argv) {
+  using namespace sslcd;
+  if (argc < 2) return std::fprintf(stderr, "usage: %s DATA_FOLDER [OUT_FOLDER]\n", argv[0]), 2;
+  const std::string data = argv[1];
+  for (const std::string name : {"sphere2500", "parking-garage"}) {
+    const std::string path = data + "/g2o/" + name + ".g2o";
+    if (std::filesystem::exists(path)) Minimum(name, ReadG2o(path).graph);
+  }
+  for (const std::string sequence : {"00", "05"}) {
+    const std::string folder = data + "/kitti-libviso2-posegraphs";
+    if (std::filesystem::exists(folder + "/kitti_" + sequence + "_GT.g2o")) Kitti(folder, sequence);
+  }
+  for (const int false_loops : {0, 17, 57}) {
+    PoseGraphWorldOptions options;
+    options.false_loops = false_loops;
+    const PoseGraphWorld world = MakePoseGraphWorld(options);
+    const std::string name = "synthetic-60-" + std::to_string(false_loops);
+    Robust(name, world.graph, world.truth, {});
+    if (argc < 3) continue;
+    WriteFileAtomically(std::string(argv[2]) + "/" + name + ".g2o", G2oText(world.graph));
+    Trajectory truth;
+    truth.poses = world.truth;
+    WriteFileAtomically(std::string(argv[2]) + "/" + name + ".truth", KittiText(truth));
+  }
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sslcd/core/layout.h"
+
+namespace sslcd {
+
+/// Two maps of one place and how they lie to one another: a case for layout matching.
+struct LayoutPair {
+  int id = 0;
+  std::string scene;  ///< free text, one word
+  YawShift truth;     ///< local to global
+  std::vector<LayoutObject> local, global;
+};
+
+/// Reads a text file of such pairs, z up, metres and radians:
+///
+///   PAIR id scene n_local n_global yaw tx ty tz
+///   L identity label x y z      (n_local rows)
+///   G identity label x y z      (n_global rows)
+///
+/// Labels are whole numbers; the identities (-1: none) are not kept, since nothing may match by them. The objects know
+/// neither yaw nor size. Throws Error (kBadInput) with file and line for anything else, and for a file without a pair.
+std::vector<LayoutPair> ReadLayoutPairs(const std::string& path);
+
+}  // namespace sslcd

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/loop/decision.h"
+
+namespace sslcd {
+
+/// How hypotheses are followed from one attempt to the next.
+struct PoseTrackOptions {
+  double local_m = 75.;    ///< path that one local map spans: attempts closer together than this share evidence
+  double agree_m = 100.;   ///< what lies further back does not count any more
+  double step_m = 3.;      ///< a hypothesis that jumps by more than this is another one
+  double step_rad = 0.15;  ///< ... or turns by more
+  int max_tracks = 50;
+};
+
+/// A pose that has been a hypothesis for a while.
+struct PoseTrack {
+  struct Vote {
+    double path_m = 0, score = 0;
+  };
+  int id = 0;
+  YawShift pose;            ///< local to global, as the last attempt has it
+  LayoutFit fit;            ///< of the last attempt
+  double prior = 0;         ///< log odds of the pose before any object was looked at
+  double evidence = 0;      ///< log odds that all attempts together speak for it rather than chance [nats]
+  std::vector<Vote> votes;  ///< of the attempts so far, oldest first
+};
+
+/// Temporal agreement: the true pose goes on fitting as the camera moves on, an accidental one does not. Poses found
+/// by one attempt are looked at again in the next, with new objects; what they score there adds up, but only as far
+/// as the local maps differ:
+///   evidence = prior + volume + mean(score) (1 + span / local_m)
+/// where score and volume are those of LayoutFit (evidence = score + volume) and span is the path between the first
+/// and the last attempt. With one attempt this is LayoutFit's own evidence.
+class PoseTracks {
+ public:
+  using Prior = std::function<double(const YawShift&, const LayoutFit&)>;
+
+  explicit PoseTracks(const PoseTrackOptions& options) : options_(options) {}
+
+  /// One more attempt, after `path_m` of path, and the hypotheses it has found.
+  void Update(const std::vector<LayoutObject>& local, const LayoutIndex& index,
+              const std::vector<PoseHypothesis>& found, const LayoutMatchOptions& match, double path_m,
+              const Prior& prior);
+
+  /// Best first.
+  const std::vector<PoseTrack>& tracks() const { return tracks_; }
+
+  /// Log odds of a track against all others and against "nowhere". [nats]
+  double Margin(std::size_t track) const;
+
+  /// The local map's coordinates have changed: new = change(old).
+  void Move(const YawShift& change);
+
+ private:
+  PoseTrackOptions options_;
+  std::vector<PoseTrack> tracks_;
+  int next_id_ = 0;
+};
+
+}  // namespace sslcd

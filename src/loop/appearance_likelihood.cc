@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/appearance_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sslcd {
+namespace {
+
+double Dot(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+  return sum;
+}
+
+// Log ratio of two normal densities of equal width.
+double LogRatio(double value, double mean, double other_mean, double sigma) {
+  const double a = (value - mean) / sigma, b = (value - other_mean) / sigma;
+  return 0.5 * (b * b - a * a);
+}
+
+// How much of the same side two views show: 1 the same, -1 opposite ones; where sides are not told apart, in between.
+double SharedSide(const AppearanceView& a, const AppearanceView& b, Symmetry symmetry) {
+  if (symmetry == Symmetry::kFull) return 1;  // looks alike from everywhere
+  const double cosine = std::cos(a.viewpoint_rad - b.viewpoint_rad);
+  return symmetry == Symmetry::kPi ? std::abs(cosine) : cosine;
+}
+
+// Mean over all pairs of views, weighted by the sightings behind them: views of one object are not independent.
+// `gain` takes a pair of views.
+template <class Gain>
+double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<AppearanceView>& b, const Gain& gain) {
+  double sum = 0, weights = 0;
+  for (const AppearanceView& p : a) {
+    for (const AppearanceView& q : b) {
+      if (p.vector.empty() || p.vector.size() != q.vector.size()) continue;
+      const double weight = static_cast<double>(p.count) * q.count, value = gain(p, q);
+      if (!(weight > 0) || !std::isfinite(value)) continue;
+      sum += weight * value;
+      weights += weight;
+    }
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+}  // namespace
+
+void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
+  visitor.Real("same_side", options.same_side, -1, 1, "expected cosine of one object's embeddings, from one side ...");
+  visitor.Real("opposite_side", options.opposite_side, -1, 1, "... and from opposite sides");
+  visitor.Real("other_object", options.other_object, -1, 1, "expected cosine of different objects' embeddings");
+  visitor.Real("embedding_sigma", options.embedding_sigma, 1e-3, 10, "standard deviation of these");
+  visitor.Real("colour_same", options.colour_same, -1, 1, "expected cosine of one object's colours");
+  visitor.Real("colour_other", options.colour_other, -1, 1, "expected cosine of different objects' colours");
+  visitor.Real("colour_sigma", options.colour_sigma, 1e-3, 10, "standard deviation of these");
+  visitor.Real("limit", options.limit, 0, 100, "appearance says no more about one object, for or against [nats]");
+}
+
+double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const AppearanceOptions& o) {
+  const double embedding = MeanOverViews(a.embedding, b.embedding, [&](const auto& p, const auto& q) {
+    const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
+    const double same = o.opposite_side + side * (o.same_side - o.opposite_side);
+    return LogRatio(Dot(p.vector, q.vector), same, o.other_object, o.embedding_sigma);
+  });
+  const double colour = MeanOverViews(a.colour, b.colour, [&](const auto& p, const auto& q) {
+    return LogRatio(Dot(p.vector, q.vector), o.colour_same, o.colour_other, o.colour_sigma);
+  });
+  return std::clamp(embedding + std::clamp(colour, -o.limit / 3, o.limit / 3), -o.limit, o.limit);
+}
+
+}  // namespace sslcd

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/pose_tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+namespace {
+
+Vec3 CentreOf(const std::vector<LayoutObject>& local) {
+  Vec3 centre = Vec3::Zero();
+  for (const LayoutObject& object : local) centre += object.position / static_cast<double>(local.size());
+  return centre;
+}
+
+}  // namespace
+
+void PoseTracks::Update(const std::vector<LayoutObject>& local, const LayoutIndex& index,
+                        const std::vector<PoseHypothesis>& found, const LayoutMatchOptions& match, double path_m,
+                        const Prior& prior) {
+  if (local.empty()) return;
+  const Vec3 centre = CentreOf(local);
+  const auto near = [&](const YawShift& a, const YawShift& b, double distance, double angle) {
+    return (Apply(a, centre) - Apply(b, centre)).head<2>().norm() < distance &&
+           std::abs(WrapAngle(a.yaw - b.yaw)) < angle;
+  };
+  const LayoutLikelihood likelihood(local, index, match.likelihood);
+  std::vector<PoseTrack> now;
+  const auto add = [&](PoseTrack track, const YawShift& pose, const LayoutFit& fit) {
+    for (const PoseTrack& other : now)
+      if (near(other.pose, pose, match.search.distinct_m, match.search.distinct_rad)) return;
+    track.pose = pose;
+    track.fit = fit;
+    track.votes.push_back({path_m, fit.score});
+    while (path_m - track.votes.front().path_m > options_.agree_m) track.votes.erase(track.votes.begin());
+    double sum = 0;
+    for (const PoseTrack::Vote& vote : track.votes) sum += vote.score;
+    const double span = path_m - track.votes.front().path_m;
+    track.prior = prior(pose, fit);
+    track.evidence = track.prior + fit.evidence - fit.score +
+                     sum / static_cast<double>(track.votes.size()) * (1 + span / options_.local_m);
+    now.push_back(std::move(track));
+  };
+  for (const PoseTrack& track : tracks_) {
+    YawShift pose = track.pose;
+    LayoutFit fit = likelihood.Refine(pose, 4);
+    if (!near(pose, track.pose, options_.step_m, options_.step_rad)) continue;
+    if (static_cast<int>(fit.matches.size()) < match.search.min_matches) continue;
+    add(track, pose, fit);
+  }
+  for (const PoseHypothesis& hypothesis : found) {
+    PoseTrack track;
+    track.id = next_id_++;
+    add(std::move(track), hypothesis.pose, hypothesis.fit);
+  }
+  std::stable_sort(now.begin(), now.end(),
+                   [](const PoseTrack& a, const PoseTrack& b) { return a.evidence > b.evidence; });
+  if (static_cast<int>(now.size()) > options_.max_tracks) now.resize(options_.max_tracks);
+  tracks_ = std::move(now);
+}
+
+double PoseTracks::Margin(std::size_t track) const {
+  double top = 0;
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (i != track) top = std::max(top, tracks_[i].evidence);
+  double sum = std::exp(-top);  // "nowhere" has evidence 0
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    if (i != track) sum += std::exp(tracks_[i].evidence - top);
+  return tracks_[track].evidence - top - std::log(sum);
+}
+
+void PoseTracks::Move(const YawShift& change) {
+  for (PoseTrack& track : tracks_) {
+    // pose o change^-1
+    const YawShift before = track.pose;
+    track.pose.yaw = WrapAngle(before.yaw - change.yaw);
+    track.pose.t = Vec3::Zero();
+    track.pose.t = before.t - Apply(track.pose, change.t);
+  }
+}
+
+}  // namespace sslcd

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/optim/odometry_noise.h"
+
+#include <cmath>
+
+namespace sslcd {
+
+void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
+  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10, "translation error of any two frames");
+  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "translation random walk, m per sqrt(m)");
+  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1, "rotation error of any two frames");
+  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
+  visitor.Real("rotation_turn", noise.rotation_turn, 0, 1, "rotation error per turn, rad per rad");
+  visitor.Real("scale_prior", noise.scale_prior, 0, 1,
+               "standard deviation of the odometry's log scale; 0 keeps the scale at one");
+}
+
+OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
+  const double root = std::sqrt(T_from_to.translation().norm());
+  const double turn = T_from_to.so3().Log().norm();
+  const double walked = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * root);
+  return {std::hypot(noise.translation_floor_m, noise.translation_walk * root),
+          std::hypot(walked, noise.rotation_turn * turn)};
+}
+
+}  // namespace sslcd

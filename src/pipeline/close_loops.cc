@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/close_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <set>
+
+#include "pipeline/move.h"
+#include "sslcd/optim/drift.h"
+#include "sslcd/optim/pose_graph_robust.h"
+
+namespace sslcd {
+namespace {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+Pose ToPoseChange(const YawShift& shift, const GravityFrame& gravity) {
+  return {lie::SO3<double>::Exp(gravity.up * shift.yaw), gravity.Basis() * shift.t};
+}
+
+// Nearest to `T` among the frames [first, last].
+int NearestFrame(const std::vector<FrameRecord>& frames, const Pose& T, int first, int last) {
+  int best = first;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int f = first; f <= last; ++f) {
+    const double distance = (frames[f].T_world_cam.translation() - T.translation()).norm();
+    if (distance < nearest) nearest = distance, best = f;
+  }
+  return best;
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames)
+    : options_(options),
+      map_(map),
+      frames_(frames),
+      passes_(map, frames, options.noise, options.loop.split_m),
+      tracks_(options.loop.tracks) {}
+
+std::vector<LoopClosure> LoopCloser::closures() const {
+  std::vector<LoopClosure> rows;
+  for (const Attempt& attempt : attempts_) rows.push_back(attempt.row);
+  return rows;
+}
+
+bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
+  const double here = frames_.back().travelled;
+  if (here - last_attempt_m_ < options_.loop.every_m) return false;
+  last_attempt_m_ = here;
+  {
+    const ScopedTimer timer(timing, "loop detection");
+    if (!Detect()) return false;
+  }
+  const ScopedTimer timer(timing, "drift correction");
+  const bool moved = !Agree();
+  if (moved) Correct(scale);
+  const bool fused = Fuse();
+  return moved || fused;
+}
+
+// True if the trajectory as it stands goes through all loops found since the last correction.
+bool LoopCloser::Agree() const {
+  const double limit = Chi2Quantile(0.9, 6);
+  return std::all_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
+    if (!attempt.believed || attempt.in_graph) return true;
+    const Pose T = frames_[attempt.match].T_world_cam.inverse() * frames_[attempt.query].T_world_cam;
+    const Vec6 error = (attempt.row.T_match_query.inverse() * T).Log();
+    return error.dot(Mat6(attempt.covariance).ldlt().solve(error)) < limit;
+  });
+}
+
+// Log odds of a pose before any object is looked at: how far would odometry have to be off?
+PoseTracks::Prior LoopCloser::PriorOf(const PassLayout& local, const PassLayout& global,
+                                      const LayoutIndex& index) const {
+  std::map<int, double> seen_at;
+  for (const PassObject& pass : passes_.passes()) seen_at.insert({pass.id.value, pass.last_m});
+  const PathGraph::Distances distances = path_.From(frames_.back().travelled);
+  const double volume = 2 * M_PI * static_cast<double>(index.objects().size()) / index.density();
+  return [=, &local, &global, &o = options_.loop](const YawShift& pose, const LayoutFit& fit) {
+    if (fit.matches.empty()) return 0.;
+    std::vector<double> paths;
+    Vec3 centre = Vec3::Zero();
+    for (const auto& [i, j] : fit.matches) {
+      paths.push_back(distances.To(seen_at.at(global.objects[j].id)));
+      centre += local.objects[i].position / static_cast<double>(fit.matches.size());
+    }
+    std::nth_element(paths.begin(), paths.begin() + paths.size() / 2, paths.end());
+    const double path = paths[paths.size() / 2];
+    const double sigma_yaw = std::hypot(0.02, o.drift_yaw * std::sqrt(path));
+    const double sigma = std::hypot(1., o.drift_share * path, sigma_yaw * path / std::sqrt(3.));
+    const double moved = (Apply(pose, centre) - centre).head<2>().norm();
+    const double gauss = std::exp(-0.5 * (std::pow(moved / sigma, 2) + std::pow(WrapAngle(pose.yaw) / sigma_yaw, 2))) /
+                         (std::pow(2 * M_PI, 1.5) * sigma * sigma * std::min(sigma_yaw, 2.5));
+    return std::log(o.surprise + (1 - o.surprise) * volume * gauss);
+  };
+}
+
+// Where the query camera stands in the match camera's frame, if `track` is right: both cameras in the midst of what was
+// matched, where the layouts agree best.
+bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global,
+                         Attempt& attempt) const {
+  const double here = frames_.back().travelled;
+  const Pose D0 = ToPoseChange(track.pose, map_.gravity());
+  std::vector<DriftPair> pairs;
+  std::vector<int> seen;
+  std::set<int> old_ids;
+  LoopClosure& row = attempt.row;
+  for (const auto& [i, j] : track.fit.matches) {
+    DriftPair pair;
+    pair.T_world_local = ToPose(local.places[i], map_.gravity());
+    pair.T_world_global = ToPose(global.places[j], map_.gravity());
+    pair.symmetry = local.objects[i].symmetry;
+    pair.sigma_horizontal_m = pair.sigma_vertical_m = track.fit.sigma;
+    pair.sigma_yaw_rad = 0.2;
+    pairs.push_back(pair);
+    old_ids.insert(global.objects[j].id);
+    row.pairs.push_back({{local.objects[i].id}, {global.objects[j].id}});
+    for (const PassObject& pass : passes_.passes())
+      if (pass.id.value == local.objects[i].id)
+        for (const auto& [f, d] : pass.sightings)
+          if (frames_[f].travelled >= here - options_.loop.local_m) seen.push_back(f);
+  }
+  const DriftResult drift = SolveDrift(pairs, map_.gravity(), options_.loop.drift);
+  const Pose D = drift.usable ? drift.T_global_local : D0;
+  std::nth_element(seen.begin(), seen.begin() + seen.size() / 2, seen.end());
+  attempt.query = seen[seen.size() / 2];
+  const Pose corrected = D * frames_[attempt.query].T_world_cam;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PassObject& pass : passes_.passes()) {
+    if (old_ids.count(pass.id.value) == 0 || pass.last_m >= here - options_.loop.local_m - options_.loop.gap_m)
+      continue;
+    const int f = NearestFrame(frames_, corrected, pass.sightings.front().first, pass.sightings.back().first);
+    const double distance = (frames_[f].T_world_cam.translation() - corrected.translation()).norm();
+    if (distance < nearest) nearest = distance, attempt.match = f;
+  }
+  row.query_frame = frames_[attempt.query].frame;
+  row.match_frame = frames_[attempt.match].frame;
+  row.T_match_query = frames_[attempt.match].T_world_cam.inverse() * corrected;
+  const auto heading = [&](const Pose& T) {
+    const Vec3 axis = T.so3() * Vec3::UnitZ();
+    return std::atan2(axis.dot(map_.gravity().left), axis.dot(map_.gravity().forward));
+  };
+  row.viewpoint_change_rad = std::abs(WrapAngle(heading(corrected) - heading(frames_[attempt.match].T_world_cam)));
+  const Mat6 to_query = frames_[attempt.query].T_world_cam.inverse().Adj();
+  const Mat6 covariance = to_query * drift.covariance * to_query.transpose();
+  attempt.covariance = covariance;
+  attempt.covariance.diagonal().head<3>().array() += std::pow(options_.loop.sigma_m, 2);
+  attempt.covariance.diagonal().tail<3>().array() += std::pow(options_.loop.sigma_rad, 2);
+  return drift.usable;
+}
+
+// True: something new is believed.
+bool LoopCloser::Detect() {
+  const double here = frames_.back().travelled;
+  const LoopOptions& o = options_.loop;
+  passes_.Update();
+  const PassLayout local = passes_.Recent(here - o.local_m, o.min_sightings);
+  const PassLayout global = passes_.Before(here - o.local_m - o.gap_m, o.min_sightings);
+  if (local.objects.size() < 4 || global.objects.size() < 4) return false;
+  const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
+  std::vector<PoseHypothesis> found = MatchLayouts(local.objects, index, o.match).hypotheses;
+  PoseHypothesis none;  // odometry may be right
+  none.fit = LayoutLikelihood(local.objects, index, o.match.likelihood).Refine(none.pose, 4);
+  if (static_cast<int>(none.fit.matches.size()) >= o.match.search.min_matches) found.insert(found.begin(), none);
+  tracks_.Update(local.objects, index, found, o.match, here, PriorOf(local, global, index));
+
+  Attempt attempt;
+  if (tracks_.tracks().empty()) return false;
+  const PoseTrack& best = tracks_.tracks()[0];
+  if (!Measure(best, local, global, attempt)) return false;
+  attempt.track = best.id;
+  LoopClosure& row = attempt.row;
+  row.score = tracks_.Margin(0);
+  row.second_score = tracks_.tracks().size() > 1 ? tracks_.Margin(1) : -row.score;
+  row.decision = LoopDecision::kAmbiguous;
+  if (best.evidence < 0)
+    row.decision = LoopDecision::kNone, row.reason = "chance explains the best pose";
+  else
+    row.reason = "another pose fits nearly as well";
+  const bool believed = row.score >= o.min_margin;
+  attempt.believed = believed;
+  if (believed) {
+    row.decision = LoopDecision::kAccepted;
+    row.reason = std::to_string(best.fit.matches.size()) + " objects agree";
+    for (Attempt& earlier : attempts_) {
+      if (earlier.track != best.id || earlier.believed) continue;
+      earlier.believed = true;
+      earlier.row.decision = LoopDecision::kAccepted;
+      earlier.row.reason = "settled by frame " + std::to_string(row.query_frame);
+      path_.AddShortcut(frames_[earlier.query].travelled, frames_[earlier.match].travelled);
+    }
+    path_.AddShortcut(frames_[attempt.query].travelled, frames_[attempt.match].travelled);
+  }
+  static FILE* dump = getenv("SSLCD_DUMP") ? fopen(getenv("SSLCD_DUMP"), "w") : nullptr;
+  if (dump) {
+    int rank = 0;
+    for (std::size_t k = 0; k < tracks_.tracks().size() && k < 8; ++k) {
+      const PoseTrack& t = tracks_.tracks()[k];
+      Attempt a;
+      Measure(t, local, global, a);
+      fprintf(dump, "%d %d %d %.3f %.3f %.3f %zu %zu %zu %d %d", a.row.query_frame, ++rank, a.row.match_frame,
+              t.evidence, tracks_.Margin(k), t.prior, t.fit.matches.size(), local.objects.size(), global.objects.size(),
+              t.fit.should_see, frames_.back().frame);
+      const Pose T = a.row.T_match_query;
+      for (int i = 0; i < 3; ++i) fprintf(dump, " %.4f", T.translation()[i]);
+      const auto q = T.so3().unit_quaternion();
+      fprintf(dump, " %.6f %.6f %.6f %.6f %.3f %zu\n", q.x(), q.y(), q.z(), q.w(), t.fit.evidence, t.votes.size());
+    }
+  }
+  attempts_.push_back(std::move(attempt));
+  return believed;
+}
+
+void LoopCloser::Correct(double scale) {
+  // Vertices: keyframes and the ends of all loops.
+  std::set<int> chosen;
+  for (const int k : SelectKeyframes(frames_, options_.loop.keyframe_m, 0.5)) chosen.insert(k);
+  for (const Attempt& attempt : attempts_)
+    if (attempt.believed) chosen.insert({attempt.query, attempt.match});
+  const std::vector<int> keyframes(chosen.begin(), chosen.end());
+  PoseGraph graph;
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    graph.vertices.push_back({keyframes[k], frames_[keyframes[k]].T_world_cam, k == 0});
+    if (k == 0) continue;
+    PoseGraph::Edge& edge = graph.edges.emplace_back();
+    edge.from = keyframes[k - 1];
+    edge.to = keyframes[k];
+    edge.T_from_to = frames_[edge.from].T_odom_cam.inverse() * frames_[edge.to].T_odom_cam;
+    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options_.loop.odometry);
+    edge.T_from_to.translation() *= scale;
+    edge.information.setZero();
+    edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));
+    edge.information.diagonal().tail<3>().setConstant(1 / (sigmas.rotation * sigmas.rotation));
+  }
+  std::vector<Attempt*> loops;
+  for (Attempt& attempt : attempts_) {
+    if (!attempt.believed) continue;
+    PoseGraph::Edge& edge = graph.edges.emplace_back();
+    edge.from = attempt.match;
+    edge.to = attempt.query;
+    edge.T_from_to = attempt.row.T_match_query;
+    edge.information = Mat6(attempt.covariance).inverse();
+    edge.loop = true;
+    attempt.in_graph = true;
+    loops.push_back(&attempt);
+  }
+  const RobustPoseGraphSummary summary = SolveRobust(graph, options_.loop.graph);
+  if (getenv("VERB"))
+    fprintf(stderr, "frame %d: %zu loops, kept %d refused %d chi2 %.1f -> %.1f usable %d %s\n", frames_.back().frame,
+            loops.size(), summary.loops_kept, summary.loops_refused, summary.graph.initial_chi2,
+            summary.graph.final_chi2, summary.graph.usable, summary.graph.message.c_str());
+  if (!summary.graph.usable) return;
+  const std::size_t first_loop = graph.edges.size() - loops.size();
+  for (std::size_t e = 0; e < loops.size(); ++e) {
+    const bool kept = summary.edge_weight[first_loop + e] > 0;
+    loops[e]->row.decision = kept ? LoopDecision::kAccepted : LoopDecision::kAmbiguous;
+    if (!kept) loops[e]->row.reason = "contradicts other loops";
+  }
+  const std::vector<Pose> before = PosesOf(frames_);
+  std::vector<Pose> poses;
+  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
+  MoveKeyframes(frames_, keyframes, poses);
+  MoveObjects(map_, frames_, before, options_.noise);
+  const UprightPose change = ToUpright(frames_.back().T_world_cam * before.back().inverse(), map_.gravity());
+  const Pose moved = frames_.back().T_world_cam * before.back().inverse();
+  // Yaw part about the last camera.
+  const double yaw = std::atan2((moved.so3() * map_.gravity().forward).dot(map_.gravity().left),
+                                (moved.so3() * map_.gravity().forward).dot(map_.gravity().forward));
+  (void)change;
+  YawShift shift;
+  shift.yaw = yaw;
+  const Eigen::Matrix3d to_layout = map_.gravity().Basis().transpose();
+  const Vec3 was = to_layout * before.back().translation(), is = to_layout * frames_.back().T_world_cam.translation();
+  shift.t = is - Apply(shift, was);
+  shift.t.z() = 0;  // layouts have heights of their own
+  tracks_.Move(shift);
+}
+
+// What was matched becomes one landmark.
+bool LoopCloser::Fuse() {
+  std::map<int, LandmarkId> heirs;
+  const auto name = [&](LandmarkId id) {
+    for (auto heir = heirs.find(id.value); heir != heirs.end(); heir = heirs.find(id.value)) id = heir->second;
+    return id;
+  };
+  for (Attempt& attempt : attempts_) {
+    if (attempt.row.decision != LoopDecision::kAccepted) continue;
+    for (const auto& [local, global] : attempt.row.pairs) {
+      const LandmarkId drop = name(local), keep = name(global);
+      const auto& all = map_.landmarks();
+      if (keep == drop || all.count(keep.value) == 0 || all.count(drop.value) == 0) continue;
+      const MapLandmark &a = all.at(keep.value), &b = all.at(drop.value);
+      if (a.label != b.label || (a.pose.position - b.pose.position).norm() > options_.loop.fuse_m) continue;
+      map_.Fuse(keep, drop);
+      heirs[drop.value] = keep;
+    }
+  }
+  if (heirs.empty()) return false;
+  for (FrameRecord& record : frames_)
+    for (LandmarkId& id : record.matched) id = name(id);
+  passes_.Rename(heirs);
+  for (Attempt& attempt : attempts_)
+    for (auto& [local, global] : attempt.row.pairs) local = name(local), global = name(global);
+  return true;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "pipeline/pass_map.h"
+#include "pipeline/path_graph.h"
+#include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/pose_tracks.h"
+#include "sslcd/pipeline/mapper.h"
+
+namespace sslcd {
+
+/// Paper IV, as it runs with every keyframe: the objects seen lately are matched with those of older passes; what is
+/// believed becomes an edge of the pose graph, and trajectory and map follow.
+class LoopCloser {
+ public:
+  /// Works on the mapper's own map and frames.
+  LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames);
+
+  /// Looks for loops if the camera has come far enough since the last time. True: trajectory and map have moved.
+  bool AddKeyframe(double scale, TimingTable& timing);
+
+  /// All attempts so far that had something to compare.
+  std::vector<LoopClosure> closures() const;
+
+ private:
+  struct Attempt {
+    LoopClosure row;
+    int track = -1;
+    int query = 0, match = 0;                                  // indices into frames_
+    Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance;  // of T_match_query Exp(d)
+    std::vector<std::pair<int, int>> fuse;
+    bool believed = false, in_graph = false;
+  };
+  bool Detect();
+  bool Agree() const;
+  PoseTracks::Prior PriorOf(const PassLayout& local, const PassLayout& global, const LayoutIndex& index) const;
+  bool Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;
+  void Correct(double scale);
+  bool Fuse();
+
+  Options options_;
+  ObjectMap& map_;
+  std::vector<FrameRecord>& frames_;
+  PassMap passes_;
+  PoseTracks tracks_;
+  PathGraph path_;
+  double last_attempt_m_ = 0;
+  std::vector<Attempt> attempts_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/pass_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace sslcd {
+namespace {
+
+// Information-weighted mean of where the sightings since `from_m` put an object. None if they are fewer than asked for.
+struct Place {
+  UprightPose pose;
+  double height_m = 0;
+};
+std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
+                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m,
+                               int min_sightings) {
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Vec3 weighted = Vec3::Zero();
+  std::vector<double> yaws;
+  double nearest = std::numeric_limits<double>::infinity(), camera_height = 0;
+  for (const auto& [f, d] : pass.sightings) {
+    const FrameRecord& frame = frames[f];
+    if (frame.travelled < from_m) continue;
+    const Pose& T_cam_object = frame.detections[d].T_cam_object;
+    const Vec3 p = T_cam_object.translation();
+    const Eigen::Matrix3d R = frame.T_world_cam.so3().matrix();
+    const DetectionSigmas sigmas = SigmasAt(p.norm(), noise, {});
+    const Eigen::Matrix3d I = R * PositionCovariance(p, sigmas).inverse() * R.transpose();
+    information += I;
+    if (p.norm() < nearest) camera_height = frame.T_world_cam.translation().dot(gravity.up);
+    nearest = std::min(nearest, p.norm());
+    weighted += I * (frame.T_world_cam * p);
+    yaws.push_back(gravity.YawOf((frame.T_world_cam * T_cam_object).so3()));
+  }
+  if (static_cast<int>(yaws.size()) < std::max(1, min_sightings)) return std::nullopt;
+  Vec2 axis(0, 0);  // of doubled angles: a heading may be turned round by mistake
+  for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
+  const Vec3 position = information.ldlt().solve(weighted);
+  return Place{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},
+               position.dot(gravity.up) - camera_height};
+}
+
+bool Usable(const ObjectMap& map, LandmarkId id) {
+  const auto landmark = map.landmarks().find(id.value);
+  return landmark != map.landmarks().end() && landmark->second.state == LandmarkState::kConfirmed;
+}
+
+}  // namespace
+
+void PassMap::Update() {
+  for (; next_frame_ < frames_.size(); ++next_frame_) {
+    const FrameRecord& frame = frames_[next_frame_];
+    for (std::size_t d = 0; d < frame.matched.size(); ++d) {
+      const LandmarkId id = frame.matched[d];
+      if (id.value < 0) continue;
+      const auto known = open_.find(id.value);
+      if (known == open_.end() || frame.travelled - passes_[known->second].last_m > split_m_) {
+        open_[id.value] = static_cast<int>(passes_.size());
+        passes_.push_back({id, frame.travelled, frame.travelled, {}, -1, {}});
+      }
+      PassObject& pass = passes_[open_[id.value]];
+      pass.last_m = frame.travelled;
+      pass.sightings.push_back({static_cast<int>(next_frame_), static_cast<int>(d)});
+    }
+  }
+  for (auto open = open_.begin(); open != open_.end();) {
+    PassObject& pass = passes_[open->second];
+    const bool over = frames_.back().travelled - pass.last_m > split_m_;
+    if (over) Finish(pass);
+    open = over ? open_.erase(open) : std::next(open);
+  }
+}
+
+void PassMap::Finish(PassObject& pass) const {
+  pass.anchor = pass.sightings[pass.sightings.size() / 2].first;
+  const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., 1);
+  pass.T_anchor_object = frames_[pass.anchor].T_world_cam.inverse() * ToPose(place->pose, map_.gravity());
+  pass.height_m = place->height_m;
+}
+
+void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
+  for (PassObject& pass : passes_)
+    for (auto heir = heirs.find(pass.id.value); heir != heirs.end(); heir = heirs.find(pass.id.value))
+      pass.id = heir->second;
+  std::map<int, int> open;
+  for (const auto& [id, index] : open_) {
+    const auto [other, is_new] = open.insert({passes_[index].id.value, index});
+    if (!is_new) other->second = std::max(other->second, index);
+  }
+  open_ = std::move(open);
+}
+
+void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, PassLayout& layout) const {
+  const MapLandmark& landmark = map_.at(id);
+  LayoutObject object;
+  object.id = id.value;
+  object.label = labels_.insert({landmark.label, static_cast<int>(labels_.size())}).first->second;
+  object.symmetry = landmark.symmetry;
+  object.position = map_.gravity().Basis().transpose() * place.position;
+  object.position.z() = height_m;
+  object.yaw = landmark.symmetry == Symmetry::kFull ? std::numeric_limits<double>::quiet_NaN() : place.yaw;
+  object.dims = landmark.dims;
+  layout.objects.push_back(std::move(object));
+  layout.places.push_back(place);
+}
+
+PassLayout PassMap::Recent(double from_m, int min_sightings) const {
+  std::map<int, const PassObject*> latest;
+  for (const PassObject& pass : passes_)
+    if (pass.last_m >= from_m && Usable(map_, pass.id)) latest[pass.id.value] = &pass;
+  PassLayout layout;
+  for (const auto& [id, pass] : latest) {
+    const auto place = MeanPlace(*pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
+    if (place) Append({id}, place->pose, place->height_m, layout);
+  }
+  return layout;
+}
+
+PassLayout PassMap::Before(double to_m, int min_sightings) const {
+  struct Sum {
+    Vec3 position{0, 0, 0};
+    double weight = 0, yaw = 0, height = 0;
+  };
+  std::map<int, Sum> sums;
+  for (const PassObject& pass : passes_) {
+    if (pass.anchor < 0 || pass.last_m >= to_m || static_cast<int>(pass.sightings.size()) < min_sightings ||
+        !Usable(map_, pass.id))
+      continue;
+    const UprightPose place = ToUpright(frames_[pass.anchor].T_world_cam * pass.T_anchor_object, map_.gravity());
+    const double weight = static_cast<double>(pass.sightings.size());
+    Sum& sum = sums[pass.id.value];
+    sum.position += weight * place.position;
+    sum.height += weight * pass.height_m;
+    sum.weight += weight;
+    sum.yaw = place.yaw;
+  }
+  PassLayout layout;
+  for (const auto& [id, sum] : sums)
+    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, layout);
+  return layout;
+}
+
+}  // namespace sslcd

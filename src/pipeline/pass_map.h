@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sslcd/core/layout.h"
+#include "sslcd/pipeline/mapper.h"
+
+namespace sslcd {
+
+/// One landmark on one pass: its sightings between two long stretches without any. A landmark that was recognised on a
+/// later pass has several of these. Loop closure matches passes rather than landmarks: that tells how far the odometry
+/// has drifted in between, also where the map has long fused what both have seen.
+struct PassObject {
+  LandmarkId id;
+  double first_m = 0, last_m = 0;              ///< path travelled at its first and last sighting
+  std::vector<std::pair<int, int>> sightings;  ///< index of the frame, index of the detection in it
+  int anchor = -1;                             ///< the frame that a finished pass is tied to; -1: not finished yet
+  Pose T_anchor_object;                        ///< where the pass puts the object; it moves with its anchor
+  double height_m = 0;                         ///< over the camera that saw it from nearest
+};
+
+/// Objects as matching sees them, and where they are in the world, in step. The height of a layout object is that over
+/// the camera that saw it from nearest: odometry's drift in height and tilt cancels.
+struct PassLayout {
+  std::vector<LayoutObject> objects;
+  std::vector<UprightPose> places;
+};
+
+/// The passes of a run and the layouts they make. Refers to the mapper's own map and frames.
+class PassMap {
+ public:
+  /// A landmark out of sight for more path than `split_m` is on another pass when it comes back.
+  PassMap(const ObjectMap& map, const std::vector<FrameRecord>& frames, const DetectionNoise& noise, double split_m)
+      : map_(map), frames_(frames), noise_(noise), split_m_(split_m) {}
+
+  /// Takes in the frames that were added since the last call.
+  void Update();
+
+  /// Landmarks were fused: those that are gone -> those that took them over.
+  void Rename(const std::map<int, LandmarkId>& heirs);
+
+  /// Objects seen since `from_m` of path at least `min_sightings` times, where those sightings put them.
+  PassLayout Recent(double from_m, int min_sightings) const;
+
+  /// Objects by their passes that ended before `to_m` of path, one each.
+  PassLayout Before(double to_m, int min_sightings) const;
+
+  const std::vector<PassObject>& passes() const { return passes_; }
+
+ private:
+  void Finish(PassObject& pass) const;
+  void Append(LandmarkId id, const UprightPose& place, double height_m, PassLayout& layout) const;
+
+  const ObjectMap& map_;
+  const std::vector<FrameRecord>& frames_;
+  DetectionNoise noise_;
+  double split_m_;
+  std::size_t next_frame_ = 0;
+  std::vector<PassObject> passes_;
+  std::map<int, int> open_;  // landmark -> its present pass
+  mutable std::map<std::string, int> labels_;
+};
+
+}  // namespace sslcd

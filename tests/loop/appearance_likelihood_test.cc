@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/appearance_likelihood.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "layout_cases.h"
+
+namespace sslcd {
+namespace {
+
+// A view whose vector has the given cosine to that of View(.., 1).
+AppearanceView View(double viewpoint_rad, double cosine) {
+  const auto x = static_cast<float>(cosine), y = static_cast<float>(std::sqrt(1 - cosine * cosine));
+  return {viewpoint_rad, 1, {x, y}};
+}
+
+LayoutObject Car(const AppearanceView& view) {
+  LayoutObject car;
+  car.embedding = {view};
+  return car;
+}
+
+double Gain(double angle, double cosine, Symmetry symmetry = Symmetry::kNone) {
+  LayoutObject a = Car(View(0.3, 1)), b = Car(View(0.3 + angle, cosine));
+  a.symmetry = b.symmetry = symmetry;
+  return AppearanceGain(a, b, {});
+}
+
+TEST(AppearanceGain, KnowsTheViewingAngle) {
+  EXPECT_GT(Gain(0, 0.75), 2);
+  EXPECT_LT(Gain(0, 0.3), -2);
+  EXPECT_GT(Gain(M_PI, 0.45), 0.5) << "as alike as opposite sides of one car are";
+  EXPECT_LT(Gain(0, 0.45), 0) << "but too different for one side";
+  EXPECT_NEAR(Gain(M_PI, 0.45, Symmetry::kPi), Gain(0, 0.45, Symmetry::kPi), 1e-9);
+  EXPECT_NEAR(Gain(2, 0.45, Symmetry::kFull), Gain(0, 0.45, Symmetry::kFull), 1e-9);
+}
+
+TEST(AppearanceGain, IsEvidenceAndNeverAGate) {
+  const AppearanceOptions options;
+  for (const double cosine : {-1., 0., 0.5, 1.}) EXPECT_LE(std::abs(Gain(0, cosine)), options.limit);
+  LayoutObject a, b;
+  a.colour = {View(0, 1)};
+  b.colour = {View(0, 1)};
+  EXPECT_GT(AppearanceGain(a, b, options), 0);
+  EXPECT_LE(AppearanceGain(a, b, options), options.limit / 3);
+}
+
+TEST(AppearanceGain, IsZeroWhereNothingCanBeCompared) {
+  LayoutObject a = Car(View(0, 1)), b;
+  EXPECT_EQ(AppearanceGain(a, b, {}), 0);
+  b.embedding = {{0, 1, {1, 0, 0}}};
+  EXPECT_EQ(AppearanceGain(a, b, {}), 0) << "vectors of different lengths";
+  b.embedding = {{0, 1, {NAN, 0}}};
+  EXPECT_EQ(AppearanceGain(a, b, {}), 0);
+  b.embedding = {{0, 0, {1, 0}}};
+  EXPECT_EQ(AppearanceGain(a, b, {}), 0) << "no sightings";
+}
+
+std::vector<LayoutObject> Row() {
+  std::vector<LayoutObject> row;
+  for (int i = 0; i < 8; ++i) {
+    row.push_back(ObjectAt({6. * i, 0.1 * i, 0}));
+    row.back().yaw = 0.5;
+  }
+  return row;
+}
+
+TEST(Semantics, HeadingsTellAHalfTurn) {
+  const std::vector<LayoutObject> row = Row();
+  const YawShift turned{2., {10, 0, 0}};
+  std::vector<LayoutObject> local = SeenFrom(row, turned, {21, 0}, 40, 0, 1), blind = local;
+  for (LayoutObject& object : local) object.yaw = WrapAngle(object.yaw - turned.yaw);
+  for (LayoutObject& object : blind) object.yaw = NAN;
+  EXPECT_EQ(MatchMaps(blind, row).decision, LoopDecision::kAmbiguous);
+  const LayoutAnswer answer = MatchMaps(local, row);
+  ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+  EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - turned.yaw), 0, 0.01);
+}
+
+TEST(Semantics, HeadingsOfFrontAndBackAlikeTellNothing) {
+  std::vector<LayoutObject> row = Row();
+  for (LayoutObject& object : row) object.symmetry = Symmetry::kPi;
+  EXPECT_EQ(MatchMaps(row, row).decision, LoopDecision::kAmbiguous);
+  for (LayoutObject& object : row) object.symmetry = Symmetry::kFull;
+  EXPECT_EQ(MatchMaps(row, row).decision, LoopDecision::kAmbiguous);
+}
+
+TEST(Semantics, AppearanceSettlesAGrid) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 30; ++i) {
+    grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
+    std::vector<float> vector(30, 0.1f);
+    vector[i] = 1;
+    float norm = 0;
+    for (const float v : vector) norm += v * v;
+    for (float& v : vector) v /= std::sqrt(norm);
+    grid.back().embedding = {{0, 1, vector}};
+  }
+  const LayoutAnswer answer = MatchMaps(grid, grid);
+  ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(10, 20, 0)), 0.01);
+}
+
+}  // namespace
+}  // namespace sslcd

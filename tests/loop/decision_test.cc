@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/decision.h"
+
+#include <gmock/gmock.h>
+
+#include "layout_cases.h"
+
+namespace sslcd {
+namespace {
+
+const YawShift kPose{2.5, {30, -20, 1.5}};
+
+TEST(MatchLayouts, FindsItsPlaceInAStrewnMap) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2);
+  ASSERT_GE(local.size(), 6u);
+  const LayoutAnswer answer = MatchMaps(local, map);
+  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+  ASSERT_FALSE(answer.hypotheses.empty());
+  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
+  EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - kPose.yaw), 0, 0.03);
+  EXPECT_EQ(answer.hypotheses[0].fit.matches.size(), local.size());
+  EXPECT_GT(answer.score, answer.second_score);
+}
+
+TEST(MatchLayouts, HoldsFromAnyDirection) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 3);
+  for (double yaw = -3; yaw <= 3; yaw += 0.5) {
+    const YawShift pose{yaw, {5, 300, 0}};
+    const LayoutAnswer answer = MatchMaps(SeenFrom(map, pose, {-5, 0}, 18, 0.1, 4), map);
+    ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << "yaw " << yaw << ": " << answer.reason;
+    EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - yaw), 0, 0.03);
+  }
+}
+
+TEST(MatchLayouts, RefusesWhatIsTooLittle) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  for (std::size_t count = 0; count < 4; ++count) {
+    const std::vector<LayoutObject> few(map.begin(), map.begin() + static_cast<std::ptrdiff_t>(count));
+    for (const LayoutAnswer& answer : {MatchMaps(few, map), MatchMaps(map, few), MatchMaps(few, few)}) {
+      EXPECT_EQ(answer.decision, LoopDecision::kNone) << count << " objects";
+      EXPECT_THAT(answer.reason, testing::Not(testing::IsEmpty()));
+    }
+  }
+}
+
+TEST(MatchLayouts, DoesNotMatchTheMirrorImage) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const std::vector<LayoutObject> map = Strewn(100, 60, seed);
+    std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 20, 0.1, seed);
+    ASSERT_EQ(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted);
+    for (LayoutObject& object : mirrored) object.position.y() *= -1;
+    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
+  }
+}
+
+TEST(MatchLayouts, AnswersAreProperTurns) {  // even the best pose of a mirror image keeps left on the left
+  const std::vector<LayoutObject> map = Strewn(40, 60, 5);
+  std::vector<LayoutObject> mirrored = map;
+  for (LayoutObject& object : mirrored) object.position.y() *= -1;
+  for (const PoseHypothesis& hypothesis : MatchMaps(mirrored, map).hypotheses)
+    EXPECT_LT(hypothesis.fit.matches.size(), mirrored.size() / 2);
+}
+
+TEST(MatchLayouts, IsLostInAPerfectGrid) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
+  const std::vector<LayoutObject> part = SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1);
+  ASSERT_GE(part.size(), 8u);
+  EXPECT_EQ(MatchMaps(part, grid).decision, LoopDecision::kAmbiguous) << "many shifts fit";
+  EXPECT_EQ(MatchMaps(grid, grid).decision, LoopDecision::kAmbiguous) << "the half-turn fits as well";
+}
+
+TEST(MatchLayouts, IsLostOnAnEvenLine) {
+  std::vector<LayoutObject> even;
+  for (int i = 0; i < 8; ++i) even.push_back(ObjectAt({6. * i, 0.1 * i, 0}));
+  EXPECT_EQ(MatchMaps(even, even).decision, LoopDecision::kAmbiguous) << "the half-turn fits as well";
+}
+
+TEST(MatchLayouts, UnevenSpacingsTellTheEndsOfALineApart) {
+  std::vector<LayoutObject> line;
+  for (const double x : {0., 7., 12., 21., 35., 41., 60.}) line.push_back(ObjectAt({x, 0.2 * x, 0}));
+  const LayoutAnswer answer = MatchMaps(line, line);
+  ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(60, 12, 0)), 0.01);
+}
+
+TEST(MatchLayouts, ObjectsOnOneSpotAreNoLayout) {
+  const std::vector<LayoutObject> heap(12, ObjectAt({3, 4, 0}));
+  EXPECT_EQ(MatchMaps(heap, heap).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchMaps(heap, Strewn(60, 80, 1)).decision, LoopDecision::kNone);
+}
+
+TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  std::vector<LayoutObject> three = SeenFrom(map, kPose, {10, 5}, 18, 0., 2);
+  three.resize(3);
+  std::vector<LayoutObject> doubled = three;
+  for (int copy = 0; copy < 4; ++copy) doubled.insert(doubled.end(), three.begin(), three.end());
+  EXPECT_NE(MatchMaps(doubled, map).decision, LoopDecision::kAccepted) << "three places, seen five times each";
+
+  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), global = map;
+  local.push_back(local[0]);
+  global.push_back(global[0]);
+  const LayoutAnswer answer = MatchMaps(local, global);
+  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
+}
+
+TEST(MatchLayouts, LeavesOutWhatIsNotFinite) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), dirty = map;
+  const LayoutAnswer clean = MatchMaps(local, map);
+  dirty.push_back(ObjectAt({std::nan(""), 0, 0}));
+  local.push_back(ObjectAt({0, INFINITY, 0}));
+  const LayoutAnswer answer = MatchMaps(local, dirty);
+  EXPECT_EQ(answer.decision, clean.decision);
+  EXPECT_EQ(answer.score, clean.score);
+  const std::vector<LayoutObject> nothing(9, ObjectAt({std::nan(""), std::nan(""), 0}));
+  EXPECT_EQ(MatchMaps(nothing, map).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchMaps(local, nothing).decision, LoopDecision::kNone);
+}
+
+TEST(MatchLayouts, MatchesNameTheObjectsOfTheCaller) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.1, 2);
+  local.insert(local.begin(), ObjectAt({std::nan(""), 0, 0}));
+  const LayoutAnswer answer = MatchMaps(local, map);
+  ASSERT_EQ(answer.decision, LoopDecision::kAccepted);
+  for (const auto& [i, j] : answer.hypotheses[0].fit.matches)
+    EXPECT_LT((Apply(kPose, local[i].position) - map[j].position).norm(), 1.);
+}
+
+TEST(MatchLayouts, AnyLabelNumberIsFine) {
+  std::vector<LayoutObject> map = Strewn(60, 80, 1);
+  for (LayoutObject& object : map) object.label = object.label * 1000000000 - 1;
+  const LayoutAnswer answer = MatchMaps(SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), map);
+  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+}
+
+}  // namespace
+}  // namespace sslcd

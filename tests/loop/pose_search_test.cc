@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/pose_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "layout_cases.h"
+
+namespace sslcd {
+namespace {
+
+const YawShift kPose{-1.2, {-300, 200, 3}};
+
+TEST(SearchPoses, TheTruthComesFirst) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const std::vector<LayoutObject> map = Strewn(80, 80, seed);
+    const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 0}, 18, 0.2, seed);
+    const std::vector<PoseHypothesis> found = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+    ASSERT_FALSE(found.empty());
+    EXPECT_LT(ShiftBetween(found[0].pose, kPose, local[0].position), 1.) << "seed " << seed;
+  }
+}
+
+TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 48; ++i) grid.push_back(ObjectAt({2.5 * (i % 8), 6. * (i / 8), 0}));
+  const std::vector<LayoutObject> local(grid.begin(), grid.begin() + 20);
+  const PoseSearchOptions options;
+  const std::vector<PoseHypothesis> found = SearchPoses(local, LayoutIndex(grid, 50, 2), options, {});
+  ASSERT_GT(found.size(), 4u);
+  Vec3 centre = Vec3::Zero();
+  for (const LayoutObject& object : local) centre += object.position / 20.;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_GE(static_cast<int>(found[i].fit.matches.size()), options.min_matches);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(found[j].fit.evidence, found[i].fit.evidence);
+      EXPECT_TRUE(ShiftBetween(found[i].pose, found[j].pose, centre) >= options.distinct_m ||
+                  std::abs(WrapAngle(found[i].pose.yaw - found[j].pose.yaw)) >= options.distinct_rad);
+    }
+  }
+}
+
+TEST(SearchPoses, TheOrderOfTheObjectsDoesNotMatter) {
+  const std::vector<LayoutObject> map = Strewn(60, 70, 4);
+  std::vector<LayoutObject> local = SeenFrom(map, kPose, {0, 0}, 18, 0.2, 5);
+  const auto a = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+  std::reverse(local.begin(), local.end());
+  const auto b = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+  ASSERT_FALSE(a.empty());
+  ASSERT_FALSE(b.empty());
+  EXPECT_LT(ShiftBetween(a[0].pose, b[0].pose, local[0].position), 0.05);
+  EXPECT_NEAR(a[0].fit.evidence, b[0].fit.evidence, 0.05);
+}
+
+TEST(SearchPoses, NothingIsFoundInNothing) {
+  const std::vector<LayoutObject> map = Strewn(30, 60, 1);
+  EXPECT_TRUE(SearchPoses({}, LayoutIndex(map, 50, 2), {}, {}).empty());
+  EXPECT_TRUE(SearchPoses(map, LayoutIndex({}, 50, 2), {}, {}).empty());
+  EXPECT_TRUE(SearchPoses({map[0]}, LayoutIndex({map[0]}, 50, 2), {}, {}).empty());
+}
+
+}  // namespace
+}  // namespace sslcd
