@@ -100,6 +100,7 @@ int Run(RunArguments& a, const Console& console) {
   outputs.odometry = result.odometry;
   outputs.map = {dataset.up_axis, result.objects};
   outputs.graph = result.graph;
+  outputs.loops = result.loops;
   outputs.timing = result.timing;
   outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, options); }, false);
   EvaluationInput evaluation;

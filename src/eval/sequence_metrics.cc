@@ -68,7 +68,8 @@ void JudgeLoops(const SequenceRun& run, const std::vector<Pose>& reference, cons
   const int n = static_cast<int>(reference.size());
   std::set<double> hit;
   std::vector<double> errors_m, errors_rad;
-  for (const LoopAnswer& loop : run.loops) {
+  for (const LoopClosure& loop : run.loops) {
+    if (loop.decision != LoopDecision::kAccepted) continue;
     if (std::min(loop.query_frame, loop.match_frame) < 0 || std::max(loop.query_frame, loop.match_frame) >= n) {
       throw Error(ErrorKind::kUsage, "the loop " + std::to_string(loop.query_frame) + " - " +
                                          std::to_string(loop.match_frame) + " is outside of the " + std::to_string(n) +
@@ -89,11 +90,11 @@ void JudgeLoops(const SequenceRun& run, const std::vector<Pose>& reference, cons
       if (mark - options.spacing_m < at && at <= mark + options.spacing_m) hit.insert(mark);
     }
   }
-  metrics.loops = static_cast<int>(run.loops.size());
+  metrics.loops = static_cast<int>(errors_m.size());
   metrics.revisited_stretches = static_cast<int>(marks.size());
   metrics.recall = static_cast<double>(hit.size()) / std::max<std::size_t>(1, marks.size());
   metrics.path = distance.back();
-  if (run.loops.empty()) return;
+  if (errors_m.empty()) return;
   metrics.loop_error_median_m = Summarise(errors_m).median;
   metrics.loop_error_median_rad = Summarise(errors_rad).median;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/run_folder.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/number_text.h"
@@ -89,6 +90,26 @@ std::string PlyText(const MapFile& map, const Trajectory& trajectory) {
          std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
 }
 
+std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
+  constexpr double kDegrees = 180 / M_PI;
+  std::string text =
+      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
+      "pairs\n";
+  for (const LoopClosure& loop : loops) {
+    text += std::to_string(loop.query_frame) + "," + std::to_string(loop.match_frame) + "," + ToString(loop.decision) +
+            "," + loop.reason + "," + FixedNumber(loop.score, 3) + "," + FixedNumber(loop.second_score, 3) + "," +
+            std::to_string(loop.pairs.size()) + "," + FixedNumber(loop.viewpoint_change_rad * kDegrees, 2);
+    std::string pose = PoseText(loop.T_match_query);
+    std::replace(pose.begin(), pose.end(), ' ', ',');
+    text += "," + pose + ",";
+    for (std::size_t i = 0; i < loop.pairs.size(); ++i)
+      text += (i > 0 ? ";" : "") + std::to_string(loop.pairs[i].first.value) + ":" +
+              std::to_string(loop.pairs[i].second.value);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string TimingJson(const TimingTable& timing) {
   std::string text = "{";
   for (const auto& [stage, times] : timing.Summary()) {
@@ -111,9 +132,6 @@ std::string MetricsJson(const Metrics& metrics) {
 
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs) {
   MakeWritableFolder(folder);
-  const std::string loops_header =
-      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
-      "pairs\n";
   const std::vector<std::pair<std::string, std::string>> files = {
       {"trajectory_tum.txt", TumText(outputs.trajectory)},
       {"trajectory_kitti.txt", KittiText(outputs.trajectory)},
@@ -122,7 +140,7 @@ std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutp
       {"map.json", MapJson(outputs.map)},
       {"map.ply", PlyText(outputs.map, outputs.trajectory)},
       {"graph.g2o", G2oText(outputs.graph)},
-      {"loops.csv", loops_header},
+      {"loops.csv", LoopsCsv(outputs.loops)},
       {"timing.json", TimingJson(outputs.timing)},
       {"metrics.json", MetricsJson(outputs.metrics)},
       {"config.yaml", outputs.config_yaml}};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "sslcd/core/pose.h"
 
@@ -27,20 +28,26 @@ void PoseTracks::Update(const std::vector<LayoutObject>& local, const LayoutInde
            std::abs(WrapAngle(a.yaw - b.yaw)) < angle;
   };
   const LayoutLikelihood likelihood(local, index, match.likelihood);
+  std::vector<int> ids;
+  for (const LayoutObject& object : local) ids.push_back(object.id);
   std::vector<PoseTrack> now;
   const auto add = [&](PoseTrack track, const YawShift& pose, const LayoutFit& fit) {
     for (const PoseTrack& other : now)
       if (near(other.pose, pose, match.search.distinct_m, match.search.distinct_rad)) return;
     track.pose = pose;
     track.fit = fit;
-    track.votes.push_back({path_m, fit.score});
+    track.votes.push_back({path_m, fit.score, ids});
     while (path_m - track.votes.front().path_m > options_.agree_m) track.votes.erase(track.votes.begin());
-    double sum = 0;
-    for (const PoseTrack::Vote& vote : track.votes) sum += vote.score;
-    const double span = path_m - track.votes.front().path_m;
+    double scores = 0, objects = 0;
+    std::set<int> different;
+    for (const PoseTrack::Vote& vote : track.votes) {
+      scores += vote.score;
+      objects += static_cast<double>(vote.objects.size());
+      different.insert(vote.objects.begin(), vote.objects.end());
+    }
     track.prior = prior(pose, fit);
-    track.evidence = track.prior + fit.evidence - fit.score +
-                     sum / static_cast<double>(track.votes.size()) * (1 + span / options_.local_m);
+    track.evidence =
+        track.prior + fit.evidence - fit.score + scores * static_cast<double>(different.size()) / objects;
     now.push_back(std::move(track));
   };
   for (const PoseTrack& track : tracks_) {

@@ -155,7 +155,63 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
   visitor.Integer("max_rounds", options.max_rounds, 1, 10000, "weight updates");
 }
 
-RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options) {
+namespace {
+
+// Judges all loops by where `work` stands, those that were ruled out, too, and solves with the ones kept; a few times,
+// until nothing changes. `graph` takes over what `work` has found.
+void Decide(PoseGraph& work, const RobustPoseGraphOptions& options, const std::vector<std::pair<int, int>>& ends,
+            PoseGraph& graph, RobustPoseGraphSummary& summary) {
+  for (int i = 0; i < 5 && KeepConsistent(work, ends, summary); ++i) {
+    summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
+    if (!summary.graph.usable) break;
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    if (graph.edges[e].loop) ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
+  summary.graph.initial_chi2 = Chi2(graph, summary.edge_weight);
+  if (!summary.graph.usable) return;
+  graph.vertices = work.vertices;
+  summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
+}
+
+// From where a former solve has left the vertices, with what it has kept. False if this refuses more loops than a few
+// new ones can be: then everything has to be decided anew.
+bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const std::vector<double>& kept_before,
+               RobustPoseGraphSummary& summary) {
+  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // its loops come first, in order
+  std::vector<std::size_t> loops;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    if (graph.edges[e].loop) loops.push_back(e);
+  const auto refused = [&](const std::vector<double>& weights) {
+    return std::count_if(loops.begin(), loops.end(), [&](std::size_t e) { return weights[e] == 0; });
+  };
+  RobustPoseGraphSummary decided = summary;
+  std::vector<double> weights(condensed.graph().edges.size(), 1.);
+  for (std::size_t i = 0; i < loops.size(); ++i) weights[i] = kept_before[loops[i]];
+  PoseGraphOptions inner = options.graph;
+  inner.start = PoseGraphStart::kGiven;
+  const auto ends = IndexPoseGraph(condensed.graph()).ends;
+  for (int i = 0; i < 3; ++i) {
+    if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return false;
+    bool changed = false;
+    for (std::size_t e = 0; e < loops.size(); ++e) {
+      const double weight = EdgeChi2(condensed.graph(), ends, e) <= summary.chi2_limit ? 1 : 0;
+      changed |= weight != weights[e];
+      decided.edge_weight[loops[e]] = weights[e] = weight;
+    }
+    if (!changed) break;
+  }
+  constexpr double kShareOfNew = 0.02;
+  if (static_cast<double>(refused(decided.edge_weight) - refused(kept_before)) >
+      std::max(1., kShareOfNew * static_cast<double>(loops.size())))
+    return false;
+  condensed.Expand(graph);
+  return true;
+}
+
+}  // namespace
+
+RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
+                                   const std::vector<double>& kept_before) {
   RobustPoseGraphSummary summary;
   const PoseGraphIndex index = IndexPoseGraph(graph);
   summary.edge_weight.assign(graph.edges.size(), 1.);
@@ -169,6 +225,10 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
     const auto [from, to] = index.ends[e];
     work.edges[e] = EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
                                work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
+  }
+  if (kept_before.size() == graph.edges.size() && SolveWarm(work, options, kept_before, summary)) {
+    Decide(work, options, index.ends, graph, summary);
+    return summary;
   }
   const TrustedTree tree(work, index.ends);
   PoseGraph candidates;  // with the loops that odometry does not rule out
@@ -184,17 +244,7 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
   summary.rounds = SolveTruncated(candidates, options, summary.chi2_limit);
   work.vertices = candidates.vertices;
 
-  // All loops are judged by where that leads, those that were ruled out, too; a few times, until nothing changes.
-  for (int i = 0; i < 5 && KeepConsistent(work, index.ends, summary); ++i) {
-    summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
-    if (!summary.graph.usable) break;
-  }
-  for (std::size_t e = 0; e < graph.edges.size(); ++e)
-    if (graph.edges[e].loop) ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
-  summary.graph.initial_chi2 = Chi2(graph, summary.edge_weight);
-  if (!summary.graph.usable) return summary;
-  graph.vertices = work.vertices;
-  summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
+  Decide(work, options, index.ends, graph, summary);
   return summary;
 }
 

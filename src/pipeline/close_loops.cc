@@ -17,19 +17,16 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-Pose ToPoseChange(const YawShift& shift, const GravityFrame& gravity) {
-  return {lie::SO3<double>::Exp(gravity.up * shift.yaw), gravity.Basis() * shift.t};
+// Which way a camera looks, horizontally.
+double Heading(const Pose& T_world_cam, const GravityFrame& gravity) {
+  const Vec3 axis = T_world_cam.so3() * Vec3::UnitZ();
+  return std::atan2(axis.dot(gravity.left), axis.dot(gravity.forward));
 }
 
-// Nearest to `T` among the frames [first, last].
-int NearestFrame(const std::vector<FrameRecord>& frames, const Pose& T, int first, int last) {
-  int best = first;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int f = first; f <= last; ++f) {
-    const double distance = (frames[f].T_world_cam.translation() - T.translation()).norm();
-    if (distance < nearest) nearest = distance, best = f;
-  }
-  return best;
+int FrameAt(const std::vector<FrameRecord>& frames, double path_m) {
+  const auto at = std::lower_bound(frames.begin(), frames.end(), path_m,
+                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  return static_cast<int>(std::min(at, frames.end() - 1) - frames.begin());
 }
 
 }  // namespace
@@ -45,6 +42,10 @@ std::vector<LoopClosure> LoopCloser::closures() const {
   std::vector<LoopClosure> rows;
   for (const Attempt& attempt : attempts_) rows.push_back(attempt.row);
   return rows;
+}
+
+bool LoopCloser::Closed() const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) { return attempt.believed; });
 }
 
 bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
@@ -69,7 +70,7 @@ bool LoopCloser::Agree() const {
     if (!attempt.believed || attempt.in_graph) return true;
     const Pose T = frames_[attempt.match].T_world_cam.inverse() * frames_[attempt.query].T_world_cam;
     const Vec6 error = (attempt.row.T_match_query.inverse() * T).Log();
-    return error.dot(Mat6(attempt.covariance).ldlt().solve(error)) < limit;
+    return error.dot(Mat6(attempt.row.covariance).ldlt().solve(error)) < limit;
   });
 }
 
@@ -99,16 +100,15 @@ PoseTracks::Prior LoopCloser::PriorOf(const PassLayout& local, const PassLayout&
   };
 }
 
-// Where the query camera stands in the match camera's frame, if `track` is right: both cameras in the midst of what was
-// matched, where the layouts agree best.
+// Where the query camera stands in the match camera's frame, if `track` is right. Both cameras are taken from the midst
+// of what was matched, where the layouts agree best; objects seen far from there count less, by as much as odometry may
+// have bent the path in between.
 bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global,
                          Attempt& attempt) const {
-  const double here = frames_.back().travelled;
-  const Pose D0 = ToPoseChange(track.pose, map_.gravity());
-  std::vector<DriftPair> pairs;
-  std::vector<int> seen;
-  std::set<int> old_ids;
+  const LoopOptions& o = options_.loop;
   LoopClosure& row = attempt.row;
+  std::vector<DriftPair> pairs;
+  std::vector<double> seen;  // where on the path
   for (const auto& [i, j] : track.fit.matches) {
     DriftPair pair;
     pair.T_world_local = ToPose(local.places[i], map_.gravity());
@@ -117,40 +117,54 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
     pair.sigma_horizontal_m = pair.sigma_vertical_m = track.fit.sigma;
     pair.sigma_yaw_rad = 0.2;
     pairs.push_back(pair);
-    old_ids.insert(global.objects[j].id);
     row.pairs.push_back({{local.objects[i].id}, {global.objects[j].id}});
-    for (const PassObject& pass : passes_.passes())
-      if (pass.id.value == local.objects[i].id)
-        for (const auto& [f, d] : pass.sightings)
-          if (frames_[f].travelled >= here - options_.loop.local_m) seen.push_back(f);
+    seen.push_back(local.seen_m[i]);
   }
-  const DriftResult drift = SolveDrift(pairs, map_.gravity(), options_.loop.drift);
-  const Pose D = drift.usable ? drift.T_global_local : D0;
+  attempt.fuse = row.pairs;
+  DriftResult drift = SolveDrift(pairs, map_.gravity(), o.drift);
+  if (!drift.usable) return false;
   std::nth_element(seen.begin(), seen.begin() + seen.size() / 2, seen.end());
-  attempt.query = seen[seen.size() / 2];
-  const Pose corrected = D * frames_[attempt.query].T_world_cam;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const PassObject& pass : passes_.passes()) {
-    if (old_ids.count(pass.id.value) == 0 || pass.last_m >= here - options_.loop.local_m - options_.loop.gap_m)
-      continue;
-    const int f = NearestFrame(frames_, corrected, pass.sightings.front().first, pass.sightings.back().first);
-    const double distance = (frames_[f].T_world_cam.translation() - corrected.translation()).norm();
-    if (distance < nearest) nearest = distance, attempt.match = f;
+  const double query_m = seen[seen.size() / 2];
+  attempt.query = FrameAt(frames_, query_m);
+  attempt.match = NearestOldFrame(drift.T_global_local * frames_[attempt.query].T_world_cam, row.pairs);
+  if (attempt.match < 0) return false;
+  const double match_m = frames_[attempt.match].travelled;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto& [i, j] = track.fit.matches[k];
+    const double bent = o.bend * std::hypot(local.seen_m[i] - query_m, passes_.Away(row.pairs[k].second, match_m));
+    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(track.fit.sigma, bent);
   }
+  drift = SolveDrift(pairs, map_.gravity(), o.drift);
+  if (!drift.usable) return false;
+
+  const Pose corrected = drift.T_global_local * frames_[attempt.query].T_world_cam;
+  const Pose& T_world_match = frames_[attempt.match].T_world_cam;
   row.query_frame = frames_[attempt.query].frame;
   row.match_frame = frames_[attempt.match].frame;
-  row.T_match_query = frames_[attempt.match].T_world_cam.inverse() * corrected;
-  const auto heading = [&](const Pose& T) {
-    const Vec3 axis = T.so3() * Vec3::UnitZ();
-    return std::atan2(axis.dot(map_.gravity().left), axis.dot(map_.gravity().forward));
-  };
-  row.viewpoint_change_rad = std::abs(WrapAngle(heading(corrected) - heading(frames_[attempt.match].T_world_cam)));
+  row.T_match_query = T_world_match.inverse() * corrected;
+  row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected, map_.gravity()) - Heading(T_world_match, map_.gravity())));
   const Mat6 to_query = frames_[attempt.query].T_world_cam.inverse().Adj();
-  const Mat6 covariance = to_query * drift.covariance * to_query.transpose();
-  attempt.covariance = covariance;
-  attempt.covariance.diagonal().head<3>().array() += std::pow(options_.loop.sigma_m, 2);
-  attempt.covariance.diagonal().tail<3>().array() += std::pow(options_.loop.sigma_rad, 2);
-  return drift.usable;
+  row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
+  row.covariance.diagonal().head<3>().array() += o.sigma_m * o.sigma_m;
+  row.covariance.diagonal().tail<3>().array() += o.sigma_rad * o.sigma_rad;
+  return true;
+}
+
+// The frame nearest to a pose among those of the passes on which the matched old objects were seen; -1: none.
+int LoopCloser::NearestOldFrame(const Pose& T_world_cam,
+                                const std::vector<std::pair<LandmarkId, LandmarkId>>& matches) const {
+  std::set<LandmarkId> ids;
+  for (const auto& match : matches) ids.insert(match.second);
+  int best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PassObject& pass : passes_.passes()) {
+    if (ids.count(pass.id) == 0 || pass.last_m >= OldUntil()) continue;
+    for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
+      const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
+      if (distance < nearest) nearest = distance, best = f;
+    }
+  }
+  return best;
 }
 
 // True: something new is believed.
@@ -159,7 +173,7 @@ bool LoopCloser::Detect() {
   const LoopOptions& o = options_.loop;
   passes_.Update();
   const PassLayout local = passes_.Recent(here - o.local_m, o.min_sightings);
-  const PassLayout global = passes_.Before(here - o.local_m - o.gap_m, o.min_sightings);
+  const PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
   if (local.objects.size() < 4 || global.objects.size() < 4) return false;
   const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
   std::vector<PoseHypothesis> found = MatchLayouts(local.objects, index, o.match).hypotheses;
@@ -243,12 +257,15 @@ void LoopCloser::Correct(double scale) {
     edge.from = attempt.match;
     edge.to = attempt.query;
     edge.T_from_to = attempt.row.T_match_query;
-    edge.information = Mat6(attempt.covariance).inverse();
+    edge.information = Mat6(attempt.row.covariance).inverse();
     edge.loop = true;
     attempt.in_graph = true;
     loops.push_back(&attempt);
   }
-  const RobustPoseGraphSummary summary = SolveRobust(graph, options_.loop.graph);
+  std::vector<double> kept_before(graph.edges.size(), 1.);
+  for (std::size_t e = 0; e < loops.size(); ++e)
+    kept_before[graph.edges.size() - loops.size() + e] = loops[e]->row.decision == LoopDecision::kAccepted ? 1 : 0;
+  const RobustPoseGraphSummary summary = SolveRobust(graph, options_.loop.graph, kept_before);
   if (getenv("VERB"))
     fprintf(stderr, "frame %d: %zu loops, kept %d refused %d chi2 %.1f -> %.1f usable %d %s\n", frames_.back().frame,
             loops.size(), summary.loops_kept, summary.loops_refused, summary.graph.initial_chi2,
@@ -289,7 +306,7 @@ bool LoopCloser::Fuse() {
   };
   for (Attempt& attempt : attempts_) {
     if (attempt.row.decision != LoopDecision::kAccepted) continue;
-    for (const auto& [local, global] : attempt.row.pairs) {
+    for (const auto& [local, global] : attempt.fuse) {
       const LandmarkId drop = name(local), keep = name(global);
       const auto& all = map_.landmarks();
       if (keep == drop || all.count(keep.value) == 0 || all.count(drop.value) == 0) continue;
@@ -304,7 +321,7 @@ bool LoopCloser::Fuse() {
     for (LandmarkId& id : record.matched) id = name(id);
   passes_.Rename(heirs);
   for (Attempt& attempt : attempts_)
-    for (auto& [local, global] : attempt.row.pairs) local = name(local), global = name(global);
+    for (auto& [local, global] : attempt.fuse) local = name(local), global = name(global);
   return true;
 }
 

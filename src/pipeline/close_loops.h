@@ -21,6 +21,9 @@ class LoopCloser {
   /// Looks for loops if the camera has come far enough since the last time. True: trajectory and map have moved.
   bool AddKeyframe(double scale, TimingTable& timing);
 
+  /// Has any loop been believed?
+  bool Closed() const;
+
   /// All attempts so far that had something to compare.
   std::vector<LoopClosure> closures() const;
 
@@ -29,12 +32,13 @@ class LoopCloser {
     LoopClosure row;
     int track = -1;
     int query = 0, match = 0;                                  // indices into frames_
-    Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance;  // of T_match_query Exp(d)
-    std::vector<std::pair<int, int>> fuse;
+    std::vector<std::pair<LandmarkId, LandmarkId>> fuse;  // the row's pairs, by the names they have now
     bool believed = false, in_graph = false;
   };
   bool Detect();
   bool Agree() const;
+  double OldUntil() const { return frames_.back().travelled - options_.loop.local_m - options_.loop.gap_m; }
+  int NearestOldFrame(const Pose& T_world_cam, const std::vector<std::pair<LandmarkId, LandmarkId>>& matches) const;
   PoseTracks::Prior PriorOf(const PassLayout& local, const PassLayout& global, const LayoutIndex& index) const;
   bool Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;
   void Correct(double scale);

@@ -162,7 +162,9 @@ void Mapper::Propagate(std::size_t from_record) {
 BaSummary Mapper::Refine() {
   const ScopedTimer timer(timing_, "full-map optimisation");
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
-  const BaSummary summary = RefineMap(map_, frames_, log_scale_, options_, camera);
+  Options options = options_;
+  if (loops_->Closed()) options.ba.odometry = options_.loop.odometry;  // what the loops have bent must stay bent
+  const BaSummary summary = RefineMap(map_, frames_, log_scale_, options, camera);
   refined_log_scale_ = log_scale_;
   ResetWindow();
   return summary;

@@ -36,6 +36,7 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Real("min_margin", options.min_margin, -100, 1000, "log odds from which a pose is believed [nats]");
   visitor.Real("drift_share", options.drift_share, 0, 1, "drift");
   visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "drift");
+  visitor.Real("bend", options.bend, 0, 1, "bend");
   visitor.Real("surprise", options.surprise, 0, 1, "share");
   visitor.Real("sigma_m", options.sigma_m, 0, 100, "edge");
   visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "edge");

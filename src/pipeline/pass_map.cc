@@ -12,7 +12,7 @@ namespace {
 // Information-weighted mean of where the sightings since `from_m` put an object. None if they are fewer than asked for.
 struct Place {
   UprightPose pose;
-  double height_m = 0;
+  double height_m = 0, seen_m = 0;
 };
 std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
                                const GravityFrame& gravity, const DetectionNoise& noise, double from_m,
@@ -20,6 +20,7 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Vec3 weighted = Vec3::Zero();
   std::vector<double> yaws;
+  double path = 0;
   double nearest = std::numeric_limits<double>::infinity(), camera_height = 0;
   for (const auto& [f, d] : pass.sightings) {
     const FrameRecord& frame = frames[f];
@@ -30,6 +31,7 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
     const DetectionSigmas sigmas = SigmasAt(p.norm(), noise, {});
     const Eigen::Matrix3d I = R * PositionCovariance(p, sigmas).inverse() * R.transpose();
     information += I;
+    path += frame.travelled;
     if (p.norm() < nearest) camera_height = frame.T_world_cam.translation().dot(gravity.up);
     nearest = std::min(nearest, p.norm());
     weighted += I * (frame.T_world_cam * p);
@@ -40,7 +42,7 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
   for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
   const Vec3 position = information.ldlt().solve(weighted);
   return Place{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},
-               position.dot(gravity.up) - camera_height};
+               position.dot(gravity.up) - camera_height, path / static_cast<double>(yaws.size())};
 }
 
 bool Usable(const ObjectMap& map, LandmarkId id) {
@@ -93,7 +95,8 @@ void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
   open_ = std::move(open);
 }
 
-void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, PassLayout& layout) const {
+void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
+                     PassLayout& layout) const {
   const MapLandmark& landmark = map_.at(id);
   LayoutObject object;
   object.id = id.value;
@@ -105,6 +108,7 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, P
   object.dims = landmark.dims;
   layout.objects.push_back(std::move(object));
   layout.places.push_back(place);
+  layout.seen_m.push_back(seen_m);
 }
 
 PassLayout PassMap::Recent(double from_m, int min_sightings) const {
@@ -114,7 +118,7 @@ PassLayout PassMap::Recent(double from_m, int min_sightings) const {
   PassLayout layout;
   for (const auto& [id, pass] : latest) {
     const auto place = MeanPlace(*pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
-    if (place) Append({id}, place->pose, place->height_m, layout);
+    if (place) Append({id}, place->pose, place->height_m, place->seen_m, layout);
   }
   return layout;
 }
@@ -122,7 +126,7 @@ PassLayout PassMap::Recent(double from_m, int min_sightings) const {
 PassLayout PassMap::Before(double to_m, int min_sightings) const {
   struct Sum {
     Vec3 position{0, 0, 0};
-    double weight = 0, yaw = 0, height = 0;
+    double weight = 0, yaw = 0, height = 0, seen_m = 0;
   };
   std::map<int, Sum> sums;
   for (const PassObject& pass : passes_) {
@@ -136,11 +140,20 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
     sum.height += weight * pass.height_m;
     sum.weight += weight;
     sum.yaw = place.yaw;
+    sum.seen_m = frames_[pass.anchor].travelled;
   }
   PassLayout layout;
   for (const auto& [id, sum] : sums)
-    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, layout);
+    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, sum.seen_m, layout);
   return layout;
+}
+
+double PassMap::Away(LandmarkId id, double path_m) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PassObject& pass : passes_)
+    if (pass.id == id && pass.anchor >= 0)
+      least = std::min(least, std::abs(frames_[pass.anchor].travelled - path_m));
+  return least;
 }
 
 }  // namespace sslcd

@@ -28,6 +28,7 @@ struct PassObject {
 struct PassLayout {
   std::vector<LayoutObject> objects;
   std::vector<UprightPose> places;
+  std::vector<double> seen_m;  ///< where on the path, on average; of the last pass
 };
 
 /// The passes of a run and the layouts they make. Refers to the mapper's own map and frames.
@@ -49,11 +50,15 @@ class PassMap {
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;
 
+  /// Path between `path_m` and the nearest of a landmark's finished passes.
+  double Away(LandmarkId id, double path_m) const;
+
   const std::vector<PassObject>& passes() const { return passes_; }
 
  private:
   void Finish(PassObject& pass) const;
-  void Append(LandmarkId id, const UprightPose& place, double height_m, PassLayout& layout) const;
+  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
+              PassLayout& layout) const;
 
   const ObjectMap& map_;
   const std::vector<FrameRecord>& frames_;

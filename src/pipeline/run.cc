@@ -28,6 +28,11 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));
     edge.information.diagonal().tail<3>().setConstant(1 / (sigmas.rotation * sigmas.rotation));
   }
+  for (const LoopClosure& loop : mapper.LoopClosures()) {
+    if (loop.decision != LoopDecision::kAccepted) continue;
+    graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
+                           Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
+  }
   return graph;
 }
 
@@ -60,6 +65,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
   }
   result.trajectory = mapper.CameraTrajectory();
   result.graph = GraphOf(mapper, options.ba.odometry);
+  result.loops = mapper.LoopClosures();
   result.objects = mapper.Objects();
   result.scale = mapper.scale();
   result.noise_scale = mapper.map().noise_scale();

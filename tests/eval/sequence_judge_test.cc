@@ -54,10 +54,10 @@ std::vector<Frame> ReadDetections(const outside::fs::path& path, std::size_t cou
 }
 
 /// True loops with a little and with too much error, and arbitrary pairs of frames.
-std::vector<LoopAnswer> FakeLoops(const std::vector<Pose>& reference) {
+std::vector<LoopClosure> FakeLoops(const std::vector<Pose>& reference) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
-  std::vector<LoopAnswer> loops;
+  std::vector<LoopClosure> loops;
   for (int query = 400; query < static_cast<int>(reference.size()); query += 35) {
     int match = 0;
     double nearest_m = 12;
@@ -74,12 +74,12 @@ std::vector<LoopAnswer> FakeLoops(const std::vector<Pose>& reference) {
   return loops;
 }
 
-std::string LoopsCsv(const std::vector<LoopAnswer>& loops) {
+std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
   std::ostringstream csv;
   csv.precision(17);
   csv << "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
          "pairs\n5,1,ambiguous,margin,1,1,3,0,0,0,0,0,0,0,1,\n";
-  for (const LoopAnswer& loop : loops) {
+  for (const LoopClosure& loop : loops) {
     csv << loop.query_frame << ',' << loop.match_frame << ",accepted,,1,0,5,0";
     for (int k = 0; k < 3; ++k) csv << ',' << loop.T_match_query.translation()[k];
     for (int k = 0; k < 4; ++k) csv << ',' << loop.T_match_query.data()[k];

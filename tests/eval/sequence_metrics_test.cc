@@ -32,7 +32,7 @@ SequenceRun OutAndBack() {
   return run;
 }
 
-LoopAnswer LoopWithError(const SequenceRun& run, int query, int match, const Pose& error) {
+LoopClosure LoopWithError(const SequenceRun& run, int query, int match, const Pose& error) {
   return {query, match, run.reference[match].inverse() * run.reference[query] * error};
 }
 

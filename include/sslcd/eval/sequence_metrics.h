@@ -7,16 +7,11 @@
 
 #include "sslcd/core/detection.h"
 #include "sslcd/core/landmark.h"
+#include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/eval/precision_recall.h"
 
 namespace sslcd {
-
-/// A loop as it was accepted: where the query camera stands in the match camera's frame.
-struct LoopAnswer {
-  int query_frame = 0, match_frame = 0;
-  Pose T_match_query;
-};
 
 /// A run on a sequence with true poses and true identities. Poses are T_world_cam by frame number, in KITTI camera axes
 /// (x right, y down, z forward); the longer lists are cut to the shortest.
@@ -24,7 +19,7 @@ struct SequenceRun {
   std::vector<Pose> estimate, odometry, reference;
   std::vector<Frame> frames;       ///< the detections as they went in: frame numbers and rows are used
   std::vector<int> identities;     ///< the true identity of each detection row; negative: a false alarm
-  std::vector<LoopAnswer> loops;   ///< the accepted ones
+  std::vector<LoopClosure> loops;  ///< only accepted ones count
   std::vector<MapObject> objects;  ///< the final map; only confirmed ones count
 };
 

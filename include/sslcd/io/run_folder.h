@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/core/trajectory.h"
@@ -21,6 +22,7 @@ struct RunOutputs {
   Trajectory trajectory, odometry;
   MapFile map;
   PoseGraph graph;
+  std::vector<LoopClosure> loops;
   TimingTable timing;
   Metrics metrics;
   std::string config_yaml;
@@ -32,6 +34,8 @@ std::string TumText(const Trajectory& trajectory);
 std::string KittiText(const Trajectory& trajectory);
 /// VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT rows; information in the order [translation, rotation], upper triangle.
 std::string G2oText(const PoseGraph& graph);
+/// One row per attempt to close a loop, accepted or not; see docs/formats.md.
+std::string LoopsCsv(const std::vector<LoopClosure>& loops);
 /// Cuboids of the confirmed objects (faces) and camera positions (points): ASCII PLY.
 std::string PlyText(const MapFile& map, const Trajectory& trajectory);
 std::string TimingJson(const TimingTable& timing);

@@ -22,6 +22,7 @@ struct PoseTrackOptions {
 struct PoseTrack {
   struct Vote {
     double path_m = 0, score = 0;
+    std::vector<int> objects;  ///< the local map, by id
   };
   int id = 0;
   YawShift pose;            ///< local to global, as the last attempt has it
@@ -32,11 +33,11 @@ struct PoseTrack {
 };
 
 /// Temporal agreement: the true pose goes on fitting as the camera moves on, an accidental one does not. Poses found
-/// by one attempt are looked at again in the next, with new objects; what they score there adds up, but only as far
-/// as the local maps differ:
-///   evidence = prior + volume + mean(score) (1 + span / local_m)
-/// where score and volume are those of LayoutFit (evidence = score + volume) and span is the path between the first
-/// and the last attempt. With one attempt this is LayoutFit's own evidence.
+/// by one attempt are looked at again in the next; what they score there adds up, but only as far as new objects have
+/// come in:
+///   evidence = prior + volume + mean(score) (different objects in all local maps) / (mean objects in one)
+/// where score and volume are those of LayoutFit (evidence = score + volume). With one attempt this is LayoutFit's own
+/// evidence.
 class PoseTracks {
  public:
   using Prior = std::function<double(const YawShift&, const LayoutFit&)>;

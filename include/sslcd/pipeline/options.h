@@ -51,6 +51,7 @@ struct LoopOptions {
   double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
   double surprise = 0.2;                    ///< share of loops that these do not hold for
   double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
+  double bend = 0.01;  ///< how far odometry bends a local map: shift of an object per metre of path to it
   double keyframe_m = 5.;
   double fuse_m = 3.;
   OdometryNoise odometry{0.02, 0.05, 2e-3, 5e-3, 0.05, 0.05};
