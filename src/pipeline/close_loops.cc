@@ -23,6 +23,23 @@ double Heading(const Pose& T_world_cam, const GravityFrame& gravity) {
   return std::atan2(axis.dot(gravity.left), axis.dot(gravity.forward));
 }
 
+// Turns the world about a camera so that the cameras within some metres of path stand upright on average.
+Pose Levelling(const std::vector<FrameRecord>& frames, int at, const GravityFrame& gravity) {
+  constexpr double kReach = 20.;  // [m]
+  const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
+  Vec3 up = Vec3::Zero();
+  for (int step : {-1, 1})
+    for (int f = at; f >= 0 && f < static_cast<int>(frames.size()); f += step) {
+      if (std::abs(frames[f].travelled - frames[at].travelled) > kReach) break;
+      up += frames[f].T_world_cam.so3() * up_in_cam;
+    }
+  const Vec3 axis = up.normalized().cross(gravity.up);
+  const double tilt = std::atan2(axis.norm(), up.normalized().dot(gravity.up));
+  const auto turn = lie::SO3<double>::Exp(axis.norm() > 1e-12 ? Vec3(tilt * axis.normalized()) : Vec3(Vec3::Zero()));
+  const Vec3 pivot = frames[at].T_world_cam.translation();
+  return {turn, pivot - turn * pivot};
+}
+
 int FrameAt(const std::vector<FrameRecord>& frames, double path_m) {
   const auto at = std::lower_bound(frames.begin(), frames.end(), path_m,
                                    [](const FrameRecord& frame, double m) { return frame.travelled < m; });
@@ -129,21 +146,26 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   attempt.match = NearestOldFrame(drift.T_global_local * frames_[attempt.query].T_world_cam, row.pairs);
   if (attempt.match < 0) return false;
   const double match_m = frames_[attempt.match].travelled;
+  // The ground at one place has one slope: what is upright for the cameras there is upright for both maps.
+  const Pose L_query = Levelling(frames_, attempt.query, map_.gravity());
+  const Pose L_match = Levelling(frames_, attempt.match, map_.gravity());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto& [i, j] = track.fit.matches[k];
     const double bent = o.bend * std::hypot(local.seen_m[i] - query_m, passes_.Away(row.pairs[k].second, match_m));
     pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(track.fit.sigma, bent);
+    pairs[k].T_world_local = L_query * pairs[k].T_world_local;
+    pairs[k].T_world_global = L_match * pairs[k].T_world_global;
   }
   drift = SolveDrift(pairs, map_.gravity(), o.drift);
   if (!drift.usable) return false;
 
-  const Pose corrected = drift.T_global_local * frames_[attempt.query].T_world_cam;
+  const Pose corrected = L_match.inverse() * drift.T_global_local * L_query * frames_[attempt.query].T_world_cam;
   const Pose& T_world_match = frames_[attempt.match].T_world_cam;
   row.query_frame = frames_[attempt.query].frame;
   row.match_frame = frames_[attempt.match].frame;
   row.T_match_query = T_world_match.inverse() * corrected;
   row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected, map_.gravity()) - Heading(T_world_match, map_.gravity())));
-  const Mat6 to_query = frames_[attempt.query].T_world_cam.inverse().Adj();
+  const Mat6 to_query = (L_query * frames_[attempt.query].T_world_cam).inverse().Adj();
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
   row.covariance.diagonal().head<3>().array() += o.sigma_m * o.sigma_m;
   row.covariance.diagonal().tail<3>().array() += o.sigma_rad * o.sigma_rad;

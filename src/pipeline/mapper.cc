@@ -6,6 +6,7 @@
 #include <set>
 
 #include "pipeline/close_loops.h"
+#include "pipeline/leveller.h"
 #include "pipeline/refine.h"
 #include "sslcd/core/error.h"
 
@@ -25,6 +26,7 @@ Mapper::Mapper(const Options& options, const MapperContext& context)
     : options_(options),
       context_(context),
       map_(context.gravity, context.labels, options.noise, options.association, options.map),
+      leveller_(std::make_unique<Leveller>(context.gravity, options.level)),
       loops_(std::make_unique<LoopCloser>(options, map_, frames_)) {}
 
 Mapper::~Mapper() = default;
@@ -39,12 +41,13 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     throw Error(ErrorKind::kBadInput, "frame " + std::to_string(frame.index) + ": its stamp " +
                                           std::to_string(frame.stamp) + " s is not after the one before it");
   FrameReport report;
+  const Pose T_odom_cam = leveller_->Level(frame.T_odom_cam);
   double travelled = 0;
   if (!frames_.empty()) {
     const FrameRecord& before = frames_.back();
-    travelled = before.travelled + (frame.T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
+    travelled = before.travelled + (T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
   }
-  FrameRecord record{frame.index,      frame.stamp, travelled, frame.T_odom_cam, Predict(frame.T_odom_cam),
+  FrameRecord record{frame.index,      frame.stamp, travelled, T_odom_cam, Predict(T_odom_cam),
                      frame.detections, {}};
   {
     const ScopedTimer timer(timing_, "data association");
@@ -58,7 +61,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     detection.colour.clear();
     detection.embedding.clear();
   }
-  report.keyframe = IsKeyframe(frame.T_odom_cam);
+  report.keyframe = IsKeyframe(T_odom_cam);
   frames_.push_back(std::move(record));
   if (report.keyframe) {
     window_.push_back(static_cast<int>(frames_.size()) - 1);

@@ -26,6 +26,12 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
                "a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by");
 }
 
+void DescribeFields(FieldVisitor& visitor, LevelOptions& options) {
+  visitor.Flag("enabled", options.enabled, "turn the odometry back upright where its vertical has drifted");
+  visitor.Real("max_slope_rad", options.max_slope_rad, 0, 1.5, "no ground is steeper than this on average ...");
+  visitor.Real("window_m", options.window_m, 1, 1e5, "... over so many metres of path");
+}
+
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Flag("enabled", options.enabled, "close loops");
   visitor.Real("every_m", options.every_m, 0, 1000, "an attempt every so many metres of path");
@@ -53,6 +59,7 @@ void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Nested("noise", options.noise, "how far the detector is off");
   visitor.Nested("association", options.association, "data association (paper III-B)");
   visitor.Nested("map", options.map, "life cycle of landmarks");
+  visitor.Nested("level", options.level, "keeping odometry upright");
   visitor.Nested("window", options.window, "sliding window");
   visitor.Nested("ba", options.ba, "object bundle adjustment (paper III-C)");
   visitor.Nested("loop", options.loop, "loop closure (paper IV)");
@@ -70,6 +77,7 @@ Options DefaultOptions(Options::Mode mode) {
     options.ba.odometry.scale_prior = 0;
     options.map.learn_noise = false;
     options.refine.rounds = 1;
+    options.level.enabled = false;
   }
   return options;
 }

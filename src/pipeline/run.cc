@@ -58,10 +58,10 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
   }
   if (options.refine.enabled) result.refinement = mapper.Refine();
 
-  for (const FrameRecord& record : mapper.frames()) {
-    result.frames.push_back(record.frame);
-    result.odometry.stamps.push_back(record.stamp);
-    result.odometry.poses.push_back(record.T_odom_cam);
+  for (std::size_t i = 0; i < mapper.frames().size(); ++i) {
+    result.frames.push_back(frames[i].index);
+    result.odometry.stamps.push_back(frames[i].stamp);
+    result.odometry.poses.push_back(frames[i].T_odom_cam);
   }
   result.trajectory = mapper.CameraTrajectory();
   result.graph = GraphOf(mapper, options.ba.odometry);

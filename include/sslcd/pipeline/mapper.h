@@ -36,12 +36,13 @@ struct FrameRecord {
   int frame = 0;
   double stamp = 0;
   double travelled = 0;  ///< path of the odometry so far [m]
-  Pose T_odom_cam;
+  Pose T_odom_cam;  ///< levelled, see LevelOptions
   Pose T_world_cam;
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors
   std::vector<LandmarkId> matched;    ///< landmark of each detection
 };
 
+class Leveller;
 class LoopCloser;
 
 /// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III). The world is the
@@ -85,6 +86,7 @@ class Mapper {
   double log_scale_ = 0;
   double refined_log_scale_ = 0;  // what the last full-map optimisation found
   TimingTable timing_;
+  std::unique_ptr<Leveller> leveller_;
   std::unique_ptr<LoopCloser> loops_;
 };
 

@@ -38,6 +38,14 @@ struct RefineOptions {
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 
+/// Keeping odometry upright that has no measurement of gravity.
+struct LevelOptions {
+  bool enabled = true;
+  double max_slope_rad = 0.07;  ///< no ground is steeper than this on average ...
+  double window_m = 200.;       ///< ... over so much path
+};
+void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
+
 /// Loop closure (paper IV).
 struct LoopOptions {
   bool enabled = true;
@@ -71,6 +79,7 @@ struct Options {
   DetectionNoise noise;
   AssociationOptions association;
   MapOptions map;
+  LevelOptions level;
   WindowOptions window;
   BaOptions ba;
   LoopOptions loop;
