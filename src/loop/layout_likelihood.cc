@@ -74,6 +74,7 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
                "Beta prior of the share of local objects in the map: yes");
   visitor.Real("unmapped_prior", options.unmapped_prior, 0.1, 1000,
                "Beta prior of the share of local objects in the map: no");
+  visitor.Real("wrong_height", options.wrong_height, 0, 1, "share of objects whose height says nothing");
   visitor.Real("min_gain", options.min_gain, -100, 100, "a match that says less is none [nats]");
   visitor.Real("seen_prior", options.seen_prior, 0.1, 1000,
                "Beta prior of the share of mapped objects seen again: yes");
@@ -187,10 +188,13 @@ std::vector<char> LayoutLikelihood::InView(const YawShift& pose) const {
 LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view,
                                    double sigma) const {
   const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
-  const double constant = -std::log(2 * kPi * sigma * sigma * index_.density()) + std::log(background_z / sigma_z);
-  const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z);
-  for (Candidate& candidate : candidates)
-    candidate.gain = constant - 0.5 * candidate.d2 / (sigma * sigma) + per_z2 * candidate.z2 + candidate.semantic_gain;
+  const double constant = -std::log(2 * kPi * sigma * sigma * index_.density());
+  const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z), wrong = options_.wrong_height;
+  for (Candidate& candidate : candidates) {
+    const double height_ratio = background_z / sigma_z * std::exp(per_z2 * candidate.z2);
+    candidate.gain = constant - 0.5 * candidate.d2 / (sigma * sigma) + std::log(wrong + (1 - wrong) * height_ratio) +
+                     candidate.semantic_gain;
+  }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   const double n_local = static_cast<double>(local_.size());

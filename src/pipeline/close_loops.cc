@@ -140,8 +140,9 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   attempt.fuse = row.pairs;
   DriftResult drift = SolveDrift(pairs, map_.gravity(), o.drift);
   if (!drift.usable) return false;
-  std::nth_element(seen.begin(), seen.begin() + seen.size() / 2, seen.end());
-  const double query_m = seen[seen.size() / 2];
+  // As recent as the matches allow: not beyond the last but a fifth of them.
+  std::sort(seen.begin(), seen.end());
+  const double query_m = std::clamp(frames_.back().travelled - o.lag_m, seen[seen.size() / 5], seen[seen.size() * 4 / 5]);
   attempt.query = FrameAt(frames_, query_m);
   attempt.match = NearestOldFrame(drift.T_global_local * frames_[attempt.query].T_world_cam, row.pairs);
   if (attempt.match < 0) return false;
@@ -217,13 +218,18 @@ bool LoopCloser::Detect() {
     row.decision = LoopDecision::kNone, row.reason = "chance explains the best pose";
   else
     row.reason = "another pose fits nearly as well";
-  const bool believed = row.score >= o.min_margin;
+  // How much better than chance its own objects agree at the place where the track expects them. [nats]
+  attempt.own_evidence = best.fit.evidence + std::log(2 * M_PI * static_cast<double>(index.objects().size()) /
+                                                      (index.density() * o.place_m2_rad));
+  const bool confirmed = attempt.own_evidence >= o.min_own_evidence;
+  const bool believed = row.score >= o.min_margin && confirmed;
   attempt.believed = believed;
+  if (row.score >= o.min_margin && !confirmed) row.reason = "too few objects of its own agree";
   if (believed) {
     row.decision = LoopDecision::kAccepted;
     row.reason = std::to_string(best.fit.matches.size()) + " objects agree";
     for (Attempt& earlier : attempts_) {
-      if (earlier.track != best.id || earlier.believed) continue;
+      if (earlier.track != best.id || earlier.believed || earlier.own_evidence < o.min_own_evidence) continue;
       earlier.believed = true;
       earlier.row.decision = LoopDecision::kAccepted;
       earlier.row.reason = "settled by frame " + std::to_string(row.query_frame);
@@ -244,7 +250,9 @@ bool LoopCloser::Detect() {
       const Pose T = a.row.T_match_query;
       for (int i = 0; i < 3; ++i) fprintf(dump, " %.4f", T.translation()[i]);
       const auto q = T.so3().unit_quaternion();
-      fprintf(dump, " %.6f %.6f %.6f %.6f %.3f %zu\n", q.x(), q.y(), q.z(), q.w(), t.fit.evidence, t.votes.size());
+      fprintf(dump, " %.6f %.6f %.6f %.6f %.3f %zu %.3f %.4f %.4f\n", q.x(), q.y(), q.z(), q.w(), t.fit.evidence, t.votes.size(),
+              t.fit.evidence + std::log(2 * M_PI * index.objects().size() / index.density() / 2.5),
+              std::sqrt(a.row.covariance(4, 4)), std::sqrt(a.row.covariance(0, 0) + a.row.covariance(2, 2)));
     }
   }
   attempts_.push_back(std::move(attempt));

@@ -33,6 +33,7 @@ class LoopCloser {
     int track = -1;
     int query = 0, match = 0;                                  // indices into frames_
     std::vector<std::pair<LandmarkId, LandmarkId>> fuse;  // the row's pairs, by the names they have now
+    double own_evidence = 0;
     bool believed = false, in_graph = false;
   };
   bool Detect();

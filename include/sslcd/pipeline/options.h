@@ -48,6 +48,11 @@ void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
 
 /// Loop closure (paper IV).
 struct LoopOptions {
+  static LayoutMatchOptions DefaultMatch() {
+    LayoutMatchOptions match;
+    match.likelihood.wrong_height = 0.3;  // slopes and drifting tilt
+    return match;
+  }
   bool enabled = true;
   double every_m = 5.;                      ///< an attempt every so much path
   double local_m = 75.;                     ///< the local map: objects seen on the last so much path
@@ -59,11 +64,14 @@ struct LoopOptions {
   double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
   double surprise = 0.2;                    ///< share of loops that these do not hold for
   double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
+  double min_own_evidence = 3.;  ///< ... if its own objects, too, agree better than chance by this ...
+  double place_m2_rad = 2.5;     ///< ... around the pose that its track predicts: about 2 m and 0.1 rad
+  double lag_m = 25.;  ///< the query camera of an attempt stood so far back, with matched objects before and behind it
   double bend = 0.01;  ///< how far odometry bends a local map: shift of an object per metre of path to it
   double keyframe_m = 5.;
   double fuse_m = 3.;
   OdometryNoise odometry{0.02, 0.05, 2e-3, 5e-3, 0.05, 0.05};
-  LayoutMatchOptions match;
+  LayoutMatchOptions match = DefaultMatch();
   PoseTrackOptions tracks;
   DriftOptions drift{true, 0.03};
   RobustPoseGraphOptions graph;
