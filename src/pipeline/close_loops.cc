@@ -152,7 +152,8 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   const Pose L_match = Levelling(frames_, attempt.match, map_.gravity());
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto& [i, j] = track.fit.matches[k];
-    const double bent = o.bend * std::hypot(local.seen_m[i] - query_m, passes_.Away(row.pairs[k].second, match_m));
+    const double bent = std::hypot(Bent(attempt.query, local.seen_m[i]),
+                                   Bent(attempt.match, passes_.NearestPass(row.pairs[k].second, match_m)));
     pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(track.fit.sigma, bent);
     pairs[k].T_world_local = L_query * pairs[k].T_world_local;
     pairs[k].T_world_global = L_match * pairs[k].T_world_global;
@@ -171,6 +172,14 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   row.covariance.diagonal().head<3>().array() += o.sigma_m * o.sigma_m;
   row.covariance.diagonal().tail<3>().array() += o.sigma_rad * o.sigma_rad;
   return true;
+}
+
+// How far odometry may have moved what was seen at `seen_m` of the path, relative to a frame. [m]
+double LoopCloser::Bent(int frame, double seen_m) const {
+  constexpr double kRange = 10.;  // from where an object is seen [m]
+  const Pose step = frames_[frame].T_odom_cam.inverse() * frames_[FrameAt(frames_, seen_m)].T_odom_cam;
+  const OdometrySigmas sigmas = SigmasOf(step, options_.loop.odometry);
+  return std::hypot(sigmas.translation, sigmas.rotation * (0.5 * step.translation().norm() + kRange));
 }
 
 // The frame nearest to a pose among those of the passes on which the matched old objects were seen; -1: none.
@@ -253,6 +262,14 @@ bool LoopCloser::Detect() {
       fprintf(dump, " %.6f %.6f %.6f %.6f %.3f %zu %.3f %.4f %.4f\n", q.x(), q.y(), q.z(), q.w(), t.fit.evidence, t.votes.size(),
               t.fit.evidence + std::log(2 * M_PI * index.objects().size() / index.density() / 2.5),
               std::sqrt(a.row.covariance(4, 4)), std::sqrt(a.row.covariance(0, 0) + a.row.covariance(2, 2)));
+    }
+  }
+  if (getenv("DBG") && frames_.back().frame == atoi(getenv("DBG"))) {
+    const PoseTrack& t = tracks_.tracks()[0];
+    fprintf(stderr, "pose %.3f %.2f %.2f score %.2f ev %.2f sigma %.2f see %d density %.4f spread %.2f N %zu\n", t.pose.yaw, t.pose.t.x(), t.pose.t.y(), t.fit.score, t.fit.evidence, t.fit.sigma, t.fit.should_see, index.density(), index.height_spread(), index.objects().size());
+    for (auto [i, j] : t.fit.matches) {
+      const Vec3 d = Apply(t.pose, local.objects[i].position) - global.objects[j].position;
+      fprintf(stderr, "  %d:%d  d %.2f %.2f %.2f  at %.0f %.0f seen %.0f\n", local.objects[i].id, global.objects[j].id, d.x(), d.y(), d.z(), local.objects[i].position.x(), local.objects[i].position.y(), local.seen_m[i]);
     }
   }
   attempts_.push_back(std::move(attempt));

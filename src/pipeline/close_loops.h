@@ -39,6 +39,7 @@ class LoopCloser {
   bool Detect();
   bool Agree() const;
   double OldUntil() const { return frames_.back().travelled - options_.loop.local_m - options_.loop.gap_m; }
+  double Bent(int frame, double seen_m) const;
   int NearestOldFrame(const Pose& T_world_cam, const std::vector<std::pair<LandmarkId, LandmarkId>>& matches) const;
   PoseTracks::Prior PriorOf(const PassLayout& local, const PassLayout& global, const LayoutIndex& index) const;
   bool Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;

@@ -44,7 +44,6 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "drift");
   visitor.Real("min_own_evidence", options.min_own_evidence, -100, 1000, "own");
   visitor.Real("lag_m", options.lag_m, 0, 1000, "lag");
-  visitor.Real("bend", options.bend, 0, 1, "bend");
   visitor.Real("surprise", options.surprise, 0, 1, "share");
   visitor.Real("sigma_m", options.sigma_m, 0, 100, "edge");
   visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "edge");

@@ -17,11 +17,13 @@ struct Place {
 std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
                                const GravityFrame& gravity, const DetectionNoise& noise, double from_m,
                                int min_sightings) {
+  const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Vec3 weighted = Vec3::Zero();
   std::vector<double> yaws;
   double path = 0;
-  double nearest = std::numeric_limits<double>::infinity(), camera_height = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  Pose T_cam_world;  // of the nearest camera
   for (const auto& [f, d] : pass.sightings) {
     const FrameRecord& frame = frames[f];
     if (frame.travelled < from_m) continue;
@@ -32,8 +34,10 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
     const Eigen::Matrix3d I = R * PositionCovariance(p, sigmas).inverse() * R.transpose();
     information += I;
     path += frame.travelled;
-    if (p.norm() < nearest) camera_height = frame.T_world_cam.translation().dot(gravity.up);
-    nearest = std::min(nearest, p.norm());
+    if (p.norm() < nearest) {
+      nearest = p.norm();
+      T_cam_world = frame.T_world_cam.inverse();
+    }
     weighted += I * (frame.T_world_cam * p);
     yaws.push_back(gravity.YawOf((frame.T_world_cam * T_cam_object).so3()));
   }
@@ -42,7 +46,7 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
   for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
   const Vec3 position = information.ldlt().solve(weighted);
   return Place{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},
-               position.dot(gravity.up) - camera_height, path / static_cast<double>(yaws.size())};
+               (T_cam_world * position).dot(up_in_cam), path / static_cast<double>(yaws.size())};
 }
 
 bool Usable(const ObjectMap& map, LandmarkId id) {
@@ -148,12 +152,14 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
   return layout;
 }
 
-double PassMap::Away(LandmarkId id, double path_m) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (const PassObject& pass : passes_)
-    if (pass.id == id && pass.anchor >= 0)
-      least = std::min(least, std::abs(frames_[pass.anchor].travelled - path_m));
-  return least;
+double PassMap::NearestPass(LandmarkId id, double path_m) const {
+  double best = path_m, least = std::numeric_limits<double>::infinity();
+  for (const PassObject& pass : passes_) {
+    if (!(pass.id == id) || pass.anchor < 0) continue;
+    const double seen_m = frames_[pass.anchor].travelled, away = std::abs(seen_m - path_m);
+    if (away < least) least = away, best = seen_m;
+  }
+  return best;
 }
 
 }  // namespace sslcd

@@ -50,8 +50,8 @@ class PassMap {
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;
 
-  /// Path between `path_m` and the nearest of a landmark's finished passes.
-  double Away(LandmarkId id, double path_m) const;
+  /// Where on the path a landmark was seen on that one of its finished passes that is nearest to `path_m`. [m]
+  double NearestPass(LandmarkId id, double path_m) const;
 
   const std::vector<PassObject>& passes() const { return passes_; }
 

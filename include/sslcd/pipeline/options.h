@@ -50,7 +50,7 @@ void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
 struct LoopOptions {
   static LayoutMatchOptions DefaultMatch() {
     LayoutMatchOptions match;
-    match.likelihood.wrong_height = 0.3;  // slopes and drifting tilt
+    match.likelihood.wrong_height = 0.1;  // slopes and drifting tilt
     return match;
   }
   bool enabled = true;
@@ -59,7 +59,7 @@ struct LoopOptions {
   double gap_m = 10.;                       ///< the global map: objects on passes that ended so long ago
   double split_m = 30.;                     ///< unseen for so much path: another pass
   int min_sightings = 2;                    ///< objects seen less often on a pass take no part
-  double min_margin = 5.;                   ///< log odds from which a pose is believed [nats]
+  double min_margin = 6.;                   ///< log odds from which a pose is believed [nats]
   double drift_share = 0.02;                ///< how far odometry may be off: translation, share of the path ...
   double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
   double surprise = 0.2;                    ///< share of loops that these do not hold for
@@ -67,7 +67,6 @@ struct LoopOptions {
   double min_own_evidence = 3.;  ///< ... if its own objects, too, agree better than chance by this ...
   double place_m2_rad = 2.5;     ///< ... around the pose that its track predicts: about 2 m and 0.1 rad
   double lag_m = 25.;  ///< the query camera of an attempt stood so far back, with matched objects before and behind it
-  double bend = 0.01;  ///< how far odometry bends a local map: shift of an object per metre of path to it
   double keyframe_m = 5.;
   double fuse_m = 3.;
   OdometryNoise odometry{0.02, 0.05, 2e-3, 5e-3, 0.05, 0.05};
