@@ -97,14 +97,15 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
       blocks.push_back(objects_[find(problem.objects, id, &BaObject::id)].data());
     blocks.push_back(&log_scale_);
     ceres_.AddResidualBlock(new MarginalPriorCost(problem.prior), nullptr, blocks);
-  } else if (!cameras_.empty()) {
-    // The gauge: the world is where the first camera says it is.
-    const PosePrior gauge{problem.cameras.front().T_world_cam, 1e-3, 1e-4};
+  } else if (options.odometry.scale_prior > 0) {
+    const ScalarPrior scale{problem.expected_log_scale, options.odometry.scale_prior};
+    ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
+  }
+  if (!cameras_.empty() && (problem.prior.empty() || problem.hold_first)) {
+    // The gauge: the world is where the first camera says it is; next to a prior, roughly.
+    const double looser = problem.prior.empty() ? 1 : 300;
+    const PosePrior gauge{problem.cameras.front().T_world_cam, 1e-3 * looser, 1e-4 * looser};
     ceres_.AddResidualBlock(AutoDiff<PosePrior, 6, 7>(gauge), nullptr, cameras_.front().data());
-    if (options.odometry.scale_prior > 0) {
-      const ScalarPrior scale{problem.expected_log_scale, options.odometry.scale_prior};
-      ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
-    }
   }
   if (options.odometry.scale_prior <= 0) ceres_.SetParameterBlockConstant(&log_scale_);
 }

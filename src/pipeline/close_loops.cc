@@ -230,15 +230,22 @@ bool LoopCloser::Detect() {
   // How much better than chance its own objects agree at the place where the track expects them. [nats]
   attempt.own_evidence = best.fit.evidence + std::log(2 * M_PI * static_cast<double>(index.objects().size()) /
                                                       (index.density() * o.place_m2_rad));
-  const bool confirmed = attempt.own_evidence >= o.min_own_evidence;
+  const double heading_sigma = std::sqrt(row.covariance(4, 4));
+  const double apart = row.T_match_query.translation().norm();
+  const bool confirmed = attempt.own_evidence >= o.min_own_evidence && heading_sigma < o.max_heading_sigma_rad &&
+                         apart < o.max_apart_m;
   const bool believed = row.score >= o.min_margin && confirmed;
   attempt.believed = believed;
-  if (row.score >= o.min_margin && !confirmed) row.reason = "too few objects of its own agree";
+  attempt.confirmed = confirmed;
+  if (row.score >= o.min_margin && !confirmed)
+    row.reason = attempt.own_evidence < o.min_own_evidence         ? "too few objects of its own agree"
+                 : heading_sigma >= o.max_heading_sigma_rad ? "heading too uncertain"
+                                                            : "no old camera stood near";
   if (believed) {
     row.decision = LoopDecision::kAccepted;
     row.reason = std::to_string(best.fit.matches.size()) + " objects agree";
     for (Attempt& earlier : attempts_) {
-      if (earlier.track != best.id || earlier.believed || earlier.own_evidence < o.min_own_evidence) continue;
+      if (earlier.track != best.id || earlier.believed || !earlier.confirmed) continue;
       earlier.believed = true;
       earlier.row.decision = LoopDecision::kAccepted;
       earlier.row.reason = "settled by frame " + std::to_string(row.query_frame);
@@ -262,14 +269,6 @@ bool LoopCloser::Detect() {
       fprintf(dump, " %.6f %.6f %.6f %.6f %.3f %zu %.3f %.4f %.4f\n", q.x(), q.y(), q.z(), q.w(), t.fit.evidence, t.votes.size(),
               t.fit.evidence + std::log(2 * M_PI * index.objects().size() / index.density() / 2.5),
               std::sqrt(a.row.covariance(4, 4)), std::sqrt(a.row.covariance(0, 0) + a.row.covariance(2, 2)));
-    }
-  }
-  if (getenv("DBG") && frames_.back().frame == atoi(getenv("DBG"))) {
-    const PoseTrack& t = tracks_.tracks()[0];
-    fprintf(stderr, "pose %.3f %.2f %.2f score %.2f ev %.2f sigma %.2f see %d density %.4f spread %.2f N %zu\n", t.pose.yaw, t.pose.t.x(), t.pose.t.y(), t.fit.score, t.fit.evidence, t.fit.sigma, t.fit.should_see, index.density(), index.height_spread(), index.objects().size());
-    for (auto [i, j] : t.fit.matches) {
-      const Vec3 d = Apply(t.pose, local.objects[i].position) - global.objects[j].position;
-      fprintf(stderr, "  %d:%d  d %.2f %.2f %.2f  at %.0f %.0f seen %.0f\n", local.objects[i].id, global.objects[j].id, d.x(), d.y(), d.z(), local.objects[i].position.x(), local.objects[i].position.y(), local.seen_m[i]);
     }
   }
   attempts_.push_back(std::move(attempt));

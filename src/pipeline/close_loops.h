@@ -34,7 +34,7 @@ class LoopCloser {
     int query = 0, match = 0;                                  // indices into frames_
     std::vector<std::pair<LandmarkId, LandmarkId>> fuse;  // the row's pairs, by the names they have now
     double own_evidence = 0;
-    bool believed = false, in_graph = false;
+    bool confirmed = false, believed = false, in_graph = false;
   };
   bool Detect();
   bool Agree() const;

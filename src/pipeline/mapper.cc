@@ -129,7 +129,9 @@ BaProblem Mapper::WindowProblem() const {
 
 BaSummary Mapper::OptimiseWindow() {
   BaProblem problem = WindowProblem();
+  problem.hold_first = true;
   const BaSummary summary = SolveBa(problem, options_.ba);
+  problem.hold_first = false;
   if (summary.usable) {
     for (std::size_t i = 0; i < window_.size(); ++i) frames_[window_[i]].T_world_cam = problem.cameras[i].T_world_cam;
     for (const BaObject& object : problem.objects)

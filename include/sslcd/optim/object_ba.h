@@ -69,6 +69,9 @@ struct BaProblem {
   double log_scale = 0;
   double expected_log_scale = 0;  ///< mean of the scale's prior, where `prior` is empty
   BaPrior prior;                  ///< empty: the first camera and the scale get their own
+  /// Holds the first camera where it is, also where there is a prior: what is left of a long way says next to nothing
+  /// about where in the world all of it is.
+  bool hold_first = false;
   DetectionNoise noise;
   NoiseScale noise_scale;
 };
