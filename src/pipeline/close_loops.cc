@@ -71,7 +71,7 @@ bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
   last_attempt_m_ = here;
   {
     const ScopedTimer timer(timing, "loop detection");
-    if (!Detect()) return false;
+    if (!Detect(options_.loop.lag_m)) return false;
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moved = !Agree();
@@ -120,8 +120,29 @@ PoseTracks::Prior LoopCloser::PriorOf(const PassLayout& local, const PassLayout&
 // Where the query camera stands in the match camera's frame, if `track` is right. Both cameras are taken from the midst
 // of what was matched, where the layouts agree best; objects seen far from there count less, by as much as odometry may
 // have bent the path in between.
-bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global,
+bool LoopCloser::Measure(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global,
                          Attempt& attempt) const {
+  // As recent as possible, but where the heading is known.
+  double best = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3 && best >= options_.loop.max_heading_sigma_rad; ++i) {
+    Attempt now;
+    if (!MeasureAt(lag_m + 10. * i, track, local, global, now)) continue;
+    if (now.heading_sigma < best) best = now.heading_sigma, attempt = std::move(now);
+  }
+  return std::isfinite(best);
+}
+
+void LoopCloser::Finish(double scale, TimingTable& timing) {
+  if (frames_.empty()) return;
+  const ScopedTimer timer(timing, "loop detection at the end");
+  bool any = false;
+  for (const double lag : {options_.loop.lag_m - 10., options_.loop.lag_m - 20.}) any |= lag > 0 && Detect(lag);
+  if (any && !Agree()) Correct(scale);
+  if (any) Fuse();
+}
+
+bool LoopCloser::MeasureAt(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global,
+                           Attempt& attempt) const {
   const LoopOptions& o = options_.loop;
   LoopClosure& row = attempt.row;
   std::vector<DriftPair> pairs;
@@ -142,7 +163,7 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   if (!drift.usable) return false;
   // As recent as the matches allow: not beyond the last but a fifth of them.
   std::sort(seen.begin(), seen.end());
-  const double query_m = std::clamp(frames_.back().travelled - o.lag_m, seen[seen.size() / 5], seen[seen.size() * 4 / 5]);
+  const double query_m = std::clamp(frames_.back().travelled - lag_m, seen[seen.size() / 5], seen[seen.size() * 4 / 5]);
   attempt.query = FrameAt(frames_, query_m);
   attempt.match = NearestOldFrame(drift.T_global_local * frames_[attempt.query].T_world_cam, row.pairs);
   if (attempt.match < 0) return false;
@@ -171,6 +192,8 @@ bool LoopCloser::Measure(const PoseTrack& track, const PassLayout& local, const 
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
   row.covariance.diagonal().head<3>().array() += o.sigma_m * o.sigma_m;
   row.covariance.diagonal().tail<3>().array() += o.sigma_rad * o.sigma_rad;
+  const Vec3 up_in_query = (L_query * frames_[attempt.query].T_world_cam).so3().inverse() * map_.gravity().up;
+  attempt.heading_sigma = std::sqrt(up_in_query.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up_in_query));
   return true;
 }
 
@@ -200,7 +223,7 @@ int LoopCloser::NearestOldFrame(const Pose& T_world_cam,
 }
 
 // True: something new is believed.
-bool LoopCloser::Detect() {
+bool LoopCloser::Detect(double lag_m) {
   const double here = frames_.back().travelled;
   const LoopOptions& o = options_.loop;
   passes_.Update();
@@ -217,7 +240,7 @@ bool LoopCloser::Detect() {
   Attempt attempt;
   if (tracks_.tracks().empty()) return false;
   const PoseTrack& best = tracks_.tracks()[0];
-  if (!Measure(best, local, global, attempt)) return false;
+  if (!Measure(lag_m, best, local, global, attempt)) return false;
   attempt.track = best.id;
   LoopClosure& row = attempt.row;
   row.score = tracks_.Margin(0);
@@ -230,16 +253,15 @@ bool LoopCloser::Detect() {
   // How much better than chance its own objects agree at the place where the track expects them. [nats]
   attempt.own_evidence = best.fit.evidence + std::log(2 * M_PI * static_cast<double>(index.objects().size()) /
                                                       (index.density() * o.place_m2_rad));
-  const double heading_sigma = std::sqrt(row.covariance(4, 4));
   const double apart = row.T_match_query.translation().norm();
-  const bool confirmed = attempt.own_evidence >= o.min_own_evidence && heading_sigma < o.max_heading_sigma_rad &&
+  const bool confirmed = attempt.own_evidence >= o.min_own_evidence && attempt.heading_sigma < o.max_heading_sigma_rad &&
                          apart < o.max_apart_m;
   const bool believed = row.score >= o.min_margin && confirmed;
   attempt.believed = believed;
   attempt.confirmed = confirmed;
   if (row.score >= o.min_margin && !confirmed)
     row.reason = attempt.own_evidence < o.min_own_evidence         ? "too few objects of its own agree"
-                 : heading_sigma >= o.max_heading_sigma_rad ? "heading too uncertain"
+                 : attempt.heading_sigma >= o.max_heading_sigma_rad ? "heading too uncertain"
                                                             : "no old camera stood near";
   if (believed) {
     row.decision = LoopDecision::kAccepted;
@@ -259,7 +281,7 @@ bool LoopCloser::Detect() {
     for (std::size_t k = 0; k < tracks_.tracks().size() && k < 8; ++k) {
       const PoseTrack& t = tracks_.tracks()[k];
       Attempt a;
-      Measure(t, local, global, a);
+      Measure(lag_m, t, local, global, a);
       fprintf(dump, "%d %d %d %.3f %.3f %.3f %zu %zu %zu %d %d", a.row.query_frame, ++rank, a.row.match_frame,
               t.evidence, tracks_.Margin(k), t.prior, t.fit.matches.size(), local.objects.size(), global.objects.size(),
               t.fit.should_see, frames_.back().frame);

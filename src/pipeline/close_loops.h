@@ -21,6 +21,9 @@ class LoopCloser {
   /// Looks for loops if the camera has come far enough since the last time. True: trajectory and map have moved.
   bool AddKeyframe(double scale, TimingTable& timing);
 
+  /// After the last frame: nothing more is to come that could surround the latest cameras with objects.
+  void Finish(double scale, TimingTable& timing);
+
   /// Has any loop been believed?
   bool Closed() const;
 
@@ -33,16 +36,18 @@ class LoopCloser {
     int track = -1;
     int query = 0, match = 0;                                  // indices into frames_
     std::vector<std::pair<LandmarkId, LandmarkId>> fuse;  // the row's pairs, by the names they have now
-    double own_evidence = 0;
+    double own_evidence = 0, heading_sigma = 0;
     bool confirmed = false, believed = false, in_graph = false;
   };
-  bool Detect();
+  bool Detect(double lag_m);
   bool Agree() const;
   double OldUntil() const { return frames_.back().travelled - options_.loop.local_m - options_.loop.gap_m; }
   double Bent(int frame, double seen_m) const;
   int NearestOldFrame(const Pose& T_world_cam, const std::vector<std::pair<LandmarkId, LandmarkId>>& matches) const;
   PoseTracks::Prior PriorOf(const PassLayout& local, const PassLayout& global, const LayoutIndex& index) const;
-  bool Measure(const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;
+  bool Measure(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;
+  bool MeasureAt(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global,
+                 Attempt& attempt) const;
   void Correct(double scale);
   bool Fuse();
 

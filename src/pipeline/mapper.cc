@@ -168,6 +168,7 @@ BaSummary Mapper::Refine() {
   const ScopedTimer timer(timing_, "full-map optimisation");
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
   Options options = options_;
+  if (options_.loop.enabled) loops_->Finish(scale(), timing_);
   if (loops_->Closed()) options.ba.odometry = options_.loop.odometry;  // what the loops have bent must stay bent
   const BaSummary summary = RefineMap(map_, frames_, log_scale_, options, camera);
   refined_log_scale_ = log_scale_;

@@ -65,7 +65,7 @@ struct LoopOptions {
   double surprise = 0.2;                    ///< share of loops that these do not hold for
   double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
   double min_own_evidence = 5.;  ///< ... if its own objects, too, agree better than chance by this ...
-  double max_heading_sigma_rad = 0.035;
+  double max_heading_sigma_rad = 0.042;
   double max_apart_m = 20.;
   double place_m2_rad = 2.5;     ///< ... around the pose that its track predicts: about 2 m and 0.1 rad
   double lag_m = 25.;  ///< the query camera of an attempt stood so far back, with matched objects before and behind it
