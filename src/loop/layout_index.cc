@@ -18,6 +18,9 @@ LayoutIndex::LayoutIndex(const std::vector<LayoutObject>& objects, double max_pa
     : max_pair_(max_pair_m), reach_(reach_m) {
   for (const LayoutObject& object : objects)
     if (object.position.allFinite()) objects_.push_back(object);
+  for (const LayoutObject& object : objects_)
+    for (const double dx : {-10., 0., 10.})
+      for (const double dy : {-10., 0., 10.}) known_.insert(BlockOf(object.position.x() + dx, object.position.y() + dy));
   BuildGrid();
   BuildPairs();
 }
@@ -54,6 +57,14 @@ void LayoutIndex::BuildGrid() {
   for (std::size_t i = 0; i < objects_.size(); ++i)
     for_cells(objects_[i], [&](int cell) { cell_objects_[fill[cell]++] = static_cast<int>(i); });
 }
+
+std::int64_t LayoutIndex::BlockOf(double x, double y) {
+  constexpr double kBlock = 10.;  // [m]
+  return static_cast<std::int64_t>(std::floor(x / kBlock)) << 32 ^
+         (static_cast<std::int64_t>(std::floor(y / kBlock)) & 0xffffffff);
+}
+
+bool LayoutIndex::Known(double x, double y) const { return known_.count(BlockOf(x, y)) > 0; }
 
 LayoutIndex::Range LayoutIndex::Near(double x, double y) const {
   const double column = (x - min_x_) / cell_, row = (y - min_y_) / cell_;

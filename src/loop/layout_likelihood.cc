@@ -74,6 +74,7 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
                "Beta prior of the share of local objects in the map: yes");
   visitor.Real("unmapped_prior", options.unmapped_prior, 0.1, 1000,
                "Beta prior of the share of local objects in the map: no");
+  visitor.Flag("leave_map", options.leave_map, "local objects may lie beyond what the map has seen");
   visitor.Real("wrong_height", options.wrong_height, 0, 1, "share of objects whose height says nothing");
   visitor.Real("min_gain", options.min_gain, -100, 100, "a match that says less is none [nats]");
   visitor.Real("seen_prior", options.seen_prior, 0.1, 1000,
@@ -183,9 +184,18 @@ std::vector<char> LayoutLikelihood::InView(const YawShift& pose) const {
   return in_view;
 }
 
+// Local objects that fall where the map knows the surroundings: about the others it says nothing.
+int LayoutLikelihood::OnMap(const YawShift& pose) const {
+  if (!options_.leave_map) return static_cast<int>(local_.size());
+  return static_cast<int>(std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
+    const Vec3 p = Apply(pose, object.position);
+    return index_.Known(p.x(), p.y());
+  }));
+}
+
 // Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what the shares of
 // mapped and of seen objects say.
-LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view,
+LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view, int on_map,
                                    double sigma) const {
   const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
   const double constant = -std::log(2 * kPi * sigma * sigma * index_.density());
@@ -197,7 +207,7 @@ LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std:
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
-  const double n_local = static_cast<double>(local_.size());
+  const double n_local = on_map;
   double all = static_cast<double>(std::count(in_view.begin(), in_view.end(), 1));
   double score = LogBetaBinomial(0, n_local, options_.mapped_prior, options_.unmapped_prior) +
                  LogBetaBinomial(0, all, options_.seen_prior, options_.unseen_prior);
@@ -233,12 +243,13 @@ LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std:
 LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose);
   const std::vector<char> in_view = InView(pose);
+  const int on_map = OnMap(pose);
   const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / index_.density();
   LayoutFit best;
   best.score = best.evidence = -1e9;
   double score = -1e9, evidence = -1e9;
   for (const double sigma : kSigmas) {
-    LayoutFit fit = Assign(candidates, in_view, sigma);
+    LayoutFit fit = Assign(candidates, in_view, on_map, sigma);
     Vec2 centre(0, 0);
     const double n = static_cast<double>(fit.matches.size());
     for (const auto& [i, j] : fit.matches) centre += index_.objects()[j].position.head<2>() / n;
@@ -267,7 +278,8 @@ LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
   };
   double sigma = index_.reach() / kGate;
   for (int round = 0; round < rounds; ++round) {
-    const LayoutFit fit = Assign(Candidates(pose), std::vector<char>(index_.objects().size(), 0), sigma);
+    const LayoutFit fit =
+        Assign(Candidates(pose), std::vector<char>(index_.objects().size(), 0), OnMap(pose), sigma);
     if (fit.matches.size() < 2) break;
     pose = align(fit.matches);
     sigma = std::max(0.33, 0.85 * sigma);

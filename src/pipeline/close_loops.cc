@@ -141,6 +141,19 @@ void LoopCloser::Finish(double scale, TimingTable& timing) {
   if (any) Fuse();
 }
 
+void LoopCloser::Review() {
+  for (Attempt& attempt : attempts_) {
+    if (attempt.row.decision != LoopDecision::kAccepted) continue;
+    const Pose T = frames_[attempt.match].T_world_cam.inverse() * frames_[attempt.query].T_world_cam;
+    const Pose error = attempt.row.T_match_query.inverse() * T;
+    if (error.translation().norm() < options_.loop.probation_m &&
+        error.so3().Log().norm() < options_.loop.probation_rad)
+      continue;
+    attempt.row.decision = LoopDecision::kAmbiguous;
+    attempt.row.reason = "the refined trajectory disagrees";
+  }
+}
+
 bool LoopCloser::MeasureAt(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global,
                            Attempt& attempt) const {
   const LoopOptions& o = options_.loop;

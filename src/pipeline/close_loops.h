@@ -24,6 +24,9 @@ class LoopCloser {
   /// After the last frame: nothing more is to come that could surround the latest cameras with objects.
   void Finish(double scale, TimingTable& timing);
 
+  /// Takes back loops that the trajectory, once everything has been weighed, does not go through.
+  void Review();
+
   /// Has any loop been believed?
   bool Closed() const;
 

@@ -172,6 +172,7 @@ BaSummary Mapper::Refine() {
   if (loops_->Closed()) options.ba.odometry = options_.loop.odometry;  // what the loops have bent must stay bent
   const BaSummary summary = RefineMap(map_, frames_, log_scale_, options, camera);
   refined_log_scale_ = log_scale_;
+  loops_->Review();
   ResetWindow();
   return summary;
 }

@@ -45,6 +45,8 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Real("min_own_evidence", options.min_own_evidence, -100, 1000, "own");
   visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3, "heading");
   visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "apart");
+  visitor.Real("probation_m", options.probation_m, 0, 1000, "p");
+  visitor.Real("probation_rad", options.probation_rad, 0, 4, "p");
   visitor.Real("lag_m", options.lag_m, 0, 1000, "lag");
   visitor.Real("surprise", options.surprise, 0, 1, "share");
   visitor.Real("sigma_m", options.sigma_m, 0, 100, "edge");

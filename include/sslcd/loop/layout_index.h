@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -37,6 +39,9 @@ class LayoutIndex {
   };
   Range Near(double x, double y) const;
 
+  /// Is the point among mapped objects, or does it lie beyond the map's rim (no object within 10 to 20 m)?
+  bool Known(double x, double y) const;
+
   /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset, by bins.
   std::vector<ObjectPair>::const_iterator PairsBegin(int label_a, int label_b, double from_m) const;
   std::vector<ObjectPair>::const_iterator PairsEnd(int label_a, int label_b, double to_m) const;
@@ -51,6 +56,7 @@ class LayoutIndex {
     std::vector<int> start;  // of each distance bin in pairs
     std::vector<ObjectPair> pairs;
   };
+  static std::int64_t BlockOf(double x, double y);
   void BuildGrid();
   void BuildPairs();
   int CellOf(double x, double y) const;
@@ -62,6 +68,7 @@ class LayoutIndex {
   std::vector<int> cell_start_, cell_objects_;
   std::map<std::pair<int, int>, PairTable> tables_;
   PairTable none_;
+  std::unordered_set<std::int64_t> known_;  // blocks with an object in them or next to them
   double density_ = 0, height_spread_ = 0;
 };
 

@@ -41,7 +41,7 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 /// Keeping odometry upright that has no measurement of gravity.
 struct LevelOptions {
   bool enabled = true;
-  double max_slope_rad = 0.07;  ///< no ground is steeper than this on average ...
+  double max_slope_rad = 0.1;  ///< no ground is steeper than this on average ...
   double window_m = 200.;       ///< ... over so much path
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
@@ -51,6 +51,7 @@ struct LoopOptions {
   static LayoutMatchOptions DefaultMatch() {
     LayoutMatchOptions match;
     match.likelihood.wrong_height = 0.1;  // slopes and drifting tilt
+    match.likelihood.leave_map = true;
     return match;
   }
   bool enabled = true;
@@ -59,19 +60,20 @@ struct LoopOptions {
   double gap_m = 10.;                       ///< the global map: objects on passes that ended so long ago
   double split_m = 30.;                     ///< unseen for so much path: another pass
   int min_sightings = 2;                    ///< objects seen less often on a pass take no part
-  double min_margin = 6.;                   ///< log odds from which a pose is believed [nats]
+  double min_margin = 10.;                   ///< log odds from which a pose is believed [nats]
   double drift_share = 0.02;                ///< how far odometry may be off: translation, share of the path ...
   double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
-  double surprise = 0.2;                    ///< share of loops that these do not hold for
+  double surprise = 0.05;                    ///< share of loops that these do not hold for
   double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
-  double min_own_evidence = 5.;  ///< ... if its own objects, too, agree better than chance by this ...
+  double min_own_evidence = 2.;  ///< ... if its own objects, too, agree better than chance by this ...
   double max_heading_sigma_rad = 0.042;
   double max_apart_m = 20.;
+  double probation_m = 2., probation_rad = 0.06;
   double place_m2_rad = 2.5;     ///< ... around the pose that its track predicts: about 2 m and 0.1 rad
   double lag_m = 25.;  ///< the query camera of an attempt stood so far back, with matched objects before and behind it
   double keyframe_m = 5.;
   double fuse_m = 3.;
-  OdometryNoise odometry{0.02, 0.05, 2e-3, 5e-3, 0.05, 0.05};
+  OdometryNoise odometry{0.02, 0.08, 2e-3, 5e-3, 0.05, 0.05};
   LayoutMatchOptions match = DefaultMatch();
   PoseTrackOptions tracks;
   DriftOptions drift{true, 0.03};
