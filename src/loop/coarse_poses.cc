@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "loop/triangle_poses.h"
+
 namespace sslcd {
 namespace {
 
@@ -52,41 +54,78 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
   return chosen;
 }
 
-}  // namespace
+/// Scores poses as they are proposed and keeps the best of each cell of poses.
+class Contest {
+ public:
+  Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index, const PoseSearchOptions& options)
+      : points_(points), index_(index), inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)) {}
 
-std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
-                                    const LayoutIndex& index, const PoseSearchOptions& options) {
-  struct Point {
-    float x, y, z;
-    int label;
-  };
-  std::vector<Point> points;
-  for (const LayoutObject& object : local)
-    points.push_back({static_cast<float>(object.position.x() - centre.x()),
-                      static_cast<float>(object.position.y() - centre.y()),
-                      static_cast<float>(object.position.z() - centre.z()), object.label});
-  std::vector<Point> map;
-  for (const LayoutObject& object : index.objects())
-    map.push_back({static_cast<float>(object.position.x()), static_cast<float>(object.position.y()),
-                   static_cast<float>(object.position.z()), object.label});
+  void Enter(CoarsePose pose) {
+    pose.score = Score(pose);
+    if (pose.score < 0.4f * best_) return;
+    best_ = std::max(best_, pose.score);
+    const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
+    const std::int64_t cell = key(std::atan2(pose.sine, pose.cosine) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
+    CoarsePose& kept = cells_[cell];
+    if (pose.score > kept.score) kept = pose;
+  }
 
-  std::unordered_map<std::int64_t, CoarsePose> cells;
-  const float inlier2 = static_cast<float>(options.inlier_m * options.inlier_m);
-  float best = 0;
+  std::vector<CoarsePose> Best(std::size_t count) const {
+    std::vector<CoarsePose> coarse;
+    for (const auto& [cell, pose] : cells_)
+      if (pose.score >= 0.5f * best_) coarse.push_back(pose);
+    const auto better = [](const CoarsePose& a, const CoarsePose& b) {
+      if (a.score != b.score) return a.score > b.score;
+      if (a.x != b.x) return a.x < b.x;
+      return a.y != b.y ? a.y < b.y : a.sine < b.sine;
+    };
+    const std::size_t keep = std::min(coarse.size(), count);
+    std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep), coarse.end(), better);
+    coarse.resize(keep);
+    return coarse;
+  }
+
+ private:
+  float Score(const CoarsePose& pose) const {
+    const std::vector<LayoutPoint>& map = index_.points();
+    float score = 0;
+    for (const LayoutPoint& p : points_) {
+      const float x = pose.cosine * p.x - pose.sine * p.y + pose.x, y = pose.sine * p.x + pose.cosine * p.y + pose.y;
+      float gain = 0;
+      for (const int j : index_.Near(x, y)) {
+        const float dx = map[j].x - x, dy = map[j].y - y, dz = map[j].z - p.z - pose.z;
+        const float d2 = dx * dx + dy * dy + dz * dz;
+        if (d2 >= inlier2_) continue;
+        gain = std::max(gain, (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : .3f));
+      }
+      score += gain;
+    }
+    return score;
+  }
+
+  const std::vector<LayoutPoint>& points_;
+  const LayoutIndex& index_;
+  float inlier2_, best_ = 0;
+  std::unordered_map<std::int64_t, CoarsePose> cells_;
+};
+
+// Every chosen local pair on every global pair of equal distance.
+void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<LayoutPoint>& points,
+                const LayoutIndex& index, const PoseSearchOptions& options, Contest& contest) {
+  const std::vector<LayoutPoint>& map = index.points();
+  const float tolerance = static_cast<float>(options.pair_noise_m);
   for (const LocalPair& chosen : ChoosePairs(local, index, options)) {
     const ObjectPair& l = chosen.pair;
-    const Point &pa = points[l.a], &pb = points[l.b];
-    const float tolerance = static_cast<float>(options.pair_noise_m);
-    const auto end = index.PairsEnd(local[l.a].label, local[l.b].label, l.distance + options.pair_noise_m);
-    const bool same = pa.label == pb.label;
-    for (auto g = index.PairsBegin(local[l.a].label, local[l.b].label, l.distance - options.pair_noise_m); g < end;
-         ++g) {
+    const LayoutPoint &pa = points[l.a], &pb = points[l.b];
+    const auto end = index.PairsEnd(pa.label, pb.label, l.distance + options.pair_noise_m);
+    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - options.pair_noise_m); g < end; ++g) {
       if (std::abs(g->distance - l.distance) > tolerance) continue;
-      for (int flip = 0; flip < (same ? 2 : 1); ++flip) {
+      if (map[g->a].label != pa.label || map[g->b].label != pb.label) continue;
+      for (int flip = 0; flip < (pa.label == pb.label ? 2 : 1); ++flip) {
         const float sign = flip ? -1.f : 1.f;
         if (std::abs(sign * g->dz - l.dz) > tolerance) continue;
         const float c = sign * (g->dx * l.dx + g->dy * l.dy), s = sign * (g->dy * l.dx - g->dx * l.dy);
-        const Point &qa = map[flip ? g->b : g->a], &qb = map[flip ? g->a : g->b];
+        const LayoutPoint &qa = map[flip ? g->b : g->a], &qb = map[flip ? g->a : g->b];
         const float mx = (pa.x + pb.x) / 2, my = (pa.y + pb.y) / 2;
         CoarsePose pose;
         pose.cosine = c;
@@ -94,41 +133,27 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
         pose.x = (qa.x + qb.x) / 2 - (c * mx - s * my);
         pose.y = (qa.y + qb.y) / 2 - (s * mx + c * my);
         pose.z = (qa.z + qb.z) / 2 - (pa.z + pb.z) / 2;
-        float score = 0;
-        for (const Point& p : points) {
-          const float x = c * p.x - s * p.y + pose.x, y = s * p.x + c * p.y + pose.y;
-          float gain = 0;
-          for (const int j : index.Near(x, y)) {
-            const float dx = map[j].x - x, dy = map[j].y - y, dz = map[j].z - p.z - pose.z;
-            const float d2 = dx * dx + dy * dy + dz * dz;
-            if (d2 >= inlier2) continue;
-            gain = std::max(gain, (1 - d2 / inlier2) * (map[j].label == p.label ? 1.f : .3f));
-          }
-          score += gain;
-        }
-        if (score < 0.4f * best) continue;
-        best = std::max(best, score);
-        pose.score = score;
-        const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
-        const std::int64_t cell = key(std::atan2(s, c) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
-        CoarsePose& kept = cells[cell];
-        if (score > kept.score) kept = pose;
+        contest.Enter(pose);
       }
     }
   }
+}
 
-  std::vector<CoarsePose> coarse;
-  for (const auto& [cell, pose] : cells)
-    if (pose.score >= 0.5f * best) coarse.push_back(pose);
-  const auto better = [](const CoarsePose& a, const CoarsePose& b) {
-    if (a.score != b.score) return a.score > b.score;
-    if (a.x != b.x) return a.x < b.x;
-    return a.y != b.y ? a.y < b.y : a.sine < b.sine;
-  };
-  const std::size_t keep = std::min<std::size_t>(coarse.size(), options.refine);
-  std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep), coarse.end(), better);
-  coarse.resize(keep);
-  return coarse;
+}  // namespace
+
+std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
+                                    const LayoutIndex& index, const PoseSearchOptions& options) {
+  std::vector<LayoutPoint> points;
+  for (const LayoutObject& object : local) {
+    const Eigen::Vector3f p = (object.position - centre).cast<float>();
+    points.push_back({p.x(), p.y(), p.z(), object.label});
+  }
+  Contest contest(points, index, options);
+  if (index.triangles() == nullptr)
+    EnterPairs(local, points, index, options, contest);
+  else
+    for (const CoarsePose& pose : TrianglePoses(points, index, options)) contest.Enter(pose);
+  return contest.Best(options.refine);
 }
 
 }  // namespace sslcd

@@ -4,25 +4,75 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/triangle_index.h"
+
 namespace sslcd {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kBin = 0.25;          // of pair distances [m]
-constexpr double kSurroundings = 15.;  // radius in which density and heights are judged [m]
-constexpr double kMaxCells = 4e6;
+constexpr double kBin = 0.25;              // of pair distances [m]
+constexpr double kSurroundings = 15.;      // radius in which density and heights are judged [m]
+constexpr double kBlock = 10.;             // [m]
+constexpr std::size_t kMaxPairs = 100000;  // with more, triangles are faster
+constexpr int kMaxLabels = 256;            // with lists of their own
+
+// Cells of the grid, at most: enough for those that have an object, and no memory for what lies between far ones.
+double MaxCells(std::size_t objects) { return 4096. + 32. * static_cast<double>(objects); }
 
 }  // namespace
 
-LayoutIndex::LayoutIndex(const std::vector<LayoutObject>& objects, double max_pair_m, double reach_m)
-    : max_pair_(max_pair_m), reach_(reach_m) {
-  for (const LayoutObject& object : objects)
-    if (object.position.allFinite()) objects_.push_back(object);
-  for (const LayoutObject& object : objects_)
-    for (const double dx : {-10., 0., 10.})
-      for (const double dy : {-10., 0., 10.}) known_.insert(BlockOf(object.position.x() + dx, object.position.y() + dy));
+LayoutIndex::LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m)
+    : objects_(std::move(objects)), max_pair_(max_pair_m), reach_(reach_m) {
+  objects_.erase(std::remove_if(objects_.begin(), objects_.end(),
+                                [](const LayoutObject& object) { return !object.position.allFinite(); }),
+                 objects_.end());
+  CountProperties();
+  BuildBlocks();
   BuildGrid();
   BuildPairs();
+}
+
+void LayoutIndex::CountProperties() {
+  points_.reserve(objects_.size());
+  for (const LayoutObject& object : objects_) {
+    const Eigen::Vector3f p = object.position.cast<float>();
+    points_.push_back({p.x(), p.y(), p.z(), object.label});
+    ++label_counts_[object.label];
+    if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) continue;
+    const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * 360 + 0.5)) % 360;
+    ++headings_[object.symmetry == Symmetry::kPi][degree];
+  }
+  for (const auto& [label, count] : label_counts_) labels_.push_back(label);
+}
+
+std::int64_t LayoutIndex::Block(double coordinate) {
+  constexpr double kMiddle = 1 << 30;  // keeps keys positive
+  return static_cast<std::int64_t>(std::floor(std::clamp(coordinate / kBlock, 2 - kMiddle, kMiddle - 2)) + kMiddle);
+}
+
+std::vector<LayoutIndex::InBlock>::const_iterator LayoutIndex::FirstBlock(std::int64_t key) const {
+  return std::lower_bound(blocks_.begin(), blocks_.end(), key,
+                          [](const InBlock& entry, std::int64_t wanted) { return entry.key < wanted; });
+}
+
+void LayoutIndex::BuildBlocks() {
+  blocks_.reserve(objects_.size());
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    const Vec3& p = objects_[i].position;
+    blocks_.push_back({Key(Block(p.x()), Block(p.y())), static_cast<int>(i)});
+  }
+  std::sort(blocks_.begin(), blocks_.end(), [](const InBlock& a, const InBlock& b) {
+    return a.key != b.key ? a.key < b.key : a.object < b.object;
+  });
+}
+
+bool LayoutIndex::Known(double x, double y) const {
+  if (!std::isfinite(x) || !std::isfinite(y)) return false;
+  for (std::int64_t column = Block(x) - 1; column <= Block(x) + 1; ++column) {
+    const auto first = FirstBlock(Key(column, Block(y) - 1));
+    if (first != blocks_.end() && first->key <= Key(column, Block(y) + 1)) return true;
+  }
+  return false;
 }
 
 // Every object is listed in each cell that its reach touches, so a point has to look into one cell only.
@@ -33,9 +83,10 @@ void LayoutIndex::BuildGrid() {
     low = low.cwiseMin(object.position.head<2>());
     high = high.cwiseMax(object.position.head<2>());
   }
+  const double max_cells = MaxCells(objects_.size());
   const Vec2 size = high - low + Vec2(2 * reach_, 2 * reach_);
-  cell_ = std::max(reach_, std::sqrt(size.x() * size.y() / kMaxCells));
-  cell_ = std::max(cell_, size.maxCoeff() / kMaxCells);
+  cell_ = std::max(reach_, std::sqrt(size.x() * size.y() / max_cells));
+  cell_ = std::max(cell_, size.maxCoeff() / max_cells);
   min_x_ = low.x() - reach_;
   min_y_ = low.y() - reach_;
   columns_ = static_cast<int>(size.x() / cell_) + 1;
@@ -58,14 +109,6 @@ void LayoutIndex::BuildGrid() {
     for_cells(objects_[i], [&](int cell) { cell_objects_[fill[cell]++] = static_cast<int>(i); });
 }
 
-std::int64_t LayoutIndex::BlockOf(double x, double y) {
-  constexpr double kBlock = 10.;  // [m]
-  return static_cast<std::int64_t>(std::floor(x / kBlock)) << 32 ^
-         (static_cast<std::int64_t>(std::floor(y / kBlock)) & 0xffffffff);
-}
-
-bool LayoutIndex::Known(double x, double y) const { return known_.count(BlockOf(x, y)) > 0; }
-
 LayoutIndex::Range LayoutIndex::Near(double x, double y) const {
   const double column = (x - min_x_) / cell_, row = (y - min_y_) / cell_;
   if (!(column >= 0 && column < columns_ && row >= 0 && row < rows_)) return {};
@@ -73,67 +116,94 @@ LayoutIndex::Range LayoutIndex::Near(double x, double y) const {
   return {cell_objects_.data() + cell_start_[cell], cell_objects_.data() + cell_start_[cell + 1]};
 }
 
+// Neighbours by a sweep along the longer side of the map.
 void LayoutIndex::BuildPairs() {
-  // Neighbours by a sweep over objects sorted along x.
-  std::vector<int> order(objects_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return objects_[a].position.x() < objects_[b].position.x(); });
-  std::vector<std::pair<std::pair<int, int>, ObjectPair>> found;
-  double near_count = 0, height_sum = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const LayoutObject *a = &objects_[order[i]], *b = &objects_[order[j]];
-      if (b->position.x() - a->position.x() > max_pair_) break;
-      int first = order[i], second = order[j];
-      if (a->label > b->label || (a->label == b->label && first > second)) {
-        std::swap(a, b);
-        std::swap(first, second);
-      }
-      const Vec3 step = b->position - a->position;
-      const double distance = std::hypot(step.x(), step.y());
-      if (distance > max_pair_ || distance < 1e-6) continue;
+  struct Sorted {
+    double along, x, y, z;
+    int label, object;
+  };
+  Eigen::AlignedBox2d box;
+  for (const LayoutObject& object : objects_) box.extend(object.position.head<2>());
+  const int axis = !objects_.empty() && box.sizes().y() > box.sizes().x() ? 1 : 0;
+  std::vector<Sorted> sorted;
+  sorted.reserve(objects_.size());
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    const Vec3& p = objects_[i].position;
+    sorted.push_back({p[axis], p.x(), p.y(), p.z(), objects_[i].label, static_cast<int>(i)});
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const Sorted& a, const Sorted& b) {
+    return a.along != b.along ? a.along < b.along : a.object < b.object;
+  });
+
+  std::vector<ObjectPair> found;
+  double near_count = 0, height_sum = 0, radius = max_pair_;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= radius; ++j) {
+      const Sorted *a = &sorted[i], *b = &sorted[j];
+      if (a->label > b->label || (a->label == b->label && a->object > b->object)) std::swap(a, b);
+      const double dx = b->x - a->x, dy = b->y - a->y, dz = b->z - a->z, d2 = dx * dx + dy * dy;
+      if (d2 > radius * radius || d2 < 1e-12) continue;
+      const double distance = std::sqrt(d2);
       if (distance < kSurroundings) {
         ++near_count;
-        height_sum += std::min(1., step.z() * step.z());
+        height_sum += std::min(1., dz * dz);
       }
-      found.push_back({{a->label, b->label},
-                       {first, second, static_cast<float>(distance), static_cast<float>(step.x() / distance),
-                        static_cast<float>(step.y() / distance), static_cast<float>(step.z())}});
+      if (radius < max_pair_) continue;
+      found.push_back({a->object, b->object, static_cast<float>(distance), static_cast<float>(dx / distance),
+                       static_cast<float>(dy / distance), static_cast<float>(dz)});
+    }
+    if (found.size() > kMaxPairs) {  // a large map: from here on, only the surroundings are looked at
+      found = {};
+      radius = std::min(max_pair_ * (1 - 1e-9), kSurroundings);
     }
   }
   const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
   density_ = (1 + 2 * near_count / n) / (kPi * kSurroundings * kSurroundings);
   height_spread_ = near_count > 0 ? std::sqrt(height_sum / near_count / 2) : 0.;
+  if (radius < max_pair_)
+    triangles_ = std::make_shared<TriangleIndex>(*this);
+  else
+    SortPairs(found);
+}
 
-  const int bins = static_cast<int>(max_pair_ / kBin) + 2;
-  for (const auto& [labels, pair] : found) {
-    PairTable& table = tables_[labels];
-    if (table.start.empty()) table.start.assign(bins + 1, 0);
-    ++table.start[static_cast<int>(pair.distance / kBin) + 1];
+int LayoutIndex::LabelRank(int label) const {
+  const auto place = std::lower_bound(labels_.begin(), labels_.end(), label);
+  if (place == labels_.end() || *place != label) return -1;
+  return std::min(static_cast<int>(place - labels_.begin()), kMaxLabels - 1);
+}
+
+int LayoutIndex::PairSlot(int rank_a, int rank_b, double distance_m) const {
+  const int bin = std::clamp(static_cast<int>(distance_m / kBin), 0, bins_ - 1);
+  return (rank_b * (rank_b + 1) / 2 + rank_a) * bins_ + bin;
+}
+
+void LayoutIndex::SortPairs(const std::vector<ObjectPair>& found) {
+  const int ranks = std::min(static_cast<int>(labels_.size()), kMaxLabels);
+  bins_ = static_cast<int>(max_pair_ / kBin) + 2;
+  pair_start_.assign(static_cast<std::size_t>(ranks * (ranks + 1) / 2) * bins_ + 1, 0);
+  std::vector<int> rank, slot;
+  for (const LayoutPoint& point : points_) rank.push_back(LabelRank(point.label));
+  slot.reserve(found.size());
+  for (const ObjectPair& pair : found) {
+    slot.push_back(PairSlot(rank[pair.a], rank[pair.b], pair.distance));
+    ++pair_start_[slot.back() + 1];
   }
-  for (auto& [labels, table] : tables_) {
-    for (int i = 0; i < bins; ++i) table.start[i + 1] += table.start[i];
-    table.pairs.resize(table.start.back());
-  }
-  std::map<std::pair<int, int>, std::vector<int>> fill;
-  for (const auto& [labels, table] : tables_) fill[labels] = table.start;
-  for (const auto& [labels, pair] : found)
-    tables_[labels].pairs[fill[labels][static_cast<int>(pair.distance / kBin)]++] = pair;
+  for (std::size_t i = 1; i < pair_start_.size(); ++i) pair_start_[i] += pair_start_[i - 1];
+  pairs_.resize(found.size());
+  std::vector<int> fill(pair_start_.begin(), pair_start_.end() - 1);
+  for (std::size_t i = 0; i < found.size(); ++i) pairs_[fill[slot[i]]++] = found[i];
 }
 
 std::vector<ObjectPair>::const_iterator LayoutIndex::PairsBegin(int label_a, int label_b, double from_m) const {
-  const auto table = tables_.find({label_a, label_b});
-  if (table == tables_.end()) return none_.pairs.end();
-  const int bin = std::clamp(static_cast<int>(from_m / kBin), 0, static_cast<int>(table->second.start.size()) - 1);
-  return table->second.pairs.begin() + table->second.start[bin];
+  const int a = LabelRank(label_a), b = LabelRank(label_b);
+  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
+  return pairs_.begin() + pair_start_[PairSlot(a, b, from_m)];
 }
 
 std::vector<ObjectPair>::const_iterator LayoutIndex::PairsEnd(int label_a, int label_b, double to_m) const {
-  const auto table = tables_.find({label_a, label_b});
-  if (table == tables_.end()) return none_.pairs.end();
-  const int bin = std::clamp(static_cast<int>(to_m / kBin) + 1, 0, static_cast<int>(table->second.start.size()) - 1);
-  return table->second.pairs.begin() + table->second.start[bin];
+  const int a = LabelRank(label_a), b = LabelRank(label_b);
+  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
+  return pairs_.begin() + pair_start_[PairSlot(a, b, to_m) + 1];
 }
 
 }  // namespace sslcd

@@ -66,6 +66,17 @@ double HeadingDensity(double difference, Symmetry symmetry) {
   return (1 - kAny) * ((1 - flipped) * forward + flipped * reverse) + kAny / (2 * kPi);
 }
 
+// The same by degrees.
+const std::vector<double>& HeadingDensities(Symmetry symmetry) {
+  const auto compute = [](Symmetry s) {
+    std::vector<double> densities;
+    for (int degree = 0; degree < 360; ++degree) densities.push_back(HeadingDensity(degree * kPi / 180, s));
+    return densities;
+  };
+  static const std::vector<double> kFullTurn = compute(Symmetry::kNone), kHalfTurn = compute(Symmetry::kPi);
+  return symmetry == Symmetry::kPi ? kHalfTurn : kFullTurn;
+}
+
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
@@ -110,15 +121,20 @@ YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                    const LayoutLikelihoodOptions& options)
     : local_(local), index_(index), options_(options) {
-  for (const LayoutObject& object : index.objects()) label_share_[object.label] += 1;
+  for (const auto& [label, count] : index.label_counts()) label_share_[label] = count;
   for (const LayoutObject& object : local) label_share_[object.label] += 0;
   const double total = static_cast<double>(index.objects().size() + label_share_.size());
   for (auto& [label, share] : label_share_) share = (share + 1) / total;
-  for (const LayoutObject& object : index.objects()) {
-    if (!HasHeading(object)) continue;
-    for (int bin = 0; bin < kHeadings; ++bin)
-      heading_background_[bin] += HeadingDensity(2 * kPi * bin / kHeadings - object.yaw, object.symmetry);
-    ++headings_;
+  for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
+    const auto& counts = index.headings()[symmetry == Symmetry::kPi];
+    const std::vector<double>& densities = HeadingDensities(symmetry);
+    const int bins = static_cast<int>(counts.size());
+    for (int from = 0; from < bins; ++from) {
+      if (counts[from] == 0) continue;
+      headings_ += counts[from];
+      for (int bin = 0; bin < kHeadings; ++bin)
+        heading_background_[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
+    }
   }
   std::vector<Vec2> points;
   for (const LayoutObject& object : local) points.push_back(object.position.head<2>());
@@ -166,22 +182,27 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       const int local = static_cast<int>(i);
       const double gain =
           LabelGain(local_[i].label, object.label) + HeadingGain(local_[i], object, pose.yaw) + Appearance(local, j);
-      candidates.push_back({local, j, d2, dz * dz, gain, 0});
+      candidates.push_back({local, j, d2, dz * dz, gain, 0, InView(object.position, pose.t, c, s)});
     }
   }
   return candidates;
 }
 
 // Objects of the map among the local ones: they should have been seen.
-std::vector<char> LayoutLikelihood::InView(const YawShift& pose) const {
-  std::vector<char> in_view(index_.objects().size(), 0);
+int LayoutLikelihood::CountInView(const YawShift& pose) const {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  for (std::size_t j = 0; j < in_view.size(); ++j) {
-    const Vec3& g = index_.objects()[j].position;
-    const double dx = g.x() - pose.t.x(), dy = g.y() - pose.t.y();
-    in_view[j] = Inside(hull_, kHullMargin, c * dx + s * dy, -s * dx + c * dy);
-  }
-  return in_view;
+  Eigen::AlignedBox2d box;
+  for (const Vec2& p : hull_) box.extend(Vec2(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y()));
+  int count = 0;
+  const Vec2 margin(kHullMargin, kHullMargin);
+  index_.VisitBox(box.min() - margin, box.max() + margin,
+                  [&](int j) { count += InView(index_.objects()[j].position, pose.t, c, s); });
+  return count;
+}
+
+bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, double s) const {
+  const double dx = global.x() - t.x(), dy = global.y() - t.y();
+  return Inside(hull_, kHullMargin, c * dx + s * dy, -s * dx + c * dy);
 }
 
 // Local objects that fall where the map knows the surroundings: about the others it says nothing.
@@ -195,8 +216,7 @@ int LayoutLikelihood::OnMap(const YawShift& pose) const {
 
 // Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what the shares of
 // mapped and of seen objects say.
-LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view, int on_map,
-                                   double sigma) const {
+LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, int in_view, int on_map, double sigma) const {
   const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
   const double constant = -std::log(2 * kPi * sigma * sigma * index_.density());
   const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z), wrong = options_.wrong_height;
@@ -208,7 +228,7 @@ LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std:
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   const double n_local = on_map;
-  double all = static_cast<double>(std::count(in_view.begin(), in_view.end(), 1));
+  double all = in_view;
   double score = LogBetaBinomial(0, n_local, options_.mapped_prior, options_.unmapped_prior) +
                  LogBetaBinomial(0, all, options_.seen_prior, options_.unseen_prior);
   LayoutFit fit;
@@ -224,7 +244,7 @@ LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std:
     if (taken) continue;
     const double n = static_cast<double>(matches.size());
     score += candidate.gain + std::log((n + options_.mapped_prior) / (n_local - n - 1 + options_.unmapped_prior));
-    if (in_view[candidate.global]) {
+    if (candidate.in_view) {
       score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
     } else {
       score += std::log((n + options_.seen_prior) / (all + options_.seen_prior + options_.unseen_prior));
@@ -242,7 +262,7 @@ LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, const std:
 
 LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose);
-  const std::vector<char> in_view = InView(pose);
+  const int in_view = CountInView(pose);
   const int on_map = OnMap(pose);
   const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / index_.density();
   LayoutFit best;
@@ -278,8 +298,9 @@ LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
   };
   double sigma = index_.reach() / kGate;
   for (int round = 0; round < rounds; ++round) {
-    const LayoutFit fit =
-        Assign(Candidates(pose), std::vector<char>(index_.objects().size(), 0), OnMap(pose), sigma);
+    std::vector<Candidate> candidates = Candidates(pose);
+    for (Candidate& candidate : candidates) candidate.in_view = false;
+    const LayoutFit fit = Assign(std::move(candidates), 0, OnMap(pose), sigma);
     if (fit.matches.size() < 2) break;
     pose = align(fit.matches);
     sigma = std::max(0.33, 0.85 * sigma);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "pipeline/loop_measurement.h"
 #include "pipeline/pass_map.h"
 #include "pipeline/path_graph.h"
 #include "sslcd/core/loop_closure.h"
@@ -11,14 +15,13 @@
 
 namespace sslcd {
 
-/// Paper IV, as it runs with every keyframe: the objects seen lately are matched with those of older passes; what is
-/// believed becomes an edge of the pose graph, and trajectory and map follow.
+/// Paper IV, as it runs with the keyframes: the objects seen lately are matched with those of older passes; loops that
+/// are believed become edges of the pose graph, and trajectory and map follow. Works on the mapper's own map and frames.
 class LoopCloser {
  public:
-  /// Works on the mapper's own map and frames.
   LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames);
 
-  /// Looks for loops if the camera has come far enough since the last time. True: trajectory and map have moved.
+  /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or map have changed.
   bool AddKeyframe(double scale, TimingTable& timing);
 
   /// After the last frame: nothing more is to come that could surround the latest cameras with objects.
@@ -27,32 +30,30 @@ class LoopCloser {
   /// Takes back loops that the trajectory, once everything has been weighed, does not go through.
   void Review();
 
-  /// Has any loop been believed?
+  /// Is any loop believed?
   bool Closed() const;
 
-  /// All attempts so far that had something to compare.
+  /// All attempts that had something to compare, in order.
   std::vector<LoopClosure> closures() const;
 
  private:
   struct Attempt {
-    LoopClosure row;
-    int track = -1;
-    int query = 0, match = 0;                                  // indices into frames_
-    std::vector<std::pair<LandmarkId, LandmarkId>> fuse;  // the row's pairs, by the names they have now
-    double own_evidence = 0, heading_sigma = 0;
-    bool confirmed = false, believed = false, in_graph = false;
+    LoopMeasurement loop;
+    std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  // the row's, by the names they have now
+    int track = -1;          // whose pose this is
+    bool confirmed = false;  // its own objects say enough; believed as soon as its track is
+    bool believed = false;   // an edge of the pose graph, which may refuse it
+    bool in_graph = false;   // ... since the last time that was solved
   };
+  bool DetectAndCorrect(double lag_m, double scale, TimingTable& timing);
   bool Detect(double lag_m);
+  bool DetectAsPrinted();
+  bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);
+  void Believe(Attempt& attempt, const std::string& reason);
   bool Agree() const;
-  double OldUntil() const { return frames_.back().travelled - options_.loop.local_m - options_.loop.gap_m; }
-  double Bent(int frame, double seen_m) const;
-  int NearestOldFrame(const Pose& T_world_cam, const std::vector<std::pair<LandmarkId, LandmarkId>>& matches) const;
-  PoseTracks::Prior PriorOf(const PassLayout& local, const PassLayout& global, const LayoutIndex& index) const;
-  bool Measure(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global, Attempt& attempt) const;
-  bool MeasureAt(double lag_m, const PoseTrack& track, const PassLayout& local, const PassLayout& global,
-                 Attempt& attempt) const;
   void Correct(double scale);
   bool Fuse();
+  double OldUntil() const;
 
   Options options_;
   ObjectMap& map_;

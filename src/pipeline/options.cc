@@ -32,31 +32,6 @@ void DescribeFields(FieldVisitor& visitor, LevelOptions& options) {
   visitor.Real("window_m", options.window_m, 1, 1e5, "... over so many metres of path");
 }
 
-void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
-  visitor.Flag("enabled", options.enabled, "close loops");
-  visitor.Real("every_m", options.every_m, 0, 1000, "an attempt every so many metres of path");
-  visitor.Real("local_m", options.local_m, 1, 10000, "the local map: objects seen on the last so many metres of path");
-  visitor.Real("gap_m", options.gap_m, 0, 10000, "the global map: objects on passes that ended so many metres ago");
-  visitor.Real("split_m", options.split_m, 0, 10000, "an object unseen for so much path is on another pass");
-  visitor.Integer("min_sightings", options.min_sightings, 1, 1000, "objects seen less often on a pass take no part");
-  visitor.Real("min_margin", options.min_margin, -100, 1000, "log odds from which a pose is believed [nats]");
-  visitor.Real("drift_share", options.drift_share, 0, 1, "drift");
-  visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "drift");
-  visitor.Real("min_own_evidence", options.min_own_evidence, -100, 1000, "own");
-  visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3, "heading");
-  visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "apart");
-  visitor.Real("probation_m", options.probation_m, 0, 1000, "p");
-  visitor.Real("probation_rad", options.probation_rad, 0, 4, "p");
-  visitor.Real("lag_m", options.lag_m, 0, 1000, "lag");
-  visitor.Real("surprise", options.surprise, 0, 1, "share");
-  visitor.Real("sigma_m", options.sigma_m, 0, 100, "edge");
-  visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "edge");
-  visitor.Nested("odometry", options.odometry, "odometry");
-  visitor.Nested("graph", options.graph, "graph");
-  visitor.Nested("match", options.match, "layout matching (paper IV-B, IV-C)");
-  visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
-}
-
 void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Enum("mode", options.mode, {"robust", "paper"}, "robust, or the paper's equations as printed");
   visitor.Nested("filter", options.filter, "which detections are used (paper III-A.1)");

@@ -69,7 +69,11 @@ std::vector<LoopClosure> FakeLoops(const std::vector<Pose>& reference) {
     for (double& v : noise) v = normal(random);
     noise.head<3>() *= query % 2 == 0 ? 1. : 4.;
     noise.tail<3>() *= 0.03;
-    loops.push_back({query, match, reference[match].inverse() * reference[query] * Pose::Exp(noise)});
+    LoopClosure& loop = loops.emplace_back();
+    loop.query_frame = query;
+    loop.match_frame = match;
+    loop.decision = LoopDecision::kAccepted;
+    loop.T_match_query = reference[match].inverse() * reference[query] * Pose::Exp(noise);
   }
   return loops;
 }

@@ -32,8 +32,17 @@ SequenceRun OutAndBack() {
   return run;
 }
 
+LoopClosure Accepted(int query, int match, const Pose& T_match_query) {
+  LoopClosure loop;
+  loop.query_frame = query;
+  loop.match_frame = match;
+  loop.decision = LoopDecision::kAccepted;
+  loop.T_match_query = T_match_query;
+  return loop;
+}
+
 LoopClosure LoopWithError(const SequenceRun& run, int query, int match, const Pose& error) {
-  return {query, match, run.reference[match].inverse() * run.reference[query] * error};
+  return Accepted(query, match, run.reference[match].inverse() * run.reference[query] * error);
 }
 
 TEST(SequenceMetricsTest, LoopsByErrorAndViewpoint) {
@@ -49,6 +58,18 @@ TEST(SequenceMetricsTest, LoopsByErrorAndViewpoint) {
   EXPECT_NEAR(metrics.loop_error_median_rad.value(), 0, 1e-9);
   EXPECT_NEAR(metrics.ate, 0, 1e-9);
   EXPECT_NEAR(metrics.path, 200, 0.1);
+}
+
+TEST(SequenceMetricsTest, RefusedLoopsDoNotCount) {
+  SequenceRun run = OutAndBack();
+  for (const LoopDecision decision : {LoopDecision::kNone, LoopDecision::kAmbiguous}) {
+    run.loops.push_back(LoopWithError(run, 195, 5, Pose()));
+    run.loops.back().decision = decision;
+  }
+  const SequenceMetrics metrics = ComputeSequenceMetrics(run);
+  EXPECT_EQ(metrics.loops, 0);
+  EXPECT_EQ(metrics.wrong_loops, 0);
+  EXPECT_EQ(metrics.recall, 0);
 }
 
 TEST(SequenceMetricsTest, RevisitedStretches) {
@@ -96,9 +117,9 @@ TEST(SequenceMetricsTest, ListsOfDifferentLengthAreCut) {
 
 TEST(SequenceMetricsTest, OutOfRange) {
   SequenceRun run = OutAndBack();
-  run.loops = {{201, 0, Pose()}};
+  run.loops = {Accepted(201, 0, Pose())};
   EXPECT_THROW(ComputeSequenceMetrics(run), Error);
-  run.loops = {{5, -1, Pose()}};
+  run.loops = {Accepted(5, -1, Pose())};
   EXPECT_THROW(ComputeSequenceMetrics(run), Error);
   run.loops.clear();
   run.identities.pop_back();

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
-#include <unordered_set>
-#include <utility>
+#include <memory>
 #include <vector>
 
 #include "sslcd/core/layout.h"
 
 namespace sslcd {
+
+class TriangleIndex;
 
 /// Two objects of a layout, labels ascending.
 struct ObjectPair {
@@ -19,14 +21,23 @@ struct ObjectPair {
   float dz = 0;          ///< height of b over a [m]
 };
 
-/// The global map, made searchable: which objects lie near a point, and which pairs of objects have a given distance.
+/// What scoring a pose has to know about an object.
+struct LayoutPoint {
+  float x = 0, y = 0, z = 0;  ///< [m]
+  int label = 0;
+};
+
+/// The global map, made searchable: which objects lie near a point, and where a few objects of a given arrangement are.
+/// Small maps list all pairs of objects by distance; large ones, of more than some hundred thousand pairs, have
+/// triangles of neighbours in k-d trees instead.
 class LayoutIndex {
  public:
   /// Objects with a position that is not finite are left out. Pairs are kept up to `max_pair_m`; points find what is
-  /// within `reach_m`. O(objects + pairs).
-  LayoutIndex(const std::vector<LayoutObject>& objects, double max_pair_m, double reach_m);
+  /// within `reach_m`. O(objects + pairs) for small maps, O(n sqrt(n)) with a tiny factor for large ones.
+  LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
+  const std::vector<LayoutPoint>& points() const { return points_; }
   double max_pair() const { return max_pair_; }
   double reach() const { return reach_; }
 
@@ -39,37 +50,75 @@ class LayoutIndex {
   };
   Range Near(double x, double y) const;
 
+  /// Calls visit(index) for the objects in a box, and for a few more. O(columns of 10 m * log n + objects visited).
+  template <class Visitor>
+  void VisitBox(const Vec2& low, const Vec2& high, Visitor&& visit) const {
+    if (!low.allFinite() || !high.allFinite()) return;
+    const std::int64_t bottom = Block(low.y()), top = Block(high.y()), end = Key(Block(high.x()), top);
+    auto it = FirstBlock(Key(Block(low.x()), bottom));
+    while (it != blocks_.end() && it->key <= end) {
+      const std::int64_t column = it->key >> 32, row = it->key & 0xffffffff;
+      if (row >= bottom && row <= top)
+        visit((it++)->object);
+      else
+        it = FirstBlock(Key(row < bottom ? column : column + 1, bottom));
+    }
+  }
+
   /// Is the point among mapped objects, or does it lie beyond the map's rim (no object within 10 to 20 m)?
   bool Known(double x, double y) const;
 
-  /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset, by bins.
+  /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset, by bins; of more
+  /// than 256 labels, the rarer ones may share a list. None in large maps.
   std::vector<ObjectPair>::const_iterator PairsBegin(int label_a, int label_b, double from_m) const;
   std::vector<ObjectPair>::const_iterator PairsEnd(int label_a, int label_b, double to_m) const;
+
+  /// Triangles of neighbours; null in small maps, which have pairs.
+  const TriangleIndex* triangles() const { return triangles_.get(); }
 
   /// Objects per square metre, as seen from an object: the density of its surroundings.
   double density() const { return density_; }
   /// How much the heights of neighbours differ (standard deviation). [m]
   double height_spread() const { return height_spread_; }
 
+  /// How many objects have a label.
+  const std::map<int, int>& label_counts() const { return label_counts_; }
+
+  /// How many objects head into each direction, bins of one degree from 0 on; [0] of no symmetry, [1] of a half turn.
+  using Headings = std::array<std::array<int, 360>, 2>;
+  const Headings& headings() const { return headings_; }
+
  private:
-  struct PairTable {
-    std::vector<int> start;  // of each distance bin in pairs
-    std::vector<ObjectPair> pairs;
+  struct InBlock {
+    std::int64_t key;
+    int object;
   };
-  static std::int64_t BlockOf(double x, double y);
+  static std::int64_t Block(double coordinate);
+  static std::int64_t Key(std::int64_t column, std::int64_t row) { return column << 32 | row; }
+  std::vector<InBlock>::const_iterator FirstBlock(std::int64_t key) const;
+  void CountProperties();
+  void BuildBlocks();
   void BuildGrid();
   void BuildPairs();
-  int CellOf(double x, double y) const;
+  void SortPairs(const std::vector<ObjectPair>& found);
+  int LabelRank(int label) const;
+  int PairSlot(int label_a, int label_b, double distance_m) const;
 
   std::vector<LayoutObject> objects_;
+  std::vector<LayoutPoint> points_;
   double max_pair_, reach_;
+  std::vector<InBlock> blocks_;  // each object once, by column, then row of blocks
   double cell_ = 1, min_x_ = 0, min_y_ = 0;
   int columns_ = 0, rows_ = 0;
   std::vector<int> cell_start_, cell_objects_;
-  std::map<std::pair<int, int>, PairTable> tables_;
-  PairTable none_;
-  std::unordered_set<std::int64_t> known_;  // blocks with an object in them or next to them
+  std::vector<int> labels_;      // ascending
+  int bins_ = 0;                 // of distance
+  std::vector<int> pair_start_;  // of each slot (label, label, distance) in pairs_
+  std::vector<ObjectPair> pairs_;
+  std::shared_ptr<const TriangleIndex> triangles_;
   double density_ = 0, height_spread_ = 0;
+  std::map<int, int> label_counts_;
+  Headings headings_{};
 };
 
 }  // namespace sslcd

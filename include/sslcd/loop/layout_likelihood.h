@@ -58,13 +58,15 @@ class LayoutLikelihood {
     double d2, z2;         // squared distance, horizontal and vertical [m^2]
     double semantic_gain;  // label, heading, appearance [nats]
     double gain;
+    bool in_view;  // the map's object lies among the local ones
   };
   std::vector<Candidate> Candidates(const YawShift& pose) const;
   double HeadingGain(const LayoutObject& local, const LayoutObject& global, double yaw) const;
   double Appearance(int local, int global) const;
   int OnMap(const YawShift& pose) const;
-  std::vector<char> InView(const YawShift& pose) const;
-  LayoutFit Assign(std::vector<Candidate> candidates, const std::vector<char>& in_view, int on_map, double sigma) const;
+  int CountInView(const YawShift& pose) const;
+  bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
+  LayoutFit Assign(std::vector<Candidate> candidates, int in_view, int on_map, double sigma) const;
 
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;

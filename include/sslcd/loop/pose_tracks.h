@@ -11,12 +11,12 @@ namespace sslcd {
 
 /// How hypotheses are followed from one attempt to the next.
 struct PoseTrackOptions {
-  double local_m = 75.;    ///< path that one local map spans: attempts closer together than this share evidence
   double agree_m = 100.;   ///< what lies further back does not count any more
   double step_m = 3.;      ///< a hypothesis that jumps by more than this is another one
   double step_rad = 0.15;  ///< ... or turns by more
-  int max_tracks = 50;
+  int max_tracks = 50;     ///< the best ones are followed
 };
+void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options);
 
 /// A pose that has been a hypothesis for a while.
 struct PoseTrack {

@@ -4,13 +4,11 @@
 #include "sslcd/association/associate.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/loop/pose_tracks.h"
 #include "sslcd/map/object_map.h"
-#include "sslcd/optim/drift.h"
 #include "sslcd/optim/object_ba.h"
-#include "sslcd/optim/pose_graph_robust.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/perception/filter.h"
+#include "sslcd/pipeline/loop_options.h"
 
 namespace sslcd {
 
@@ -45,41 +43,6 @@ struct LevelOptions {
   double window_m = 200.;       ///< ... over so much path
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
-
-/// Loop closure (paper IV).
-struct LoopOptions {
-  static LayoutMatchOptions DefaultMatch() {
-    LayoutMatchOptions match;
-    match.likelihood.wrong_height = 0.1;  // slopes and drifting tilt
-    match.likelihood.leave_map = true;
-    return match;
-  }
-  bool enabled = true;
-  double every_m = 5.;                      ///< an attempt every so much path
-  double local_m = 75.;                     ///< the local map: objects seen on the last so much path
-  double gap_m = 10.;                       ///< the global map: objects on passes that ended so long ago
-  double split_m = 30.;                     ///< unseen for so much path: another pass
-  int min_sightings = 2;                    ///< objects seen less often on a pass take no part
-  double min_margin = 10.;                   ///< log odds from which a pose is believed [nats]
-  double drift_share = 0.02;                ///< how far odometry may be off: translation, share of the path ...
-  double drift_yaw = 0.02;                  ///< ... and yaw [rad per sqrt(m)]
-  double surprise = 0.05;                    ///< share of loops that these do not hold for
-  double sigma_m = 0.15, sigma_rad = 0.02;  ///< of every loop edge, added to what the matches say
-  double min_own_evidence = 2.;  ///< ... if its own objects, too, agree better than chance by this ...
-  double max_heading_sigma_rad = 0.042;
-  double max_apart_m = 20.;
-  double probation_m = 2., probation_rad = 0.06;
-  double place_m2_rad = 2.5;     ///< ... around the pose that its track predicts: about 2 m and 0.1 rad
-  double lag_m = 25.;  ///< the query camera of an attempt stood so far back, with matched objects before and behind it
-  double keyframe_m = 5.;
-  double fuse_m = 3.;
-  OdometryNoise odometry{0.02, 0.08, 2e-3, 5e-3, 0.05, 0.05};
-  LayoutMatchOptions match = DefaultMatch();
-  PoseTrackOptions tracks;
-  DriftOptions drift{true, 0.03};
-  RobustPoseGraphOptions graph;
-};
-void DescribeFields(FieldVisitor& visitor, LoopOptions& options);
 
 /// Everything that can be configured.
 struct Options {

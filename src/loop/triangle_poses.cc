@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop/triangle_poses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "loop/triangle_index.h"
+
+namespace sslcd {
+namespace {
+
+constexpr std::size_t kMaxTriangles = 400;  // of the local map that are looked up
+constexpr std::size_t kMaxFound = 2000;     // by one triangle
+constexpr std::size_t kMaxPoses = 3000;     // that are scored
+
+// Three points laid on three others; none if they do not fit to within `tolerance`.
+std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from, const std::array<LayoutPoint, 3>& to,
+                                float tolerance) {
+  LayoutPoint p, q;  // the centres
+  for (int i = 0; i < 3; ++i) {
+    p.x += from[i].x / 3, p.y += from[i].y / 3, p.z += from[i].z / 3;
+    q.x += to[i].x / 3, q.y += to[i].y / 3, q.z += to[i].z / 3;
+  }
+  float dot = 0, cross = 0;
+  for (int i = 0; i < 3; ++i) {
+    const float ax = from[i].x - p.x, ay = from[i].y - p.y, bx = to[i].x - q.x, by = to[i].y - q.y;
+    dot += ax * bx + ay * by;
+    cross += ax * by - ay * bx;
+  }
+  const float norm = std::sqrt(dot * dot + cross * cross);
+  if (!(norm > 0)) return std::nullopt;
+  const float c = dot / norm, s = cross / norm;
+  for (int i = 0; i < 3; ++i) {
+    const float ax = from[i].x - p.x, ay = from[i].y - p.y;
+    const float dx = c * ax - s * ay - (to[i].x - q.x), dy = s * ax + c * ay - (to[i].y - q.y);
+    const float dz = from[i].z - p.z - (to[i].z - q.z);
+    if (dx * dx + dy * dy > tolerance * tolerance || std::abs(dz) > tolerance) return std::nullopt;
+  }
+  CoarsePose pose;
+  pose.cosine = c;
+  pose.sine = s;
+  pose.x = q.x - (c * p.x - s * p.y);
+  pose.y = q.y - (s * p.x + c * p.y);
+  pose.z = q.z - p.z;
+  return pose;
+}
+
+// All ways to lay `local` on `global` that respect labels and lengths.
+void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points, const ObjectTriangle& global,
+         const std::vector<LayoutPoint>& map, float tolerance, std::vector<CoarsePose>& poses) {
+  constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (const auto& order : kOrders) {
+    bool fits = true;
+    for (int i = 0; i < 3; ++i)
+      fits &= local.label[i] == global.label[order[i]] && std::abs(local.side[i] - global.side[order[i]]) <= tolerance;
+    if (!fits) continue;
+    std::array<LayoutPoint, 3> from, to;
+    for (int i = 0; i < 3; ++i) from[i] = points[local.vertex[i]], to[i] = map[global.vertex[order[i]]];
+    if (const auto pose = Align(from, to, tolerance)) poses.push_back(*pose);
+  }
+}
+
+/// How many poses are near a pose: counters of cells hashed without regard to collisions, in two grids, so that
+/// neighbours on two sides of a cell's edge meet in one of them.
+class Votes {
+ public:
+  explicit Votes(std::size_t poses) {
+    while (mask_ < 4 * poses) mask_ = 2 * mask_ + 1;
+    for (auto& grid : counts_) grid.assign(mask_ + 1, 0);
+  }
+  void Add(const CoarsePose& pose) {
+    for (int grid = 0; grid < 2; ++grid) ++counts_[grid][Cell(pose, grid)];
+  }
+  int Near(const CoarsePose& pose) const {
+    return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]);
+  }
+
+ private:
+  std::size_t Cell(const CoarsePose& pose, int grid) const {
+    constexpr float kSize = 4.f, kTurn = 0.4f;  // the yaw as a point on the unit circle [m, 1]
+    const auto key = [&](float v, float size) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v / size + 0.5f * static_cast<float>(grid))));
+    };
+    std::uint64_t hash = key(pose.x, kSize) * 0x9E3779B97F4A7C15u;
+    hash = (hash ^ hash >> 29 ^ key(pose.y, kSize)) * 0xBF58476D1CE4E5B9u;
+    hash = (hash ^ hash >> 32 ^ key(pose.cosine, kTurn)) * 0x94D049BB133111EBu;
+    hash = (hash ^ hash >> 29 ^ key(pose.sine, kTurn)) * 0x9E3779B97F4A7C15u;
+    return (hash >> 32) & mask_;
+  }
+  std::size_t mask_ = 1023;
+  std::vector<int> counts_[2];
+};
+
+}  // namespace
+
+std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
+                                      const PoseSearchOptions& options) {
+  const float tolerance = static_cast<float>(options.pair_noise_m);
+  const std::vector<ObjectTriangle> triangles = NeighbourTriangles(points);
+  const std::size_t used = std::min(triangles.size(), kMaxTriangles);
+  std::vector<CoarsePose> poses;
+  std::vector<const ObjectTriangle*> found;
+  for (std::size_t k = 0; k < used; ++k) {
+    const ObjectTriangle& triangle = triangles[k * triangles.size() / used];
+    found.clear();
+    index.triangles()->Find(triangle, options.pair_noise_m, kMaxFound, found);
+    for (const ObjectTriangle* other : found) Lay(triangle, points, *other, index.points(), tolerance, poses);
+  }
+  if (poses.size() <= kMaxPoses) return poses;
+
+  Votes votes(poses.size());
+  for (const CoarsePose& pose : poses) votes.Add(pose);
+  std::vector<int> near;
+  for (const CoarsePose& pose : poses) near.push_back(votes.Near(pose));
+  std::vector<int> sorted = near;
+  std::nth_element(sorted.begin(), sorted.begin() + kMaxPoses, sorted.end(), std::greater<>());
+  const int enough = sorted[kMaxPoses];
+  std::vector<CoarsePose> kept;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (near[i] > enough) kept.push_back(poses[i]);
+  for (std::size_t i = 0; i < poses.size() && kept.size() < kMaxPoses; ++i)
+    if (near[i] == enough) kept.push_back(poses[i]);
+  return kept;
+}
+
+}  // namespace sslcd

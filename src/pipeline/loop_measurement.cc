@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/loop_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace sslcd {
+namespace {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's heading [rad]
+
+}  // namespace
+
+std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const PassLayout& global,
+                                                  const std::vector<std::pair<int, int>>& matches, double sigma_m,
+                                                  double lag_m, double old_until_m) const {
+  constexpr double kFurtherBack = 10.;  // [m]
+  std::optional<LoopMeasurement> best;
+  for (int i = 0; i < 3; ++i) {
+    auto now = MeasureAt(lag_m + kFurtherBack * i, local, global, matches, sigma_m, old_until_m);
+    if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
+    if (best && best->heading_sigma < options_.belief.max_heading_sigma_rad) break;
+  }
+  return best;
+}
+
+std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
+                                                    const std::vector<std::pair<int, int>>& matches, double sigma_m,
+                                                    double old_until_m) const {
+  if (matches.empty()) return std::nullopt;
+  LoopMeasurement loop;
+  LoopClosure& row = loop.row;
+  std::vector<DriftPair> pairs;
+  std::vector<double> seen;  // where on the path
+  for (const auto& [i, j] : matches) {
+    DriftPair pair;
+    pair.T_world_local = ToPose(local.places[i], gravity_);
+    pair.T_world_global = ToPose(global.places[j], gravity_);
+    pair.symmetry = local.objects[i].symmetry;
+    pair.sigma_horizontal_m = pair.sigma_vertical_m = sigma_m;
+    pair.sigma_yaw_rad = kYawSigma;
+    pairs.push_back(pair);
+    row.pairs.push_back({{local.objects[i].id}, {global.objects[j].id}});
+    seen.push_back(local.seen_m[i]);
+  }
+  DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+
+  std::sort(seen.begin(), seen.end());
+  const double query_m =
+      std::clamp(frames_.back().travelled - lag_m, seen[seen.size() / 5], seen[seen.size() * 4 / 5]);
+  loop.query = FrameAt(query_m);
+  loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
+  if (loop.match < 0) return std::nullopt;
+  const Pose &T_world_query = frames_[loop.query].T_world_cam, &T_world_match = frames_[loop.match].T_world_cam;
+
+  const Pose level_query = Levelling(loop.query), level_match = Levelling(loop.match);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double old_seen_m = passes_.NearestPass(row.pairs[k].second, frames_[loop.match].travelled);
+    const double bent = std::hypot(Bent(loop.query, local.seen_m[matches[k].first]), Bent(loop.match, old_seen_m));
+    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(sigma_m, bent);
+    pairs[k].T_world_local = level_query * pairs[k].T_world_local;
+    pairs[k].T_world_global = level_match * pairs[k].T_world_global;
+  }
+  drift = SolveDrift(pairs, gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+
+  const Pose corrected = level_match.inverse() * drift.T_global_local * level_query * T_world_query;
+  row.query_frame = frames_[loop.query].frame;
+  row.match_frame = frames_[loop.match].frame;
+  row.T_match_query = T_world_match.inverse() * corrected;
+  row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected) - Heading(T_world_match)));
+  const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
+  row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
+  row.covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
+  row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
+  const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
+  loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
+  return loop;
+}
+
+int LoopMeter::FrameAt(double path_m) const {
+  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
+}
+
+// Among the frames of the passes on which the matched old objects were seen; -1: none.
+int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const {
+  std::set<LandmarkId> ids;
+  for (const auto& pair : row.pairs) ids.insert(pair.second);
+  int best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PassObject& pass : passes_.passes()) {
+    if (ids.count(pass.id) == 0 || pass.last_m >= old_until_m) continue;
+    for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
+      const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
+      if (distance < nearest) nearest = distance, best = f;
+    }
+  }
+  return best;
+}
+
+// How far odometry may have moved what was seen at `seen_m` of the path, relative to a frame. [m]
+double LoopMeter::Bent(int frame, double seen_m) const {
+  constexpr double kRange = 10.;  // from which an object is seen [m]
+  const Pose step = frames_[frame].T_odom_cam.inverse() * frames_[FrameAt(seen_m)].T_odom_cam;
+  const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
+  return std::hypot(sigmas.translation, sigmas.rotation * (0.5 * step.translation().norm() + kRange));
+}
+
+// Turns the world about a camera so that the cameras around it stand upright on average.
+Pose LoopMeter::Levelling(int frame) const {
+  constexpr double kReach = 20.;  // of path [m]
+  const Vec3 up_in_cam = frames_.front().T_world_cam.so3().inverse() * gravity_.up;
+  Vec3 up = Vec3::Zero();
+  for (const int step : {-1, 1})
+    for (int f = frame; f >= 0 && f < static_cast<int>(frames_.size()); f += step) {
+      if (std::abs(frames_[f].travelled - frames_[frame].travelled) > kReach) break;
+      up += frames_[f].T_world_cam.so3() * up_in_cam;
+    }
+  const Vec3 axis = up.cross(gravity_.up);
+  if (axis.norm() < 1e-9) return {};
+  const auto turn = lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
+  const Vec3 pivot = frames_[frame].T_world_cam.translation();
+  return {turn, pivot - turn * pivot};
+}
+
+// Which way a camera looks, horizontally.
+double LoopMeter::Heading(const Pose& T_world_cam) const {
+  const Vec3 axis = T_world_cam.so3() * Vec3::UnitZ();
+  return std::atan2(axis.dot(gravity_.left), axis.dot(gravity_.forward));
+}
+
+}  // namespace sslcd

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipeline/pass_map.h"
+#include "sslcd/core/loop_closure.h"
+
+namespace sslcd {
+
+/// What a loop closure says, measured from matched objects.
+struct LoopMeasurement {
+  LoopClosure row;
+  int query = 0, match = 0;  ///< the two cameras: indices into the frames
+  double heading_sigma = 0;  ///< of T_match_query about the vertical [rad]
+};
+
+/// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
+///
+/// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps, though, so that
+/// drift holds in their midst and not at their ends: the query camera is the newest one that has matched objects
+/// before and behind it, the match camera the old one nearest to its corrected pose, and objects seen far from the two
+/// along the path count less. Both maps are levelled first: the ground at one place has one slope, whatever odometry
+/// says.
+class LoopMeter {
+ public:
+  LoopMeter(const GravityFrame& gravity, const std::vector<FrameRecord>& frames, const PassMap& passes,
+            const LoopOptions& options)
+      : gravity_(gravity), frames_(frames), passes_(passes), options_(options) {}
+
+  /// `matches`: index of local, of global; `sigma_m`: how well their positions agree; `old_until_m`: where the path of
+  /// the global map ends. Tries `lag_m` and, while the heading remains too uncertain, cameras further back. None where
+  /// the matches fix no pose.
+  std::optional<LoopMeasurement> Measure(const PassLayout& local, const PassLayout& global,
+                                         const std::vector<std::pair<int, int>>& matches, double sigma_m, double lag_m,
+                                         double old_until_m) const;
+
+ private:
+  std::optional<LoopMeasurement> MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
+                                           const std::vector<std::pair<int, int>>& matches, double sigma_m,
+                                           double old_until_m) const;
+  int FrameAt(double path_m) const;
+  int NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const;
+  double Bent(int frame, double seen_m) const;
+  Pose Levelling(int frame) const;
+  double Heading(const Pose& T_world_cam) const;
+
+  GravityFrame gravity_;
+  const std::vector<FrameRecord>& frames_;
+  const PassMap& passes_;
+  const LoopOptions& options_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/pipeline/loop_options.h"
+
+namespace sslcd {
+
+// What a moving camera needs otherwise than a pair of finished maps.
+LoopOptions::LoopOptions() {
+  match.likelihood.wrong_height = 0.1;  // slopes
+  match.likelihood.leave_map = true;    // a pass may cross an older one
+  drift.six_dof = true;                 // odometry's tilt drifts, too
+  drift.tilt_sigma_rad = 0.03;
+  odometry.translation_floor_m = 0.02;
+  odometry.translation_walk = 0.08;
+  odometry.rotation_floor_rad = 2e-3;
+  odometry.rotation_walk = 5e-3;
+  odometry.rotation_turn = 0.05;
+}
+
+void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
+  visitor.Real("every_m", options.every_m, 0, 1000, "an attempt every so many metres of path");
+  visitor.Real("local_m", options.local_m, 1, 10000, "the local map: objects seen on the last so many metres of path");
+  visitor.Real("gap_m", options.gap_m, 0, 10000,
+               "the global map: objects on passes that ended so many metres before the local map begins");
+  visitor.Real("split_m", options.split_m, 0, 10000, "an object unseen for so much path is on another pass");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000, "objects seen less often on a pass take no part");
+}
+
+void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options) {
+  visitor.Real("drift_share", options.drift_share, 0, 1, "how far odometry may be off: position, share of the path");
+  visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "how far odometry may be off: yaw, rad per sqrt(m)");
+  visitor.Real("surprise", options.surprise, 1e-9, 1, "share of loops for which these do not hold");
+}
+
+void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options) {
+  visitor.Real("min_margin", options.min_margin, -100, 1000,
+               "log odds of a pose against all others and against 'nowhere' from which it is believed [nats]");
+  visitor.Real("min_own_evidence", options.min_own_evidence, -100, 1000,
+               "how much better than chance an attempt's own objects agree [nats]");
+  visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3, "the heading is known this well");
+  visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "the two cameras stood this near to each other");
+  visitor.Real("probation_m", options.probation_m, 0, 1000,
+               "a loop is taken back where the refined trajectory differs by more than this ...");
+  visitor.Real("probation_rad", options.probation_rad, 0, 4, "... or this");
+}
+
+void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
+  visitor.Flag("enabled", options.enabled, "close loops");
+  visitor.Nested("layout", options.layout, "what is compared with what (paper IV-A)");
+  visitor.Nested("match", options.match, "layout matching (paper IV-B, IV-C)");
+  visitor.Nested("tracks", options.tracks, "agreement of consecutive attempts");
+  visitor.Nested("prior", options.prior, "what odometry says about a loop");
+  visitor.Nested("belief", options.belief, "when a loop is believed, and taken back");
+  visitor.Real("lag_m", options.lag_m, 0, 1000, "the query camera stood so far back, amidst the matched objects");
+  visitor.Real("sigma_m", options.sigma_m, 0, 100, "error of every loop on top of what its matches say");
+  visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "error of every loop on top of what its matches say");
+  visitor.Real("fuse_m", options.fuse_m, 0, 100, "matched landmarks further apart than this do not become one");
+  visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
+  visitor.Real("keyframe_m", options.keyframe_m, 0, 1000, "a vertex of the pose graph every so many metres of path");
+  visitor.Nested("odometry", options.odometry, "how far the odometry between these is off");
+  visitor.Nested("graph", options.graph, "pose graph (paper IV-D, Eqs. 20, 21)");
+  visitor.Nested("paper", options.paper, "mode: paper: the matching as printed");
+}
+
+}  // namespace sslcd

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pipeline/pass_map.h"
+#include "pipeline/path_graph.h"
+#include "sslcd/loop/pose_tracks.h"
+
+namespace sslcd {
+
+/// Log odds of a pose before any object is looked at: would odometry have to be off by more than the path, shortcuts
+/// taken, explains? Against poses strewn evenly over the searched map, as LayoutFit::evidence is.
+/// Refers to the layouts while it is used.
+PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances, const PassLayout& local,
+                                const PassLayout& global, const LayoutIndex& index, const LoopPriorOptions& options);
+
+}  // namespace sslcd

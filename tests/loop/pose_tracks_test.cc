@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/pose_tracks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "layout_cases.h"
+
+namespace sslcd {
+namespace {
+
+const YawShift kPose{2.5, {30, -20, 1.5}};
+
+double NoPrior(const YawShift&, const LayoutFit&) { return 0.; }
+
+// A map, and attempts to find parts of it.
+struct Attempts {
+  LayoutMatchOptions match;
+  std::vector<LayoutObject> map;
+  LayoutIndex index;
+  PoseTracks tracks;
+
+  explicit Attempts(std::vector<LayoutObject> objects, const PoseTrackOptions& options = {})
+      : map(std::move(objects)), index(Numbered(map), match.max_pair_m, match.reach_m), tracks(options) {}
+
+  static const std::vector<LayoutObject>& Numbered(std::vector<LayoutObject>& objects) {
+    for (std::size_t i = 0; i < objects.size(); ++i) objects[i].id = static_cast<int>(i);
+    return objects;
+  }
+  std::vector<LayoutObject> SeenAt(double x, double y, double radius_m = 18) const {
+    return SeenFrom(map, kPose, {x, y}, radius_m, 0.1, 2);
+  }
+  void Update(const std::vector<LayoutObject>& local, double path_m, const PoseTracks::Prior& prior = NoPrior) {
+    tracks.Update(local, index, MatchLayouts(local, index, match).hypotheses, match, path_m, prior);
+  }
+  void UpdateWithoutSearch(const std::vector<LayoutObject>& local, double path_m) {
+    tracks.Update(local, index, {}, match, path_m, NoPrior);
+  }
+};
+
+TEST(PoseTracks, OneAttemptSaysWhatItsFitSays) {
+  Attempts attempts(Strewn(60, 80, 1));
+  EXPECT_TRUE(attempts.tracks.tracks().empty());
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  ASSERT_FALSE(attempts.tracks.tracks().empty());
+  const PoseTrack& best = attempts.tracks.tracks()[0];
+  EXPECT_LT(ShiftBetween(best.pose, kPose, attempts.SeenAt(10, 5)[0].position), 0.5);
+  EXPECT_NEAR(best.evidence, best.fit.evidence, 1e-9);
+  EXPECT_GT(best.evidence, 0);
+  for (std::size_t i = 1; i < attempts.tracks.tracks().size(); ++i)
+    EXPECT_LE(attempts.tracks.tracks()[i].evidence, attempts.tracks.tracks()[i - 1].evidence);
+}
+
+TEST(PoseTracks, ThePriorCounts) {
+  Attempts without(Strewn(60, 80, 1)), with(Strewn(60, 80, 1));
+  const auto local = without.SeenAt(10, 5);
+  without.Update(local, 100);
+  with.Update(local, 100, [](const YawShift&, const LayoutFit&) { return -3.; });
+  EXPECT_NEAR(with.tracks.tracks()[0].evidence, without.tracks.tracks()[0].evidence - 3, 1e-9);
+  EXPECT_EQ(with.tracks.tracks()[0].prior, -3);
+}
+
+TEST(PoseTracks, TheSameObjectsAgainSayNothingNew) {
+  Attempts attempts(Strewn(60, 80, 1));
+  const auto local = attempts.SeenAt(10, 5);
+  attempts.Update(local, 100);
+  const PoseTrack first = attempts.tracks.tracks()[0];
+  for (int i = 1; i <= 5; ++i) attempts.Update(local, 100 + 5 * i);
+  const PoseTrack& last = attempts.tracks.tracks()[0];
+  EXPECT_EQ(last.id, first.id);
+  EXPECT_EQ(last.votes.size(), 6u);
+  EXPECT_NEAR(last.evidence, first.evidence, 1e-3);
+}
+
+TEST(PoseTracks, NewObjectsDo) {
+  Attempts attempts(Strewn(120, 120, 1));
+  attempts.Update(attempts.SeenAt(-20, 0), 100);
+  const PoseTrack first = attempts.tracks.tracks()[0];
+  for (int i = 1; i <= 8; ++i) attempts.UpdateWithoutSearch(attempts.SeenAt(-20 + 5 * i, 0), 100 + 5 * i);
+  ASSERT_FALSE(attempts.tracks.tracks().empty());
+  const PoseTrack& last = attempts.tracks.tracks()[0];
+  EXPECT_EQ(last.id, first.id) << "followed, not found again";
+  EXPECT_GT(last.evidence, 1.5 * first.evidence);
+}
+
+TEST(PoseTracks, WhatLiesFarBackIsForgotten) {
+  PoseTrackOptions options;
+  options.agree_m = 12;
+  Attempts attempts(Strewn(60, 80, 1), options);
+  for (const double path : {0., 5., 10., 15., 20.}) attempts.Update(attempts.SeenAt(10, 5), path);
+  const std::vector<PoseTrack::Vote>& votes = attempts.tracks.tracks()[0].votes;
+  ASSERT_EQ(votes.size(), 3u);
+  EXPECT_EQ(votes.front().path_m, 10);
+}
+
+TEST(PoseTracks, EndWhereTheLayoutsNoLongerAgree) {
+  Attempts attempts(Strewn(60, 80, 1));
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  attempts.UpdateWithoutSearch({}, 105);
+  EXPECT_FALSE(attempts.tracks.tracks().empty()) << "nothing seen says nothing";
+  attempts.UpdateWithoutSearch({ObjectAt({1000, 0, 0}), ObjectAt({1010, 0, 0})}, 110);
+  EXPECT_TRUE(attempts.tracks.tracks().empty());
+}
+
+TEST(PoseTracks, TwinsHaveNoMargin) {
+  std::vector<LayoutObject> map = Strewn(20, 40, 4);
+  for (int i = 0; i < 20; ++i) map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
+  Attempts attempts(map);
+  const auto local = attempts.SeenAt(0, 0, 25);
+  attempts.Update(local, 100);
+  ASSERT_GE(attempts.tracks.tracks().size(), 2u);
+  EXPECT_GT(attempts.tracks.tracks()[1].evidence, 5);
+  EXPECT_NEAR(attempts.tracks.Margin(0), 0, 0.1);
+  EXPECT_NEAR(attempts.tracks.Margin(1), 0, 0.1);
+  // A prior settles it: the margin is that of the two, as "nowhere" is far behind.
+  attempts.Update(local, 105, [](const YawShift& pose, const LayoutFit&) { return pose.t.x() > 150 ? -4. : 0.; });
+  EXPECT_NEAR(attempts.tracks.Margin(0), 4, 0.2);
+  EXPECT_NEAR(attempts.tracks.Margin(1), -4, 0.2);
+}
+
+TEST(PoseTracks, AloneTheyCompeteWithNowhere) {
+  PoseTrackOptions options;
+  options.max_tracks = 1;
+  Attempts attempts(Strewn(60, 80, 1), options);
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  ASSERT_EQ(attempts.tracks.tracks().size(), 1u);
+  EXPECT_NEAR(attempts.tracks.Margin(0), attempts.tracks.tracks()[0].evidence, 1e-9);
+}
+
+TEST(PoseTracks, FollowAChangeOfCoordinates) {
+  Attempts attempts(Strewn(60, 80, 1));
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  const YawShift before = attempts.tracks.tracks()[0].pose;
+  const YawShift change{-2.9, {12, 5, -3}};
+  attempts.tracks.Move(change);
+  const YawShift after = attempts.tracks.tracks()[0].pose;
+  for (const Vec3& point : {Vec3(0, 0, 0), Vec3(10, 0, 1), Vec3(-3, 7, 2)})
+    EXPECT_NEAR((Apply(after, Apply(change, point)) - Apply(before, point)).norm(), 0, 1e-9);
+  EXPECT_LE(std::abs(after.yaw), M_PI);
+}
+
+}  // namespace
+}  // namespace sslcd
