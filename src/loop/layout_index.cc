@@ -13,7 +13,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kBin = 0.25;              // of pair distances [m]
 constexpr double kSurroundings = 15.;      // radius in which density and heights are judged [m]
 constexpr double kBlock = 10.;             // [m]
-constexpr std::size_t kMaxPairs = 100000;  // with more, triangles are faster
+constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
 constexpr int kMaxLabels = 256;            // with lists of their own
 
 // Cells of the grid, at most: enough for those that have an object, and no memory for what lies between far ones.

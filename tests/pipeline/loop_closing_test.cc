@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <tuple>
 
 #include "sim/path.h"
 #include "sslcd/core/error.h"
@@ -99,26 +99,43 @@ struct Drives {
 
 enum class SecondLap { kSame, kOpposite };
 
+// Twice round the block; before it turns round the camera comes past where it began.
 Drives TwoLaps(SecondLap second, double share_of_trees, std::uint64_t seed) {
   const sim::Path path = Block();
   sim::World world = EmptyWorld();
   Plant(path, path.length(), share_of_trees, seed, world);
-  Drive(path, 0, path.length(), world);
   if (second == SecondLap::kSame) {
-    Drive(path, path.length(), 2 * path.length(), world);
+    Drive(path, 0, 2 * path.length(), world);
   } else {
+    constexpr double kMore = 60;
+    Drive(path, 0, path.length() + kMore, world);
     TurnRound(world);
-    Drive(path, path.length(), 0, world);
+    Drive(path, path.length() + kMore, 0, world);
   }
   return Drives(std::move(world), seed);
 }
 
 int Accepted(const RunResult& result) {
-  return static_cast<int>(std::count_if(result.loops.begin(), result.loops.end(), [](const LoopClosure& loop) {
-    return loop.decision == LoopDecision::kAccepted;
-  }));
+  return static_cast<int>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; }));
 }
 
+void ExpectGoodRows(const RunResult& result) {
+  for (const LoopClosure& loop : result.loops) {
+    EXPECT_FALSE(loop.reason.empty());
+    EXPECT_LT(loop.match_frame, loop.query_frame);
+    EXPECT_GE(loop.match_frame, 0);
+    EXPECT_TRUE(std::isfinite(loop.score));
+    EXPECT_TRUE(std::isfinite(loop.second_score));
+    EXPECT_TRUE(std::isfinite(loop.T_match_query.Log().sum()));
+    if (loop.decision != LoopDecision::kAccepted) continue;
+    EXPECT_GE(loop.pairs.size(), 4u);
+    EXPECT_GT(loop.covariance.diagonal().minCoeff(), 0);
+  }
+}
+
+// (second lap, share of trees, seed)
 class LoopClosing : public ::testing::TestWithParam<std::tuple<SecondLap, double, int>> {};
 
 TEST_P(LoopClosing, CorrectsTheDriftOfTwoLaps) {
@@ -126,14 +143,167 @@ TEST_P(LoopClosing, CorrectsTheDriftOfTwoLaps) {
   const Drives drives = TwoLaps(second, share_of_trees, seed);
   const RunResult result = drives.Run();
   const SequenceMetrics metrics = drives.Judge(result);
+  EXPECT_GT(metrics.loops, 10);
+  EXPECT_EQ(metrics.wrong_loops, 0);
+  EXPECT_GT(metrics.recall, 0.7);
+  EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
+  EXPECT_LE(metrics.landmarks_per_true, 1.08);
+  EXPECT_GE(metrics.landmarks, metrics.true_landmarks - 2);
+  EXPECT_GT(metrics.purity, 0.98);
+  if (second == SecondLap::kOpposite) {
+    EXPECT_GT(metrics.true_by_viewpoint.back(), 10);
+  }
+  EXPECT_EQ(Accepted(result), std::count_if(result.graph.edges.begin(), result.graph.edges.end(),
+                                            [](const PoseGraph::Edge& edge) { return edge.loop; }));
+  ExpectGoodRows(result);
   printf("ate %.2f of %.2f loops %d wrong %d recall %.2f bins %d %d %d %d lm/true %.3f purity %.3f attempts %zu true %d lm %d\n", metrics.ate, metrics.ate_odometry, metrics.loops, metrics.wrong_loops, metrics.recall,
   metrics.true_by_viewpoint[0],metrics.true_by_viewpoint[1],metrics.true_by_viewpoint[2],metrics.true_by_viewpoint[3], metrics.landmarks_per_true, metrics.purity, result.loops.size(), metrics.true_landmarks, metrics.landmarks);
-  for (auto& l : result.loops) if (getenv("V")) printf("%d %d %s %s %.2f\n", l.query_frame, l.match_frame, ToString(l.decision), l.reason.c_str(), l.score);
 }
 
 INSTANTIATE_TEST_SUITE_P(CarsAndTrees, LoopClosing,
                          ::testing::Combine(::testing::Values(SecondLap::kSame, SecondLap::kOpposite),
                                             ::testing::Values(0.5, 1.), ::testing::Values(1, 2, 3)));
+
+TEST(LoopClosingSwitch, OffMeansNone) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  Options options;
+  options.loop.enabled = false;
+  const RunResult result = drives.Run(options);
+  EXPECT_TRUE(result.loops.empty());
+  EXPECT_GT(drives.Judge(result).landmarks_per_true, 1.3) << "nothing has told that they are the same";
+}
+
+TEST(LoopClosingRepeats, ToTheByte) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 2);
+  const auto bytes = [&] {
+    const RunResult result = drives.Run();
+    return TumText(result.trajectory) + MapJson({drives.world.gravity.up, result.objects}) + G2oText(result.graph) +
+           LoopsCsv(result.loops);
+  };
+  EXPECT_EQ(bytes(), bytes());
+}
+
+TEST(LoopClosingRows, AreWrittenWithTheirReasons) {
+  const RunResult result = TwoLaps(SecondLap::kSame, 0.5, 3).Run();
+  const std::string csv = LoopsCsv(result.loops);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<long>(result.loops.size()) + 1);
+  ASSERT_FALSE(result.loops.empty());
+  for (const LoopClosure& loop : result.loops) EXPECT_NE(csv.find(loop.reason), std::string::npos) << loop.reason;
+}
+
+// The same with few objects: there is nothing to be sure of.
+class FewObjects : public ::testing::TestWithParam<int> {};
+
+TEST_P(FewObjects, CloseNothing) {
+  const sim::Path path = Block();
+  sim::World world = EmptyWorld();
+  for (int i = 0; i < GetParam(); ++i) Add("Tree", path.ObjectAt(15 + 9 * i, i % 2 == 0 ? 5 : -6, 0.1, 0), world);
+  Drive(path, 0, 2 * path.length(), world);
+  const Drives drives(std::move(world), 1);
+  const RunResult result = drives.Run();
+  EXPECT_EQ(Accepted(result), 0);
+  EXPECT_EQ(result.trajectory.size(), drives.frames.size());
+  EXPECT_LT(drives.Judge(result).ate, 1.2 * drives.Judge(result).ate_odometry);
+  ExpectGoodRows(result);
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, FewObjects, ::testing::Values(0, 1, 2, 3));
+
+TEST(OddLayouts, AllOnALine) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const sim::Path path({{200, 0}});
+    sim::World world = EmptyWorld();
+    sim::Random random(seed);
+    for (double s = 3; s < 230; s += random.Uniform(4, 14)) Add("Tree", path.ObjectAt(s, 5, 0.1, 0), world);
+    Drive(path, 0, 200, world);
+    TurnRound(world);
+    Drive(path, 200, 0, world);
+    const Drives drives(std::move(world), seed);
+    const RunResult result = drives.Run();
+    const SequenceMetrics metrics = drives.Judge(result);
+    EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed;
+    EXPECT_LT(metrics.ate, 1.2 * metrics.ate_odometry) << "seed " << seed;
+    ExpectGoodRows(result);
+    printf("line ate %.2f of %.2f loops %d/%zu\n", metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size());
+  }
+}
+
+TEST(OddLayouts, TheSameCarThirtyTimesInAPerfectGrid) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const sim::Path path = Block();
+    sim::World world = EmptyWorld();
+    const sim::Path::Point start = path.At(0), corner = path.At(0.5 * path.length());  // of the block: opposite corners
+    const Vec3 centre(0.5 * (start.x + corner.x), 0.9, 0.5 * (start.z + corner.z));
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 5; ++j)
+        Add("Car", Pose(world.gravity.Upright(0), centre + Vec3(12 * (i - 2.5), 0, 14 * (j - 2.))), world);
+    Drive(path, 0, 2 * path.length(), world);
+    const Drives drives(std::move(world), seed);
+    const RunResult result = drives.Run();
+    const SequenceMetrics metrics = drives.Judge(result);
+    EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed;
+    EXPECT_LT(metrics.ate, 1.2 * metrics.ate_odometry) << "seed " << seed;
+    ExpectGoodRows(result);
+    printf("grid ate %.2f of %.2f loops %d/%zu landm %d\n", metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size(), metrics.landmarks);
+  }
+}
+
+TEST(OddLayouts, NewGroundClosesNothing) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const sim::Path path({{150, 0}, {60, 0.02}, {150, 0}, {60, -0.02}, {200, 0}});
+    sim::World world = EmptyWorld();
+    Plant(path, 620, 0.5, seed, world);
+    Drive(path, 0, 600, world);
+    const Drives drives(std::move(world), seed);
+    const RunResult result = drives.Run();
+    EXPECT_EQ(Accepted(result), 0) << "seed " << seed;
+    ExpectGoodRows(result);
+    printf("new: rows %zu\n", result.loops.size());
+  }
+}
+
+TEST(OddLayouts, ALoopToTheFirstKeyframe) {
+  const sim::Path path = Block();
+  sim::World world = EmptyWorld();
+  Plant(path, path.length(), 0.5, 4, world);
+  Drive(path, 0, path.length() + 40, world);
+  const Drives drives(std::move(world), 4);
+  const RunResult result = drives.Run();
+  int earliest = 1000;
+  for (const LoopClosure& loop : result.loops)
+    if (loop.decision == LoopDecision::kAccepted) earliest = std::min(earliest, loop.match_frame);
+  const SequenceMetrics metrics = drives.Judge(result);
+  EXPECT_EQ(earliest, 0);
+  EXPECT_EQ(metrics.wrong_loops, 0);
+  EXPECT_LT(metrics.ate, 0.5 * metrics.ate_odometry);
+  EXPECT_NEAR((result.trajectory.poses[0].inverse() * result.odometry.poses[0]).Log().norm(), 0, 1e-9)
+      << "the first camera stays where the odometry has it";
+  printf("first: earliest %d ate %.2f of %.2f loops %d/%zu\n", earliest, metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size());
+}
+
+TEST(LoopClosingMapper, RefusesBadPosesMidRunAndGoesOn) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  Mapper disturbed({}, drives.Context()), mapper({}, drives.Context());
+  for (std::size_t i = 0; i < drives.frames.size(); ++i) {
+    if (i % 100 == 50) {
+      for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+        Frame frame = drives.frames[i];
+        frame.T_odom_cam.translation().z() = bad;
+        EXPECT_THROW(disturbed.AddFrame(frame), Error);
+        frame = drives.frames[i];
+        frame.T_odom_cam.data()[0] = bad;  // of the quaternion
+        EXPECT_THROW(disturbed.AddFrame(frame), Error);
+      }
+    }
+    disturbed.AddFrame(drives.frames[i]);
+    mapper.AddFrame(drives.frames[i]);
+  }
+  disturbed.Refine();
+  mapper.Refine();
+  EXPECT_EQ(TumText(disturbed.CameraTrajectory()), TumText(mapper.CameraTrajectory()));
+  EXPECT_EQ(LoopsCsv(disturbed.LoopClosures()), LoopsCsv(mapper.LoopClosures()));
+  EXPECT_GT(mapper.LoopClosures().size(), 10u);
+}
 
 }  // namespace
 }  // namespace sslcd
