@@ -59,7 +59,8 @@ Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
 
 Answer TimedMatch(const LayoutPair& pair, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  Answer answer = options.mode == Options::Mode::kPaper ? MatchPaper(pair, options.loop.paper) : MatchRobust(pair, options.loop.match);
+  Answer answer = options.mode == Options::Mode::kPaper ? MatchPaper(pair, options.loop.paper)
+                                                        : MatchRobust(pair, options.loop.match);
   answer.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return answer;
 }

@@ -63,8 +63,8 @@ std::vector<LayoutObject> LocalMap(const std::vector<LayoutObject>& map, const Y
     local.erase(local.begin() + static_cast<std::ptrdiff_t>(random.Uniform(0, static_cast<double>(local.size()))));
   const double radius = near[kSeen + kMissed - 1].first;
   for (int i = 0; i < kClutter; ++i)
-    local.push_back(ObjectAt(centre.x() + random.Uniform(-radius, radius),
-                             centre.y() + random.Uniform(-radius, radius), random));
+    local.push_back(
+        ObjectAt(centre.x() + random.Uniform(-radius, radius), centre.y() + random.Uniform(-radius, radius), random));
   const YawShift turn{-pose.yaw, Vec3::Zero()};
   for (LayoutObject& object : local)
     object.position = Apply(turn, object.position - pose.t) +
@@ -96,16 +96,17 @@ void Measure(int count, bool streets) {
     const LayoutAnswer answer = MatchLayouts(local, index, options);
     match_ms.push_back(MsSince(start));
     const Vec3 middle = local[0].position;
-    const bool good = !answer.hypotheses.empty() &&
-                      (Apply(answer.hypotheses[0].pose, middle) - Apply(pose, middle)).norm() < 2;
+    const bool good =
+        !answer.hypotheses.empty() && (Apply(answer.hypotheses[0].pose, middle) - Apply(pose, middle)).norm() < 2;
     right += good;
     if (answer.decision != LoopDecision::kAccepted) continue;
     accepted += good;
     wrong += !good;
   }
-  std::printf("%-7s %7d  build %8.2f ms  match p50 %6.2f  p95 %6.2f ms  of %d: best right %d  accepted right %d  wrong %d\n",
-              streets ? "streets" : "strewn", count, Quantile(build_ms, 0.5), Quantile(match_ms, 0.5),
-              Quantile(match_ms, 0.95), kQueries, right, accepted, wrong);
+  std::printf(
+      "%-7s %7d  build %8.2f ms  match p50 %6.2f  p95 %6.2f ms  of %d: best right %d  accepted right %d  wrong %d\n",
+      streets ? "streets" : "strewn", count, Quantile(build_ms, 0.5), Quantile(match_ms, 0.5), Quantile(match_ms, 0.95),
+      kQueries, right, accepted, wrong);
   std::fflush(stdout);
 }
 

@@ -88,7 +88,7 @@ class Contest {
  private:
   float Score(const CoarsePose& pose) const {
     const std::vector<LayoutPoint>& map = index_.points();
-    float score = 0;
+    float score = 0, open = static_cast<float>(points_.size());  // what the other points may add
     for (const LayoutPoint& p : points_) {
       const float x = pose.cosine * p.x - pose.sine * p.y + pose.x, y = pose.sine * p.x + pose.cosine * p.y + pose.y;
       float gain = 0;
@@ -99,6 +99,8 @@ class Contest {
         gain = std::max(gain, (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : .3f));
       }
       score += gain;
+      open -= 1;
+      if (score + open < 0.4f * best_) break;
     }
     return score;
   }

@@ -10,11 +10,11 @@ namespace sslcd {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kBin = 0.25;              // of pair distances [m]
-constexpr double kSurroundings = 15.;      // radius in which density and heights are judged [m]
-constexpr double kBlock = 10.;             // [m]
+constexpr double kBin = 0.25;             // of pair distances [m]
+constexpr double kSurroundings = 15.;     // radius in which density and heights are judged [m]
+constexpr double kBlock = 10.;            // [m]
 constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
-constexpr int kMaxLabels = 256;            // with lists of their own
+constexpr int kMaxLabels = 256;           // with lists of their own
 
 // Cells of the grid, at most: enough for those that have an object, and no memory for what lies between far ones.
 double MaxCells(std::size_t objects) { return 4096. + 32. * static_cast<double>(objects); }
@@ -61,9 +61,8 @@ void LayoutIndex::BuildBlocks() {
     const Vec3& p = objects_[i].position;
     blocks_.push_back({Key(Block(p.x()), Block(p.y())), static_cast<int>(i)});
   }
-  std::sort(blocks_.begin(), blocks_.end(), [](const InBlock& a, const InBlock& b) {
-    return a.key != b.key ? a.key < b.key : a.object < b.object;
-  });
+  std::sort(blocks_.begin(), blocks_.end(),
+            [](const InBlock& a, const InBlock& b) { return a.key != b.key ? a.key < b.key : a.object < b.object; });
 }
 
 bool LayoutIndex::Known(double x, double y) const {
@@ -85,18 +84,17 @@ void LayoutIndex::BuildGrid() {
   }
   const double max_cells = MaxCells(objects_.size());
   const Vec2 size = high - low + Vec2(2 * reach_, 2 * reach_);
-  cell_ = std::max(reach_, std::sqrt(size.x() * size.y() / max_cells));
-  cell_ = std::max(cell_, size.maxCoeff() / max_cells);
+  per_cell_ = 1 / std::max({reach_, std::sqrt(size.x() * size.y() / max_cells), size.maxCoeff() / max_cells});
   min_x_ = low.x() - reach_;
   min_y_ = low.y() - reach_;
-  columns_ = static_cast<int>(size.x() / cell_) + 1;
-  rows_ = static_cast<int>(size.y() / cell_) + 1;
+  columns_ = static_cast<int>(size.x() * per_cell_) + 1;
+  rows_ = static_cast<int>(size.y() * per_cell_) + 1;
 
   const auto for_cells = [&](const LayoutObject& object, auto&& visit) {
-    const int x0 = static_cast<int>((object.position.x() - reach_ - min_x_) / cell_);
-    const int x1 = static_cast<int>((object.position.x() + reach_ - min_x_) / cell_);
-    const int y0 = static_cast<int>((object.position.y() - reach_ - min_y_) / cell_);
-    const int y1 = static_cast<int>((object.position.y() + reach_ - min_y_) / cell_);
+    const int x0 = static_cast<int>((object.position.x() - reach_ - min_x_) * per_cell_);
+    const int x1 = static_cast<int>((object.position.x() + reach_ - min_x_) * per_cell_);
+    const int y0 = static_cast<int>((object.position.y() - reach_ - min_y_) * per_cell_);
+    const int y1 = static_cast<int>((object.position.y() + reach_ - min_y_) * per_cell_);
     for (int y = std::max(0, y0); y <= std::min(rows_ - 1, y1); ++y)
       for (int x = std::max(0, x0); x <= std::min(columns_ - 1, x1); ++x) visit(y * columns_ + x);
   };
@@ -107,13 +105,6 @@ void LayoutIndex::BuildGrid() {
   std::vector<int> fill(cell_start_.begin(), cell_start_.end() - 1);
   for (std::size_t i = 0; i < objects_.size(); ++i)
     for_cells(objects_[i], [&](int cell) { cell_objects_[fill[cell]++] = static_cast<int>(i); });
-}
-
-LayoutIndex::Range LayoutIndex::Near(double x, double y) const {
-  const double column = (x - min_x_) / cell_, row = (y - min_y_) / cell_;
-  if (!(column >= 0 && column < columns_ && row >= 0 && row < rows_)) return {};
-  const int cell = static_cast<int>(row) * columns_ + static_cast<int>(column);
-  return {cell_objects_.data() + cell_start_[cell], cell_objects_.data() + cell_start_[cell + 1]};
 }
 
 // Neighbours by a sweep along the longer side of the map.

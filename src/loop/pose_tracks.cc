@@ -53,8 +53,7 @@ void PoseTracks::Update(const std::vector<LayoutObject>& local, const LayoutInde
       different.insert(vote.objects.begin(), vote.objects.end());
     }
     track.prior = prior(pose, fit);
-    track.evidence =
-        track.prior + fit.evidence - fit.score + scores * static_cast<double>(different.size()) / objects;
+    track.evidence = track.prior + fit.evidence - fit.score + scores * static_cast<double>(different.size()) / objects;
     now.push_back(std::move(track));
   };
   for (const PoseTrack& track : tracks_) {

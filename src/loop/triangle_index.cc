@@ -16,7 +16,7 @@ namespace sslcd {
 namespace {
 
 using Tree = flann::KDTreeSingleIndex<flann::L2_3D<float>>;
-constexpr int kNeighbours = 6;  // enough for triangles that are left when one neighbour of five is missed
+constexpr int kNeighbours = 6;    // enough for triangles that are left when one neighbour of five is missed
 constexpr float kShortest = 4.f;  // the longest side at least, for the sake of the yaw [m]
 
 using Neighbours = std::array<int, kNeighbours>;  // -1: none
@@ -49,7 +49,9 @@ ObjectTriangle MakeTriangle(const std::vector<LayoutPoint>& points, int a, int b
     int label;
     float side;
     int vertex;
-    bool operator<(const Corner& o) const { return std::tie(label, side, vertex) < std::tie(o.label, o.side, o.vertex); }
+    bool operator<(const Corner& o) const {
+      return std::tie(label, side, vertex) < std::tie(o.label, o.side, o.vertex);
+    }
   };
   const auto side = [&](int i, int j) { return std::sqrt(SquaredDistance(points[i], points[j])); };
   std::array<Corner, 3> corners{

@@ -15,9 +15,9 @@ struct LayoutPoint;
 /// Three objects. Its signature is known again wherever it stands: vertices by ascending label, those of one label by
 /// ascending length of the side opposite.
 struct ObjectTriangle {
-  std::array<int, 3> vertex{};   ///< indices
-  std::array<float, 3> side{};   ///< horizontal, side[i] opposite of vertex[i] [m]
-  std::array<int, 3> label{};    ///< ascending
+  std::array<int, 3> vertex{};  ///< indices
+  std::array<float, 3> side{};  ///< horizontal, side[i] opposite of vertex[i] [m]
+  std::array<int, 3> label{};   ///< ascending
 };
 
 /// The triangles of every object with two of its nearest neighbours, each once. O(n) for few objects per square metre.

@@ -73,15 +73,14 @@ class Votes {
   void Add(const CoarsePose& pose) {
     for (int grid = 0; grid < 2; ++grid) ++counts_[grid][Cell(pose, grid)];
   }
-  int Near(const CoarsePose& pose) const {
-    return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]);
-  }
+  int Near(const CoarsePose& pose) const { return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]); }
 
  private:
   std::size_t Cell(const CoarsePose& pose, int grid) const {
     constexpr float kSize = 4.f, kTurn = 0.4f;  // the yaw as a point on the unit circle [m, 1]
     const auto key = [&](float v, float size) {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v / size + 0.5f * static_cast<float>(grid))));
+      return static_cast<std::uint64_t>(
+          static_cast<std::int64_t>(std::floor(v / size + 0.5f * static_cast<float>(grid))));
     };
     std::uint64_t hash = key(pose.x, kSize) * 0x9E3779B97F4A7C15u;
     hash = (hash ^ hash >> 29 ^ key(pose.y, kSize)) * 0xBF58476D1CE4E5B9u;

@@ -31,7 +31,8 @@ std::vector<LoopClosure> LoopCloser::closures() const {
 }
 
 bool LoopCloser::Closed() const {
-  return std::any_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) { return attempt.believed; });
+  return std::any_of(attempts_.begin(), attempts_.end(),
+                     [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
 }
 
 double LoopCloser::OldUntil() const {
@@ -165,7 +166,7 @@ bool LoopCloser::DetectAsPrinted() {
   row.query_frame = query.frame;
   row.match_frame = match.frame;
   row.T_match_query = match.T_world_cam.inverse() * T_drift->inverse() * query.T_world_cam;  // Eq. 19
-  row.covariance = Mat6::Identity() * 0.01;  // none is printed: tight
+  row.covariance = Mat6::Identity() * 0.01;                                                  // none is printed: tight
   attempt.pairs = row.pairs;
   attempts_.push_back(std::move(attempt));
   Believe(attempts_.back(), "as printed: " + std::to_string(pairs.size()) + " objects match");

@@ -16,7 +16,8 @@
 namespace sslcd {
 
 /// Paper IV, as it runs with the keyframes: the objects seen lately are matched with those of older passes; loops that
-/// are believed become edges of the pose graph, and trajectory and map follow. Works on the mapper's own map and frames.
+/// are believed become edges of the pose graph, and trajectory and map follow. Works on the mapper's own map and
+/// frames.
 class LoopCloser {
  public:
   LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames);
@@ -30,7 +31,7 @@ class LoopCloser {
   /// Takes back loops that the trajectory, once everything has been weighed, does not go through.
   void Review();
 
-  /// Is any loop believed?
+  /// Has any loop been accepted?
   bool Closed() const;
 
   /// All attempts that had something to compare, in order.
@@ -40,7 +41,7 @@ class LoopCloser {
   struct Attempt {
     LoopMeasurement loop;
     std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  // the row's, by the names they have now
-    int track = -1;          // whose pose this is
+    int track = -1;                                        // whose pose this is
     bool confirmed = false;  // its own objects say enough; believed as soon as its track is
     bool believed = false;   // an edge of the pose graph, which may refuse it
     bool in_graph = false;   // ... since the last time that was solved

@@ -25,7 +25,7 @@ class Leveller {
   std::optional<Pose> raw_;  // the last one as it came in
   Pose level_;               // ... and as it went out
   Vec3 up_in_cam_{0, 0, 0};
-  Vec3 mean_up_{0, 0, 0};    // of the camera, in the world, over the last stretch
+  Vec3 mean_up_{0, 0, 0};  // of the camera, in the world, over the last stretch
 };
 
 }  // namespace sslcd

@@ -47,8 +47,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     const FrameRecord& before = frames_.back();
     travelled = before.travelled + (T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
   }
-  FrameRecord record{frame.index,      frame.stamp, travelled, T_odom_cam, Predict(T_odom_cam),
-                     frame.detections, {}};
+  FrameRecord record{frame.index, frame.stamp, travelled, T_odom_cam, Predict(T_odom_cam), frame.detections, {}};
   {
     const ScopedTimer timer(timing_, "data association");
     report.filter = FilterDetections(record.detections, options_.filter);

@@ -46,7 +46,8 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
   for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
   const Vec3 position = information.ldlt().solve(weighted);
   return Place{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},
-               (T_cam_world * position).dot(up_in_cam), path / static_cast<double>(yaws.size())};
+               (T_cam_world * position).dot(up_in_cam),
+               path / static_cast<double>(yaws.size())};
 }
 
 bool Usable(const ObjectMap& map, LandmarkId id) {
@@ -64,6 +65,7 @@ void PassMap::Update() {
       if (id.value < 0) continue;
       const auto known = open_.find(id.value);
       if (known == open_.end() || frame.travelled - passes_[known->second].last_m > split_m_) {
+        if (known != open_.end()) Finish(passes_[known->second]);
         open_[id.value] = static_cast<int>(passes_.size());
         passes_.push_back({id, frame.travelled, frame.travelled, {}, -1, {}});
       }

@@ -57,8 +57,7 @@ class PassMap {
 
  private:
   void Finish(PassObject& pass) const;
-  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
-              PassLayout& layout) const;
+  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, PassLayout& layout) const;
 
   const ObjectMap& map_;
   const std::vector<FrameRecord>& frames_;

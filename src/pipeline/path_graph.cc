@@ -30,6 +30,7 @@ PathGraph::Distances PathGraph::From(double from_m) const {
     const auto here = shortcuts_.lower_bound(at);
     if (here != shortcuts_.begin()) visit(std::prev(here)->first, distance + at - std::prev(here)->first);
   };
+  if (shortcuts_.count(from_m) > 0) visit(from_m, 0);
   visit_neighbours(from_m, 0);
   while (!open.empty()) {
     const auto [distance, end] = open.top();

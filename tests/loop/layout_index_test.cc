@@ -52,6 +52,57 @@ TEST(LayoutIndex, FindsAllPairsOfADistance) {
   EXPECT_GE(index.PairsBegin(7, 8, 1), index.PairsEnd(7, 8, 9));
 }
 
+TEST(LayoutIndex, VisitsABoxOnce) {
+  std::vector<LayoutObject> map = Strewn(200, 90, 3);
+  map.push_back(ObjectAt({1e12, -1e12, 0}));
+  const LayoutIndex index(map, 50, 2);
+  for (const double half : {0., 3., 25., 1e300}) {
+    const Vec2 low(-12 - half, 4 - half), high(-12 + half, 4 + half);
+    std::set<int> visited;
+    index.VisitBox(low, high, [&](int j) { EXPECT_TRUE(visited.insert(j).second) << "visited twice"; });
+    for (int j = 0; j < static_cast<int>(map.size()); ++j) {
+      const Vec2 p = map[j].position.head<2>();
+      const bool inside = (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+      EXPECT_TRUE(visited.count(j) == 1 || !inside) << half;
+    }
+    EXPECT_LT(visited.size(), half < 1 ? 20u : 202u);
+  }
+  index.VisitBox(Vec2(NAN, 0), Vec2(1, 1), [](int) { ADD_FAILURE(); });
+  index.VisitBox(Vec2(1, 1), Vec2(-30, -30), [](int) { ADD_FAILURE(); });
+}
+
+TEST(LayoutIndex, KnowsItsRim) {
+  const LayoutIndex index({ObjectAt({5, 5, 0}), ObjectAt({-205, 5, 0})}, 50, 2);
+  EXPECT_TRUE(index.Known(5, 5));
+  EXPECT_TRUE(index.Known(-4, 14));
+  EXPECT_TRUE(index.Known(-210, 12));
+  EXPECT_FALSE(index.Known(26, 5));
+  EXPECT_FALSE(index.Known(-100, 5));
+  EXPECT_FALSE(index.Known(NAN, 5));
+}
+
+TEST(LayoutIndex, ManyLabelsCostNoPair) {
+  std::vector<LayoutObject> map;
+  for (int i = 0; i < 400; ++i) map.push_back(ObjectAt({3. * i, 0, 0}, 7 * i));
+  const LayoutIndex index(map, 50, 2);
+  for (const int i : {0, 200, 390}) {
+    bool found = false;
+    const auto end = index.PairsEnd(7 * i, 7 * (i + 2), 6.1);
+    for (auto pair = index.PairsBegin(7 * i, 7 * (i + 2), 5.9); pair < end; ++pair)
+      found |= pair->a == i && pair->b == i + 2;
+    EXPECT_TRUE(found) << i;
+  }
+}
+
+TEST(LayoutIndex, LargeMapsHaveTrianglesInsteadOfPairs) {
+  const LayoutIndex small(Strewn(300, 200, 6), 50, 2), large(Strewn(3000, 632, 6), 50, 2);
+  EXPECT_EQ(small.triangles(), nullptr);
+  EXPECT_LT(small.PairsBegin(0, 0, 10), small.PairsEnd(0, 0, 20));
+  EXPECT_NE(large.triangles(), nullptr);
+  EXPECT_GE(large.PairsBegin(0, 0, 10), large.PairsEnd(0, 0, 20));
+  EXPECT_NEAR(small.density(), large.density(), 0.15 * large.density());
+}
+
 TEST(LayoutIndex, TakesOddMaps) {
   EXPECT_TRUE(LayoutIndex({}, 50, 2).Near(0, 0).empty());
   const std::vector<LayoutObject> odd = {ObjectAt({NAN, 0, 0}), ObjectAt({0, INFINITY, 0}), ObjectAt({1, 1, 1})};

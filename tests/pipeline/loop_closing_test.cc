@@ -79,12 +79,13 @@ struct Drives {
   std::vector<Frame> frames;
   std::vector<int> identities;
 
-  Drives(sim::World w, std::uint64_t seed) : world(std::move(w)) {
+  Drives(sim::World w, std::uint64_t seed, double range_m = 30, double heading_rad_per_sqrt_m = 4e-3)
+      : world(std::move(w)) {
     sim::OdometryNoise drift;
-    drift.heading_rad_per_sqrt_m = 4e-3;
+    drift.heading_rad_per_sqrt_m = heading_rad_per_sqrt_m;
     drift.scale_error = 0.01;
     sim::DetectorNoise detector;
-    detector.max_range_m = 30;
+    detector.max_range_m = range_m;
     const sim::SimulatedDetections detections = sim::SimulateDetections(world, detector, seed);
     frames = sim::MakeFrames(sim::SimulateOdometry(world.truth, drift, seed), detections);
     identities = detections.identity;
@@ -115,11 +116,12 @@ Drives TwoLaps(SecondLap second, double share_of_trees, std::uint64_t seed) {
   return Drives(std::move(world), seed);
 }
 
-int Accepted(const RunResult& result) {
-  return static_cast<int>(
-      std::count_if(result.loops.begin(), result.loops.end(),
-                    [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; }));
+int Count(const RunResult& result, LoopDecision decision) {
+  return static_cast<int>(std::count_if(result.loops.begin(), result.loops.end(),
+                                        [decision](const LoopClosure& loop) { return loop.decision == decision; }));
 }
+
+int Accepted(const RunResult& result) { return Count(result, LoopDecision::kAccepted); }
 
 void ExpectGoodRows(const RunResult& result) {
   for (const LoopClosure& loop : result.loops) {
@@ -156,8 +158,6 @@ TEST_P(LoopClosing, CorrectsTheDriftOfTwoLaps) {
   EXPECT_EQ(Accepted(result), std::count_if(result.graph.edges.begin(), result.graph.edges.end(),
                                             [](const PoseGraph::Edge& edge) { return edge.loop; }));
   ExpectGoodRows(result);
-  printf("ate %.2f of %.2f loops %d wrong %d recall %.2f bins %d %d %d %d lm/true %.3f purity %.3f attempts %zu true %d lm %d\n", metrics.ate, metrics.ate_odometry, metrics.loops, metrics.wrong_loops, metrics.recall,
-  metrics.true_by_viewpoint[0],metrics.true_by_viewpoint[1],metrics.true_by_viewpoint[2],metrics.true_by_viewpoint[3], metrics.landmarks_per_true, metrics.purity, result.loops.size(), metrics.true_landmarks, metrics.landmarks);
 }
 
 INSTANTIATE_TEST_SUITE_P(CarsAndTrees, LoopClosing,
@@ -224,28 +224,44 @@ TEST(OddLayouts, AllOnALine) {
     EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed;
     EXPECT_LT(metrics.ate, 1.2 * metrics.ate_odometry) << "seed " << seed;
     ExpectGoodRows(result);
-    printf("line ate %.2f of %.2f loops %d/%zu\n", metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size());
   }
 }
 
+// The camera drives round it. Where odometry tells which car is which, loops may be closed, else not.
 TEST(OddLayouts, TheSameCarThirtyTimesInAPerfectGrid) {
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    const sim::Path path = Block();
-    sim::World world = EmptyWorld();
-    const sim::Path::Point start = path.At(0), corner = path.At(0.5 * path.length());  // of the block: opposite corners
-    const Vec3 centre(0.5 * (start.x + corner.x), 0.9, 0.5 * (start.z + corner.z));
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 5; ++j)
-        Add("Car", Pose(world.gravity.Upright(0), centre + Vec3(12 * (i - 2.5), 0, 14 * (j - 2.))), world);
-    Drive(path, 0, 2 * path.length(), world);
-    const Drives drives(std::move(world), seed);
-    const RunResult result = drives.Run();
-    const SequenceMetrics metrics = drives.Judge(result);
-    EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed;
-    EXPECT_LT(metrics.ate, 1.2 * metrics.ate_odometry) << "seed " << seed;
-    ExpectGoodRows(result);
-    printf("grid ate %.2f of %.2f loops %d/%zu landm %d\n", metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size(), metrics.landmarks);
+  const sim::Path path = Block();
+  sim::World world = EmptyWorld();
+  const sim::Path::Point start = path.At(0), opposite = path.At(0.5 * path.length());
+  const Vec3 centre(0.5 * (start.x + opposite.x), 0.9, 0.5 * (start.z + opposite.z));
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 5; ++j)
+      Add("Car", Pose(world.gravity.Upright(0), centre + Vec3(12 * (i - 2.5), 0, 14 * (j - 2.))), world);
+  Drive(path, 0, 2 * path.length(), world);
+  int ambiguous = 0;
+  for (const double drift : {4e-3, 2e-2}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const Drives drives(world, seed, 60, drift);
+      const RunResult result = drives.Run();
+      const SequenceMetrics metrics = drives.Judge(result);
+      EXPECT_EQ(metrics.wrong_loops, 0) << "drift " << drift << ", seed " << seed;
+      EXPECT_LT(metrics.ate, 1.1 * metrics.ate_odometry) << "drift " << drift << ", seed " << seed;
+      ambiguous += Count(result, LoopDecision::kAmbiguous);
+      ExpectGoodRows(result);
+    }
   }
+  EXPECT_GT(ambiguous, 0);
+}
+
+TEST(OddLayouts, ARowThatLooksTheSameEverywhere) {
+  const sim::Path path({{400, 0}});
+  sim::World world = EmptyWorld();
+  for (int i = 0; i < 70; ++i)
+    for (const double right : {4., -6.}) Add("Car", path.ObjectAt(3 + 6 * i, right, 0.9, 0), world);
+  Drive(path, 0, 400, world);
+  const Drives drives(std::move(world), 1);
+  const RunResult result = drives.Run();
+  EXPECT_EQ(Accepted(result), 0);
+  ExpectGoodRows(result);
 }
 
 TEST(OddLayouts, NewGroundClosesNothing) {
@@ -258,27 +274,24 @@ TEST(OddLayouts, NewGroundClosesNothing) {
     const RunResult result = drives.Run();
     EXPECT_EQ(Accepted(result), 0) << "seed " << seed;
     ExpectGoodRows(result);
-    printf("new: rows %zu\n", result.loops.size());
   }
 }
 
 TEST(OddLayouts, ALoopToTheFirstKeyframe) {
   const sim::Path path = Block();
   sim::World world = EmptyWorld();
-  Plant(path, path.length(), 0.5, 4, world);
-  Drive(path, 0, path.length() + 40, world);
-  const Drives drives(std::move(world), 4);
+  Plant(path, path.length(), 0.5, 2, world);
+  Drive(path, 0, path.length() + 12, world);
+  const Drives drives(std::move(world), 2);
   const RunResult result = drives.Run();
-  int earliest = 1000;
-  for (const LoopClosure& loop : result.loops)
-    if (loop.decision == LoopDecision::kAccepted) earliest = std::min(earliest, loop.match_frame);
+  EXPECT_TRUE(std::any_of(result.loops.begin(), result.loops.end(), [](const LoopClosure& loop) {
+    return loop.decision == LoopDecision::kAccepted && loop.match_frame == 0;
+  }));
   const SequenceMetrics metrics = drives.Judge(result);
-  EXPECT_EQ(earliest, 0);
   EXPECT_EQ(metrics.wrong_loops, 0);
-  EXPECT_LT(metrics.ate, 0.5 * metrics.ate_odometry);
-  EXPECT_NEAR((result.trajectory.poses[0].inverse() * result.odometry.poses[0]).Log().norm(), 0, 1e-9)
+  EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
+  EXPECT_NEAR((result.trajectory.poses[0].inverse() * result.odometry.poses[0]).Log().norm(), 0, 1e-6)
       << "the first camera stays where the odometry has it";
-  printf("first: earliest %d ate %.2f of %.2f loops %d/%zu\n", earliest, metrics.ate, metrics.ate_odometry, metrics.loops, result.loops.size());
 }
 
 TEST(LoopClosingMapper, RefusesBadPosesMidRunAndGoesOn) {

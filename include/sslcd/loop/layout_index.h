@@ -28,8 +28,8 @@ struct LayoutPoint {
 };
 
 /// The global map, made searchable: which objects lie near a point, and where a few objects of a given arrangement are.
-/// Small maps list all pairs of objects by distance; large ones, of more than some hundred thousand pairs, have
-/// triangles of neighbours in k-d trees instead.
+/// Small maps list all pairs of objects by distance; those with more than 50 000 pairs have the triangles of neighbours
+/// in k-d trees instead.
 class LayoutIndex {
  public:
   /// Objects with a position that is not finite are left out. Pairs are kept up to `max_pair_m`; points find what is
@@ -48,7 +48,12 @@ class LayoutIndex {
     const int* end() const { return last; }
     bool empty() const { return first == last; }
   };
-  Range Near(double x, double y) const;
+  Range Near(double x, double y) const {
+    const double column = (x - min_x_) * per_cell_, row = (y - min_y_) * per_cell_;
+    if (!(column >= 0 && column < columns_ && row >= 0 && row < rows_)) return {};
+    const int cell = static_cast<int>(row) * columns_ + static_cast<int>(column);
+    return {cell_objects_.data() + cell_start_[cell], cell_objects_.data() + cell_start_[cell + 1]};
+  }
 
   /// Calls visit(index) for the objects in a box, and for a few more. O(columns of 10 m * log n + objects visited).
   template <class Visitor>
@@ -108,7 +113,7 @@ class LayoutIndex {
   std::vector<LayoutPoint> points_;
   double max_pair_, reach_;
   std::vector<InBlock> blocks_;  // each object once, by column, then row of blocks
-  double cell_ = 1, min_x_ = 0, min_y_ = 0;
+  double per_cell_ = 1, min_x_ = 0, min_y_ = 0;
   int columns_ = 0, rows_ = 0;
   std::vector<int> cell_start_, cell_objects_;
   std::vector<int> labels_;      // ascending

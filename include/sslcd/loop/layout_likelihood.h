@@ -20,7 +20,7 @@ struct LayoutLikelihoodOptions {
   double wrong_label = 0.03;   ///< how often the detector takes one class for another
   double mapped_prior = 10.;   ///< Beta prior of the share of local objects that the map has: has ...
   double unmapped_prior = 2.;  ///< ... and has not
-  bool leave_map = false;       ///< local objects may lie beyond what the map has seen: these do not count as unmapped
+  bool leave_map = false;      ///< local objects may lie beyond what the map has seen: these do not count as unmapped
   double wrong_height = 0.01;  ///< share of objects whose height says nothing
   double min_gain = -1.5;      ///< a match that says less is none [nats]
   double seen_prior = 3.;      ///< Beta prior of the share of mapped objects in sight that are seen again: seen ...

@@ -14,7 +14,7 @@ namespace sslcd {
 /// Where could the local map lie in the global one, without any prior? Two objects fix a pose (yaw and shift), so every
 /// pair of local objects is laid on every pair of global objects of the same labels and distance; each pose found is
 /// scored by how many other objects fall on one another (one look into a grid each), and the best ones are refined and
-/// weighed by `LayoutLikelihood`.
+/// weighed by `LayoutLikelihood`. In large maps, triangles of neighbours take the place of the pairs (`LayoutIndex`).
 struct PoseSearchOptions {
   double min_pair_m = 4.;     ///< closer pairs fix the yaw too badly
   double pair_noise_m = 1.;   ///< how far the distances of two equal pairs may differ
@@ -32,7 +32,8 @@ struct PoseHypothesis {
   LayoutFit fit;  ///< how well the layouts agree under it
 };
 
-/// Distinct poses, best first. `index` holds the global map. O(pairs of equal distance).
+/// Distinct poses, best first. `index` holds the global map. O(pairs of equal distance), in large maps
+/// O(triangles of equal sides).
 std::vector<PoseHypothesis> SearchPoses(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                         const PoseSearchOptions& options, const LayoutLikelihoodOptions& likelihood);
 

@@ -28,12 +28,12 @@ struct RobustPoseGraphSummary {
   double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
 };
 
-/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all loops ever proposed each
-/// time; a loop kept before may be refused once others contradict it, and come back.
-/// `kept_before`: per edge, 1 for loops that a former solve has kept and for new ones, 0 for those it has refused; the
-/// vertices are where that solve has left them. If next to nothing changes from there, that is the answer, and a cheap
-/// one. Otherwise, or if it is empty, the start is the trusted edges' own geometry, which false loops cannot spoil.
-/// Never throws, as SolvePoseGraph.
+/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all loops ever proposed
+/// each time; a loop kept before may be refused once others contradict it, and come back. `kept_before`: per edge, 1
+/// for loops that a former solve has kept and for new ones, 0 for those it has refused; the vertices are where that
+/// solve has left them. If next to nothing changes from there, that is the answer, and a cheap one. Otherwise, or if it
+/// is empty, the start is the trusted edges' own geometry, which false loops cannot spoil. Never throws, as
+/// SolvePoseGraph.
 RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
                                    const std::vector<double>& kept_before = {});
 

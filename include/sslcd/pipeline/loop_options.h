@@ -24,20 +24,20 @@ void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 /// camera is known to be near where it believes to be.
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< position error per path
-  double drift_yaw = 0.02;    ///< yaw error [rad per sqrt(m)]
-  double surprise = 0.05;     ///< share of loops for which these do not hold
+  double drift_yaw = 0.01;    ///< yaw error [rad per sqrt(m)]
+  double surprise = 0.002;    ///< share of loops for which these do not hold
 };
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
 
 /// When a loop is believed, and taken back.
 struct LoopBeliefOptions {
-  double min_margin = 10.;  ///< log odds of its track against all others and against "nowhere" [nats]
-  double min_own_evidence = 2.;        ///< its own objects agree better than chance by this, where the track expects
-                                       ///< them [nats]
+  double min_margin = 12.;               ///< log odds of its track against all others and against "nowhere" [nats]
+  double min_own_evidence = 2.;          ///< its own objects agree better than chance by this, where the track expects
+                                         ///< them [nats]
   double max_heading_sigma_rad = 0.042;  ///< the heading is known this well
-  double max_apart_m = 20.;            ///< the two cameras stood this near to each other
-  double probation_m = 2.;             ///< taken back where the refined trajectory differs by more than this ...
-  double probation_rad = 0.06;         ///< ... or this
+  double max_apart_m = 20.;              ///< the two cameras stood this near to each other
+  double probation_m = 2.;               ///< taken back where the refined trajectory differs by more than this ...
+  double probation_rad = 0.06;           ///< ... or this
 };
 void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options);
 
@@ -49,10 +49,10 @@ struct LoopOptions {
   PoseTrackOptions tracks;
   LoopPriorOptions prior;
   LoopBeliefOptions belief;
-  double lag_m = 25.;      ///< the query camera stood so far back: with matched objects before and behind it
-  double sigma_m = 0.15;   ///< of every loop, on top of what its matches say
+  double lag_m = 25.;     ///< the query camera stood so far back: with matched objects before and behind it
+  double sigma_m = 0.15;  ///< of every loop, on top of what its matches say
   double sigma_rad = 0.02;
-  double fuse_m = 3.;      ///< matched landmarks that are still further apart than this do not become one
+  double fuse_m = 3.;  ///< matched landmarks that are still further apart than this do not become one
   DriftOptions drift;
   double keyframe_m = 5.;  ///< vertices of the pose graph: a keyframe every so much path
   /// Of the edges between them. Coarser than the odometry of a good stereo rig: what loops reveal over kilometres is

@@ -36,7 +36,7 @@ struct FrameRecord {
   int frame = 0;
   double stamp = 0;
   double travelled = 0;  ///< path of the odometry so far [m]
-  Pose T_odom_cam;  ///< levelled, see LevelOptions
+  Pose T_odom_cam;       ///< levelled, see LevelOptions
   Pose T_world_cam;
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors
   std::vector<LandmarkId> matched;    ///< landmark of each detection

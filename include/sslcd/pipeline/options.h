@@ -40,7 +40,7 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 struct LevelOptions {
   bool enabled = true;
   double max_slope_rad = 0.1;  ///< no ground is steeper than this on average ...
-  double window_m = 200.;       ///< ... over so much path
+  double window_m = 200.;      ///< ... over so much path
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
 
