@@ -24,14 +24,14 @@ void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 /// camera is known to be near where it believes to be.
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< position error per path
-  double drift_yaw = 0.01;    ///< yaw error [rad per sqrt(m)]
-  double surprise = 0.002;    ///< share of loops for which these do not hold
+  double drift_yaw = 0.02;    ///< yaw error [rad per sqrt(m)]
+  double surprise = 0.01;     ///< share of loops for which these do not hold
 };
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
 
 /// When a loop is believed, and taken back.
 struct LoopBeliefOptions {
-  double min_margin = 12.;               ///< log odds of its track against all others and against "nowhere" [nats]
+  double min_margin = 13.;               ///< log odds of its track against all others and against "nowhere" [nats]
   double min_own_evidence = 2.;          ///< its own objects agree better than chance by this, where the track expects
                                          ///< them [nats]
   double max_heading_sigma_rad = 0.042;  ///< the heading is known this well

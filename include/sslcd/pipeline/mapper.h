@@ -53,8 +53,9 @@ class Mapper {
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
 
-  /// Frames in order of time. O(window), whatever the size of the map. Throws Error(kBadInput) on a stamp that does not
-  /// increase or a pose that is not finite; the mapper is then as it was before.
+  /// Frames in order of time. O(window), whatever the size of the map, but for attempts to close a loop. Throws
+  /// Error(kBadInput) on a stamp that does not increase or a pose that is not finite; the mapper is then as it was
+  /// before.
   FrameReport AddFrame(const Frame& frame);
 
   /// Full-map optimisation over all frames so far: poses, landmarks and scale move. May be called any time, and again.
