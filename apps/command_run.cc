@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -69,8 +70,13 @@ std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   int landmarks = 0;
   for (const MapObject& object : result.objects) landmarks += object.state == LandmarkState::kConfirmed;
+  const auto accepted = std::count_if(result.loops.begin(), result.loops.end(), [](const LoopClosure& loop) {
+    return loop.decision == LoopDecision::kAccepted;
+  });
   std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(result.frames.size())},
                                                 {"landmarks", std::to_string(landmarks)},
+                                                {"loops accepted", std::to_string(accepted)},
+                                                {"loops refused", std::to_string(result.loops.size() - accepted)},
                                                 {"odometry scale", Number("%.4f", result.scale)}};
   for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   std::vector<std::vector<std::string>> times = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};

@@ -239,6 +239,7 @@ bool LoopCloser::Fuse() {
 }
 
 void LoopCloser::Review() {
+  passes_.Rebuild();
   if (options_.mode == Options::Mode::kPaper) return;
   const LoopBeliefOptions& o = options_.loop.belief;
   for (Attempt& attempt : attempts_) {

@@ -28,7 +28,7 @@ class LoopCloser {
   /// After the last frame: nothing more is to come that could surround the latest cameras with objects.
   void Finish(double scale, TimingTable& timing);
 
-  /// Takes back loops that the trajectory, once everything has been weighed, does not go through.
+  /// After everything was refined and associated anew: takes back loops that the trajectory does not go through.
   void Review();
 
   /// Has any loop been accepted?

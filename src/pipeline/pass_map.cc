@@ -82,6 +82,13 @@ void PassMap::Update() {
   }
 }
 
+void PassMap::Rebuild() {
+  passes_.clear();
+  open_.clear();
+  next_frame_ = 0;
+  if (!frames_.empty()) Update();
+}
+
 void PassMap::Finish(PassObject& pass) const {
   pass.anchor = pass.sightings[pass.sightings.size() / 2].first;
   const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., 1);

@@ -41,6 +41,9 @@ class PassMap {
   /// Takes in the frames that were added since the last call.
   void Update();
 
+  /// Starts again from what the frames say now, e.g. after everything was associated anew.
+  void Rebuild();
+
   /// Landmarks were fused: those that are gone -> those that took them over.
   void Rename(const std::map<int, LandmarkId>& heirs);
 
