@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -70,9 +70,8 @@ std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   int landmarks = 0;
   for (const MapObject& object : result.objects) landmarks += object.state == LandmarkState::kConfirmed;
-  const auto accepted = std::count_if(result.loops.begin(), result.loops.end(), [](const LoopClosure& loop) {
-    return loop.decision == LoopDecision::kAccepted;
-  });
+  const auto accepted = std::count_if(result.loops.begin(), result.loops.end(),
+                                      [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
   std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(result.frames.size())},
                                                 {"landmarks", std::to_string(landmarks)},
                                                 {"loops accepted", std::to_string(accepted)},
