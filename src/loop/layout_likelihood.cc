@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sslcd {
 namespace {
@@ -125,17 +126,7 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
   for (const LayoutObject& object : local) label_share_[object.label] += 0;
   const double total = static_cast<double>(index.objects().size() + label_share_.size());
   for (auto& [label, share] : label_share_) share = (share + 1) / total;
-  for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
-    const auto& counts = index.headings()[symmetry == Symmetry::kPi];
-    const std::vector<double>& densities = HeadingDensities(symmetry);
-    const int bins = static_cast<int>(counts.size());
-    for (int from = 0; from < bins; ++from) {
-      if (counts[from] == 0) continue;
-      headings_ += counts[from];
-      for (int bin = 0; bin < kHeadings; ++bin)
-        heading_background_[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
-    }
-  }
+  PrepareHeadings();
   std::vector<Vec2> points;
   for (const LayoutObject& object : local) points.push_back(object.position.head<2>());
   hull_ = ConvexHull(points);
@@ -147,14 +138,44 @@ double LayoutLikelihood::LabelGain(int local_label, int global_label) const {
   return std::log(options_.wrong_label);
 }
 
-// How much better the headings agree than those of any two objects of this map would, under the same turn: where all
-// cars stand in rows, only front and back remain to tell.
-double LayoutLikelihood::HeadingGain(const LayoutObject& local, const LayoutObject& global, double yaw) const {
+// log density of a local object's heading, were the local objects others of the same kind: they then face as the map's
+// objects do, as a whole under whatever turn makes that likeliest. Not under the turn of the pose that is weighed: a
+// pose under which every car faces the wrong way has that against it.
+void LayoutLikelihood::PrepareHeadings() {
+  std::array<double, kHeadings> background{};  // density of the map's headings [1/rad]
+  int headings = 0;
+  for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
+    const auto& counts = index_.headings()[symmetry == Symmetry::kPi];
+    const std::vector<double>& densities = HeadingDensities(symmetry);
+    const int bins = static_cast<int>(counts.size());
+    for (int from = 0; from < bins; ++from) {
+      if (counts[from] == 0) continue;
+      headings += counts[from];
+      for (int bin = 0; bin < kHeadings; ++bin)
+        background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
+    }
+  }
+  for (double& density : background) density = std::log((density + 1 / (2 * kPi)) / (headings + 1));
+  const auto under = [&](const LayoutObject& object, int turn) {
+    const int bin = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * kHeadings + 0.5));
+    return background[(bin + turn) % kHeadings];
+  };
+  int best = 0;
+  double likeliest = -std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < kHeadings; ++turn) {
+    double sum = 0;
+    for (const LayoutObject& object : local_)
+      if (HasHeading(object)) sum += under(object, turn);
+    if (sum > likeliest) likeliest = sum, best = turn;
+  }
+  for (const LayoutObject& object : local_) chance_heading_.push_back(HasHeading(object) ? under(object, best) : 0.);
+}
+
+// How much better the headings agree than chance would have it.
+double LayoutLikelihood::HeadingGain(int i, const LayoutObject& global, double yaw) const {
+  const LayoutObject& local = local_[i];
   if (!HasHeading(local) || !HasHeading(global) || local.symmetry != global.symmetry) return 0;
-  const double turned = WrapAngle(local.yaw + yaw);
-  const int bin = static_cast<int>(std::floor((turned / (2 * kPi) + 1) * kHeadings + 0.5)) % kHeadings;
-  const double background = (heading_background_[bin] + 1 / (2 * kPi)) / (headings_ + 1);
-  return std::log(HeadingDensity(turned - global.yaw, global.symmetry) / background);
+  return std::log(HeadingDensity(WrapAngle(local.yaw + yaw) - global.yaw, global.symmetry)) - chance_heading_[i];
 }
 
 double LayoutLikelihood::Appearance(int i, int j) const {
@@ -181,7 +202,7 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       if (d2 >= reach2) continue;
       const int local = static_cast<int>(i);
       const double gain =
-          LabelGain(local_[i].label, object.label) + HeadingGain(local_[i], object, pose.yaw) + Appearance(local, j);
+          LabelGain(local_[i].label, object.label) + HeadingGain(local, object, pose.yaw) + Appearance(local, j);
       candidates.push_back({local, j, d2, dz * dz, gain, 0, InView(object.position, pose.t, c, s)});
     }
   }

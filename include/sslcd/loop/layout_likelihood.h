@@ -61,7 +61,8 @@ class LayoutLikelihood {
     bool in_view;  // the map's object lies among the local ones
   };
   std::vector<Candidate> Candidates(const YawShift& pose) const;
-  double HeadingGain(const LayoutObject& local, const LayoutObject& global, double yaw) const;
+  void PrepareHeadings();
+  double HeadingGain(int local, const LayoutObject& global, double yaw) const;
   double Appearance(int local, int global) const;
   int OnMap(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
@@ -73,8 +74,7 @@ class LayoutLikelihood {
   LayoutLikelihoodOptions options_;
   static constexpr int kHeadings = 72;
   std::map<int, double> label_share_;
-  std::array<double, kHeadings> heading_background_{};  // sum over the map's objects, by direction [1/rad]
-  int headings_ = 0;
+  std::vector<double> chance_heading_;                        // of each local object: log density [1/rad]
   mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
   std::vector<Vec2> hull_;                                    // of the local objects, counter-clockwise
 };
