@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sslcd {
 namespace {
@@ -18,6 +19,18 @@ double Rivals(const std::vector<PoseHypothesis>& all, std::size_t except, double
   return top + std::log(sum);
 }
 
+// What the mirror image of the local map reaches. Coarse poses tell nearly all of it: a few are refined.
+double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index, const LayoutMatchOptions& options) {
+  for (LayoutObject& object : local) {
+    object.position.y() *= -1;
+    object.yaw *= -1;
+  }
+  PoseSearchOptions search = options.search;
+  search.refine = std::max(1, search.refine / 10);
+  const std::vector<PoseHypothesis> found = SearchPoses(local, index, search, options.likelihood);
+  return found.empty() ? -std::numeric_limits<double>::infinity() : found[0].fit.evidence;
+}
+
 std::string Nats(double value) { return std::to_string(std::lround(value)) + " nats"; }
 
 }  // namespace
@@ -26,6 +39,7 @@ void DescribeFields(FieldVisitor& visitor, DecisionOptions& options) {
   visitor.Real("min_margin", options.min_margin, -100, 1000, "log odds of the best pose against all others [nats]");
   visitor.Real("min_evidence", options.min_evidence, -1000, 1000,
                "evidence that chance reaches: what is below proves nothing [nats]");
+  visitor.Real("mirror_gain", options.mirror_gain, 0, 1000, "a mirror image that fits better by this refutes the fit");
 }
 
 void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
@@ -70,6 +84,8 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
   } else if (answer.score < options.decision.min_margin) {
     answer.decision = LoopDecision::kAmbiguous;
     answer.reason = objects + ", but other poses fit as well (odds " + Nats(answer.score) + ")";
+  } else if (MirrorEvidence(usable, index, options) > found[0].fit.evidence + options.decision.mirror_gain) {
+    answer.reason = objects + ", but more in the mirror image";
   } else {
     answer.decision = LoopDecision::kAccepted;
     answer.reason = objects;

@@ -74,7 +74,7 @@ bool LoopCloser::Detect(double lag_m) {
   if (static_cast<int>(std::min(local.objects.size(), global.objects.size())) < few) return false;
 
   const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
-  std::vector<PoseHypothesis> found = MatchLayouts(local.objects, index, o.match).hypotheses;
+  std::vector<PoseHypothesis> found = SearchPoses(local.objects, index, o.match.search, o.match.likelihood);
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = LayoutLikelihood(local.objects, index, o.match.likelihood).Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);

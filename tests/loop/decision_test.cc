@@ -54,6 +54,20 @@ TEST(MatchLayouts, DoesNotMatchTheMirrorImage) {
   }
 }
 
+TEST(MatchLayouts, DoesNotMatchTheMirrorImageOfAFewObjects) {
+  int cases = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    const std::vector<LayoutObject> map = Strewn(80, 90, seed);
+    std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 16, 0.3, seed);
+    if (mirrored.size() < 6 || mirrored.size() > 12 || MatchMaps(mirrored, map).decision != LoopDecision::kAccepted)
+      continue;
+    ++cases;
+    for (LayoutObject& object : mirrored) object.position.y() *= -1;
+    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
+  }
+  EXPECT_GT(cases, 30);
+}
+
 TEST(MatchLayouts, AnswersAreProperTurns) {  // even the best pose of a mirror image keeps left on the left
   const std::vector<LayoutObject> map = Strewn(40, 60, 5);
   std::vector<LayoutObject> mirrored = map;

@@ -18,6 +18,7 @@ namespace sslcd {
 struct DecisionOptions {
   double min_margin = 0.75;    ///< log odds of the best pose against all others found [nats]
   double min_evidence = -10.;  ///< evidence that chance reaches: competes with the poses found [nats]
+  double mirror_gain = 5.;     ///< a mirror image of the local map that fits better by this refutes the fit [nats]
 };
 void DescribeFields(FieldVisitor& visitor, DecisionOptions& options);
 
@@ -44,7 +45,8 @@ struct LayoutAnswer {
 
 /// Searches all poses of the local map in the global one and decides whether the best of them can be trusted. Labels,
 /// positions and whatever else the objects know take part; there is no prior pose. Objects whose position is not finite
-/// take no part. Deterministic; never throws for odd layouts, but says so in `reason`.
+/// take no part. Before a pose is accepted, the mirror image of the local map is searched as well: no camera ever sees
+/// it, so what it reaches is chance. Deterministic; never throws for odd layouts, but says so in `reason`.
 LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                           const LayoutMatchOptions& options);
 
