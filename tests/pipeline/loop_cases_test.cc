@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Loop closure where loops meet, contradict one another, or are closed as printed.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "loop_drives.h"
+#include "sslcd/io/run_folder.h"
+
+namespace sslcd {
+namespace {
+
+// In the third lap every place has been passed twice.
+TEST(LoopCases, TwoLoopsAtOnce) {
+  const sim::Path path = Block();
+  sim::World world = EmptyWorld();
+  Plant(path, path.length(), 0.5, 4, world);
+  Drive(path, 0, 3 * path.length(), world);
+  const Drives drives(std::move(world), 4);
+  const RunResult result = drives.Run();
+  const SequenceMetrics metrics = drives.Judge(result);
+  const int lap = static_cast<int>(path.length() / kStep);
+  std::set<int> laps_met;
+  for (const LoopClosure& loop : result.loops)
+    if (loop.decision == LoopDecision::kAccepted && loop.query_frame > 2 * lap) laps_met.insert(loop.match_frame / lap);
+  EXPECT_GE(laps_met.size(), 2u) << "loops to the first and to the second lap";
+  EXPECT_EQ(metrics.wrong_loops, 0);
+  EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
+  EXPECT_LE(metrics.landmarks_per_true, 1.08) << "three passes are one landmark";
+  ExpectGoodRows(result);
+}
+
+// The second half of the block is furnished exactly like the first, and odometry too bad to tell them apart: loops
+// between a place and its copy contradict the true ones.
+TEST(LoopCases, ACopyOfAPlaceIsNotTakenForIt) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const sim::Path path = Block();
+    sim::World world = EmptyWorld();
+    const double half = 0.5 * path.length();
+    Plant(path, half, 0.5, seed, world);
+    const std::size_t originals = world.objects.size();
+    const Pose T_copy = path.CameraAt(half) * path.CameraAt(0).inverse();
+    for (std::size_t i = 0; i < originals; ++i) {
+      sim::WorldObject copy = world.objects[i];
+      copy.id = static_cast<int>(world.objects.size());
+      copy.T_world_object = {T_copy * world.objects[i].T_world_object[0]};
+      world.objects.push_back(copy);
+    }
+    Drive(path, 0, 2 * path.length(), world);
+    const Drives drives(std::move(world), seed, 30, 2e-2);
+    const RunResult result = drives.Run();
+    const SequenceMetrics metrics = drives.Judge(result);
+    EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed;
+    EXPECT_LT(metrics.ate, 1.1 * metrics.ate_odometry) << "seed " << seed;
+    ExpectGoodRows(result);
+  }
+}
+
+TEST(LoopCases, LoopsGoOnAfterARefinementInMidRun) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  Mapper mapper({}, drives.Context());
+  const std::size_t middle = drives.frames.size() * 7 / 10;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < drives.frames.size(); ++i) {
+    mapper.AddFrame(drives.frames[i]);
+    if (i != middle) continue;
+    mapper.Refine();
+    before = mapper.LoopClosures().size();
+  }
+  mapper.Refine();
+  const auto loops = mapper.LoopClosures();
+  EXPECT_GT(before, 3u);
+  EXPECT_GT(std::count_if(loops.begin() + static_cast<std::ptrdiff_t>(before), loops.end(),
+                          [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; }),
+            3);
+  RunResult result;
+  result.trajectory = mapper.CameraTrajectory();
+  result.odometry = drives.Run().odometry;
+  result.loops = loops;
+  result.objects = mapper.Objects();
+  const SequenceMetrics metrics = drives.Judge(result);
+  EXPECT_EQ(metrics.wrong_loops, 0);
+  EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
+}
+
+// mode: paper believes every match; what comes of it is for comparison, but it has to be written down in full.
+TEST(LoopCases, AsPrinted) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  Options options;
+  options.mode = Options::Mode::kPaper;
+  const RunResult result = drives.Run(options);
+  EXPECT_GT(result.loops.size(), 10u);
+  EXPECT_EQ(result.trajectory.size(), drives.frames.size());
+  EXPECT_EQ(Accepted(result), static_cast<int>(result.loops.size())) << "it knows no refusal";
+  ExpectGoodRows(result);
+}
+
+}  // namespace
+}  // namespace sslcd
