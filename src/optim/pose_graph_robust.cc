@@ -157,6 +157,11 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
 
 namespace {
 
+// The chi2 by which a loop disagrees with the trusted edges from which it is ruled out.
+double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
+  return chi2_limit * options.drift_factor * options.drift_factor;
+}
+
 // Judges all loops by where `work` stands, those that were ruled out, too, and solves with the ones kept; a few times,
 // until nothing changes. `graph` takes over what `work` has found.
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options, const std::vector<std::pair<int, int>>& ends,
@@ -174,7 +179,8 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options, const std::v
 }
 
 // From where a former solve has left the vertices, with what it has kept. False if this refuses more loops than a few
-// new ones can be: then everything has to be decided anew.
+// new ones can be, or if the new ones bend the trusted edges more than one true loop may: then everything has to be
+// decided anew.
 bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const std::vector<double>& kept_before,
                RobustPoseGraphSummary& summary) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // its loops come first, in order
@@ -190,6 +196,12 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const st
   PoseGraphOptions inner = options.graph;
   inner.start = PoseGraphStart::kGiven;
   const auto ends = IndexPoseGraph(condensed.graph()).ends;
+  const auto misfit_of_trusted = [&] {
+    double sum = 0;
+    for (std::size_t e = loops.size(); e < ends.size(); ++e) sum += EdgeChi2(condensed.graph(), ends, e);
+    return sum;
+  };
+  const double misfit_before = misfit_of_trusted();
   for (int i = 0; i < 3; ++i) {
     if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return false;
     bool changed = false;
@@ -204,6 +216,7 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const st
   if (static_cast<double>(refused(decided.edge_weight) - refused(kept_before)) >
       std::max(1., kShareOfNew * static_cast<double>(loops.size())))
     return false;
+  if (misfit_of_trusted() - misfit_before > RuledOut(summary.chi2_limit, options)) return false;
   condensed.Expand(graph);
   return true;
 }
@@ -235,7 +248,7 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
   candidates.vertices = work.vertices;
   for (std::size_t v = 0; v < work.vertices.size(); ++v)
     if (!work.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];
-  const double ruled_out = summary.chi2_limit * options.drift_factor * options.drift_factor;
+  const double ruled_out = RuledOut(summary.chi2_limit, options);
   for (std::size_t e = 0; e < work.edges.size(); ++e) {
     const PoseGraph::Edge& edge = work.edges[e];
     if (!edge.loop || tree.Disagreement(edge, index.ends[e].first, index.ends[e].second) <= ruled_out)

@@ -50,7 +50,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayo
   if (!drift.usable) return std::nullopt;
 
   std::sort(seen.begin(), seen.end());
-  const double query_m = std::clamp(frames_.back().travelled - lag_m, seen[seen.size() / 5], seen[seen.size() * 4 / 5]);
+  const double query_m = std::clamp(frames_.back().travelled - lag_m, seen.front(), seen.back());
   loop.query = FrameAt(query_m);
   loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
   if (loop.match < 0) return std::nullopt;

@@ -130,6 +130,19 @@ TEST(RobustPoseGraph, LoopsAreTakenBackAndComeBack) {
   EXPECT_EQ(kept(), (std::vector<double>{1, 0, 0, 1, 1, 1}));
 }
 
+TEST(RobustPoseGraph, ACrowdOfFalseLoopsDoesNotBendTheOdometry) {
+  PoseGraphWorld world = MakePoseGraphWorld(Small());
+  for (const int i : {0, 30, 60}) AddLoop(world, i, 80 + i, 0);
+  std::vector<double> kept = SolveRobust(world.graph, {}).edge_weight;
+  const double before = AteRmse(world.graph, world.truth);
+  for (int i = 0; i < 20; ++i) AddLoop(world, 5 + i, 45 + i, 4.);  // all at once, from where the former solve ended
+  kept.resize(world.graph.edges.size(), 1.);
+  const Counts counts = Count(world, SolveRobust(world.graph, {}, kept));
+  EXPECT_EQ(counts.true_kept, 3);
+  EXPECT_EQ(counts.false_kept, 0);
+  EXPECT_NEAR(AteRmse(world.graph, world.truth), before, 1e-3);
+}
+
 TEST(RobustPoseGraph, LoopToTheFirstVertexAndTwoAtOnce) {
   PoseGraphWorld world = MakePoseGraphWorld(Small());
   AddLoop(world, 0, 160, 0);

@@ -25,17 +25,17 @@ void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< position error per path
   double drift_yaw = 0.02;    ///< yaw error [rad per sqrt(m)]
-  double surprise = 0.01;     ///< share of loops for which these do not hold
+  double surprise = 1e-6;     ///< share of loops for which these do not hold
 };
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
 
 /// When a loop is believed, and taken back.
 struct LoopBeliefOptions {
   double min_margin = 13.;               ///< log odds of its track against all others and against "nowhere" [nats]
-  double min_own_evidence = 2.;          ///< its own objects agree better than chance by this, where the track expects
+  double min_own_evidence = 0.;          ///< its own objects agree better than chance by this, where the track expects
                                          ///< them [nats]
   double max_heading_sigma_rad = 0.042;  ///< the heading is known this well
-  double max_apart_m = 20.;              ///< the two cameras stood this near to each other
+  double max_apart_m = 30.;              ///< the two cameras stood this near to each other
   double probation_m = 2.;               ///< taken back where the refined trajectory differs by more than this ...
   double probation_rad = 0.06;           ///< ... or this
 };
