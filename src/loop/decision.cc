@@ -53,7 +53,7 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
     return answer;
   }
   std::vector<PoseHypothesis>& found = answer.hypotheses;
-  found = SearchPoses(usable, index, options.search, options.likelihood);
+  found = SearchPoses(LayoutLikelihood(usable, index, options.likelihood), options.search);
   if (found.empty()) {
     answer.reason = "no pose brings " + std::to_string(options.search.min_matches) + " objects together";
     return answer;
