@@ -9,6 +9,7 @@
 #include "pipeline/loop_graph.h"
 #include "pipeline/loop_prior.h"
 #include "pipeline/move.h"
+#include "pipeline/refine.h"
 
 namespace sslcd {
 namespace {
@@ -61,6 +62,11 @@ bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timin
   const bool moved = !Agree();
   if (moved) Correct(scale);
   const bool fused = Fuse();
+  if (moved && options_.mode != Options::Mode::kPaper) {
+    const Pose before = frames_.back().T_world_cam;
+    OptimiseAfterLoop(map_, frames_, scale, options_);
+    tracks_.Move(LayoutChange(before, frames_.back().T_world_cam, map_.gravity()));
+  }
   return moved || fused;
 }
 
