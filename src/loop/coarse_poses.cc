@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 
 #include "loop/triangle_poses.h"
@@ -54,42 +55,130 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
   return chosen;
 }
 
+/// What a point may gain at most, by where it falls: a picture of the map. One look into it takes the place of one at
+/// every object nearby.
+class GainBound {
+ public:
+  static constexpr int kOne = 250;
+  static constexpr int kAtOnce = 8;
+
+  GainBound(const std::vector<LayoutPoint>& map, float inlier_m) : inlier_(inlier_m) {
+    constexpr float kFinest = 0.5f, kMaxSide = 1024;  // [m], cells
+    Eigen::AlignedBox2f box;
+    for (const LayoutPoint& p : map) box.extend(Eigen::Vector2f(p.x, p.y));
+    const Eigen::Vector2f size = box.sizes() + Eigen::Vector2f::Constant(2 * inlier_);
+    cell_ = std::max(kFinest, size.maxCoeff() / (kMaxSide - 4));
+    low_ = box.min() - Eigen::Vector2f::Constant(inlier_ + 2 * cell_);  // nothing gains anything on the rim
+    last_column_ = std::floor(size.x() / cell_) + 3;
+    last_row_ = std::floor(size.y() / cell_) + 3;
+    while (1 << shift_ <= static_cast<int>(last_column_)) ++shift_;
+    bound_.assign(static_cast<std::size_t>(last_row_ + 1) << shift_, 0);
+    for (const LayoutPoint& p : map) Paint(p.x - low_.x(), p.y - low_.y());
+  }
+
+  /// Where kAtOnce points fall that stand at (x, y) before the pose moves them. In steps that compilers vectorise.
+  void Look(const CoarsePose& pose, const float* x, const float* y, std::uint8_t* bounds) const {
+    const float c = pose.cosine / cell_, s = pose.sine / cell_;
+    const float to_x = (pose.x - low_.x()) / cell_, to_y = (pose.y - low_.y()) / cell_;
+    int cells[kAtOnce];
+    for (int i = 0; i < kAtOnce; ++i) {
+      const float column = c * x[i] - s * y[i] + to_x, row = s * x[i] + c * y[i] + to_y;
+      const float inner_column = std::min(std::max(column, 0.f), last_column_);
+      const float inner_row = std::min(std::max(row, 0.f), last_row_);
+      cells[i] = (static_cast<int>(inner_row) << shift_) + static_cast<int>(inner_column);
+    }
+    for (int i = 0; i < kAtOnce; ++i) bounds[i] = bound_[cells[i]];
+  }
+
+ private:
+  void Paint(float x, float y) {
+    constexpr float kRounding = 0.01f;  // of coordinates, and more [m]
+    const float reach = inlier_ + kRounding;
+    const auto apart = [&](float v, int i) {  // how far a coordinate is from a row of cells
+      const float from = static_cast<float>(i) * cell_ - kRounding, to = from + cell_ + 2 * kRounding;
+      return std::max({0.f, from - v, v - to});
+    };
+    for (int row = static_cast<int>((y - reach) / cell_); row <= static_cast<int>((y + reach) / cell_); ++row) {
+      for (int column = static_cast<int>((x - reach) / cell_); column <= static_cast<int>((x + reach) / cell_);
+           ++column) {
+        const float dx = apart(x, column), dy = apart(y, row);
+        const float most = 1 - (dx * dx + dy * dy) / (inlier_ * inlier_);
+        std::uint8_t& bound = bound_[(static_cast<std::size_t>(row) << shift_) + static_cast<std::size_t>(column)];
+        if (most > 0) bound = std::max(bound, static_cast<std::uint8_t>(static_cast<float>(kOne) * most + 1));
+      }
+    }
+  }
+
+  float inlier_, cell_ = 1, last_column_ = 0, last_row_ = 0;
+  Eigen::Vector2f low_;
+  int shift_ = 0;
+  std::vector<std::uint8_t> bound_;  // by rows of 2^shift_ cells [1/kOne]
+};
+
 /// Scores poses as they are proposed and keeps the best of each cell of poses.
 class Contest {
  public:
   Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index, const PoseSearchOptions& options)
-      : points_(points), index_(index), inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)) {}
+      : points_(points),
+        index_(index),
+        bound_(index.points(), static_cast<float>(options.inlier_m)),
+        inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)),
+        winners_(options.refine) {
+    const std::size_t padded = points.size() + GainBound::kAtOnce;
+    x_.resize(padded, 0.f);
+    y_.resize(padded, 0.f);
+    for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
+  }
 
   void Enter(CoarsePose pose) {
-    pose.score = Score(pose);
-    if (pose.score < 0.4f * best_) return;
-    best_ = std::max(best_, pose.score);
+    pose.score = MayWin(pose) ? Score(pose) : 0;
+    if (!(pose.score >= least_)) return;
     const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
     const std::int64_t cell = key(std::atan2(pose.sine, pose.cosine) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
     CoarsePose& kept = cells_[cell];
     if (pose.score > kept.score) kept = pose;
+    RaiseBar(pose.score);
   }
 
-  std::vector<CoarsePose> Best(std::size_t count) const {
+  std::vector<CoarsePose> Best() const {
     std::vector<CoarsePose> coarse;
     for (const auto& [cell, pose] : cells_)
-      if (pose.score >= 0.5f * best_) coarse.push_back(pose);
+      if (pose.score >= least_) coarse.push_back(pose);
     const auto better = [](const CoarsePose& a, const CoarsePose& b) {
       if (a.score != b.score) return a.score > b.score;
       if (a.x != b.x) return a.x < b.x;
       return a.y != b.y ? a.y < b.y : a.sine < b.sine;
     };
-    const std::size_t keep = std::min(coarse.size(), count);
+    const std::size_t keep = std::min(coarse.size(), winners_);
     std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep), coarse.end(), better);
     coarse.resize(keep);
     return coarse;
   }
 
  private:
+  // Could the pose reach least_? Leaves the points behind that gain something.
+  bool MayWin(const CoarsePose& pose) {
+    const int needed = Needed(0), count = static_cast<int>(points_.size());
+    most_ = GainBound::kOne * count;
+    landed_.clear();
+    std::uint8_t bounds[GainBound::kAtOnce];
+    for (int first = 0; first < count; first += GainBound::kAtOnce) {
+      bound_.Look(pose, &x_[first], &y_[first], bounds);
+      for (int i = 0; i < std::min(GainBound::kAtOnce, count - first); ++i) {
+        most_ -= GainBound::kOne - bounds[i];
+        if (bounds[i] > 0) landed_.push_back({first + i, bounds[i]});
+      }
+      if (most_ < needed) return false;
+    }
+    return true;
+  }
+
   float Score(const CoarsePose& pose) const {
     const std::vector<LayoutPoint>& map = index_.points();
-    float score = 0, open = static_cast<float>(points_.size());  // what the other points may add
-    for (const LayoutPoint& p : points_) {
+    float score = 0;
+    int open = most_;  // what the other points may add
+    for (const Landed& landed : landed_) {
+      const LayoutPoint& p = points_[landed.point];
       const float x = pose.cosine * p.x - pose.sine * p.y + pose.x, y = pose.sine * p.x + pose.cosine * p.y + pose.y;
       float gain = 0;
       for (const int j : index_.Near(x, y)) {
@@ -99,15 +188,38 @@ class Contest {
         gain = std::max(gain, (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : .3f));
       }
       score += gain;
-      open -= 1;
-      if (score + open < 0.4f * best_) break;
+      open -= landed.bound;
+      if (open < Needed(score)) return 0;
     }
     return score;
   }
 
+  // What has to come on top of a score to reach least_; a little less, for the sake of rounding. [1/GainBound::kOne]
+  int Needed(float score) const { return static_cast<int>((least_ - score - 1e-3f) * GainBound::kOne) - 1; }
+
+  // What falls short of half the best score, or of the winners so far, is out.
+  void RaiseBar(float score) {
+    constexpr int kNow = 256;  // every so often, the winners are counted
+    least_ = std::max(least_, 0.5f * score);
+    if (++entered_ % kNow != 0 || cells_.size() <= winners_) return;
+    std::vector<float> scores;
+    for (const auto& [cell, pose] : cells_) scores.push_back(pose.score);
+    const auto last = scores.begin() + static_cast<std::ptrdiff_t>(winners_) - 1;
+    std::nth_element(scores.begin(), last, scores.end(), std::greater<>());
+    least_ = std::max(least_, *last);
+  }
+
+  struct Landed {
+    int point, bound;
+  };
   const std::vector<LayoutPoint>& points_;
   const LayoutIndex& index_;
-  float inlier2_, best_ = 0;
+  std::vector<float> x_, y_;    // of the points, and a few zeros
+  std::vector<Landed> landed_;  // of the pose that is looked at
+  int most_ = 0;                // that these can gain
+  GainBound bound_;
+  float inlier2_, least_ = 0;  // least score that can still matter
+  std::size_t winners_, entered_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
 };
 
@@ -155,7 +267,7 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
     EnterPairs(local, points, index, options, contest);
   else
     for (const CoarsePose& pose : TrianglePoses(points, index, options)) contest.Enter(pose);
-  return contest.Best(options.refine);
+  return contest.Best();
 }
 
 }  // namespace sslcd

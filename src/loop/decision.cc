@@ -27,7 +27,7 @@ double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
   }
   PoseSearchOptions search = options.search;
   search.refine = std::max(1, search.refine / 10);
-  const std::vector<PoseHypothesis> found = SearchPoses(local, index, search, options.likelihood);
+  const std::vector<PoseHypothesis> found = SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
   return found.empty() ? -std::numeric_limits<double>::infinity() : found[0].fit.evidence;
 }
 
@@ -67,7 +67,7 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
     return answer;
   }
   std::vector<PoseHypothesis>& found = answer.hypotheses;
-  found = SearchPoses(usable, index, options.search, options.likelihood);
+  found = SearchPoses(LayoutLikelihood(usable, index, options.likelihood), options.search);
   if (found.empty()) {
     answer.reason = "no pose brings " + std::to_string(options.search.min_matches) + " objects together";
     return answer;

@@ -45,32 +45,46 @@ void LayoutIndex::CountProperties() {
   for (const auto& [label, count] : label_counts_) labels_.push_back(label);
 }
 
-std::int64_t LayoutIndex::Block(double coordinate) {
-  constexpr double kMiddle = 1 << 30;  // keeps keys positive
-  return static_cast<std::int64_t>(std::floor(std::clamp(coordinate / kBlock, 2 - kMiddle, kMiddle - 2)) + kMiddle);
+int LayoutIndex::Block(double coordinate) {
+  constexpr double kMiddle = 1 << 29;  // keeps numbers positive, so that cutting off rounds down
+  return static_cast<int>(std::clamp(coordinate / kBlock + kMiddle, 2., 2 * kMiddle - 2));
 }
 
-std::vector<LayoutIndex::InBlock>::const_iterator LayoutIndex::FirstBlock(std::int64_t key) const {
-  return std::lower_bound(blocks_.begin(), blocks_.end(), key,
-                          [](const InBlock& entry, std::int64_t wanted) { return entry.key < wanted; });
+std::vector<LayoutIndex::InBlock>::const_iterator LayoutIndex::FirstInBlock(int column, int row) const {
+  if (block_start_.empty()) return std::lower_bound(blocks_.begin(), blocks_.end(), InBlock{column, row, -1});
+  if (column < first_column_) return blocks_.begin();
+  if (column > last_column_) return blocks_.end();
+  const int in_column = std::clamp(row - first_row_, 0, block_rows_);
+  return blocks_.begin() + block_start_[static_cast<std::size_t>(column - first_column_) * block_rows_ + in_column];
 }
 
 void LayoutIndex::BuildBlocks() {
+  if (objects_.empty()) return;
   blocks_.reserve(objects_.size());
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     const Vec3& p = objects_[i].position;
-    blocks_.push_back({Key(Block(p.x()), Block(p.y())), static_cast<int>(i)});
+    blocks_.push_back({Block(p.x()), Block(p.y()), static_cast<int>(i)});
   }
-  std::sort(blocks_.begin(), blocks_.end(),
-            [](const InBlock& a, const InBlock& b) { return a.key != b.key ? a.key < b.key : a.object < b.object; });
+  std::sort(blocks_.begin(), blocks_.end());
+  const auto [low, high] =
+      std::minmax_element(blocks_.begin(), blocks_.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+  first_column_ = blocks_.front().column;
+  last_column_ = blocks_.back().column;
+  first_row_ = low->row;
+  block_rows_ = high->row - low->row + 1;
+  const double columns = last_column_ - first_column_ + 1.;
+  if (columns * block_rows_ > MaxCells(objects_.size())) return;
+  block_start_.assign(static_cast<std::size_t>(columns) * block_rows_ + 1, 0);
+  for (const InBlock& entry : blocks_)
+    ++block_start_[static_cast<std::size_t>(entry.column - first_column_) * block_rows_ + entry.row - first_row_ + 1];
+  for (std::size_t i = 1; i < block_start_.size(); ++i) block_start_[i] += block_start_[i - 1];
 }
 
 bool LayoutIndex::Known(double x, double y) const {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
-  for (std::int64_t column = Block(x) - 1; column <= Block(x) + 1; ++column) {
-    const auto first = FirstBlock(Key(column, Block(y) - 1));
-    if (first != blocks_.end() && first->key <= Key(column, Block(y) + 1)) return true;
-  }
+  const int row = Block(y), middle = Block(x);
+  for (int column = std::max(middle - 1, first_column_); column <= std::min(middle + 1, last_column_); ++column)
+    if (FirstInBlock(column, row - 1) != FirstInBlock(column, row + 2)) return true;
   return false;
 }
 

@@ -17,6 +17,7 @@ constexpr double kGate = 3.;        // matched within so many standard deviation
 double HeightSigma(double sigma) { return 0.06 + 0.4 * sigma; }
 
 std::vector<Vec2> ConvexHull(std::vector<Vec2> points) {
+  if (points.empty()) return {};
   std::sort(points.begin(), points.end(),
             [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
   const auto cross = [](const Vec2& o, const Vec2& a, const Vec2& b) {
@@ -33,15 +34,6 @@ std::vector<Vec2> ConvexHull(std::vector<Vec2> points) {
     std::reverse(points.begin(), points.end());
   }
   return hull;
-}
-
-// Within a convex polygon, or so close to it.
-bool Inside(const std::vector<Vec2>& hull, double margin, double x, double y) {
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
-    if (edge.x() * (y - a.y()) - edge.y() * (x - a.x()) < -margin * edge.norm()) return false;
-  }
-  return true;
 }
 
 // Probability of one sequence of `yes` and `no` outcomes whose rate is unknown: log of the Beta-binomial.
@@ -122,20 +114,34 @@ YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to)
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                    const LayoutLikelihoodOptions& options)
     : local_(local), index_(index), options_(options) {
-  for (const auto& [label, count] : index.label_counts()) label_share_[label] = count;
-  for (const LayoutObject& object : local) label_share_[object.label] += 0;
-  const double total = static_cast<double>(index.objects().size() + label_share_.size());
-  for (auto& [label, share] : label_share_) share = (share + 1) / total;
+  PrepareLabels();
   PrepareHeadings();
-  std::vector<Vec2> points;
-  for (const LayoutObject& object : local) points.push_back(object.position.head<2>());
-  hull_ = ConvexHull(points);
+  PrepareHull();
+  for (std::size_t n = 0; n <= local.size(); ++n)
+    none_mapped_.push_back(LogBetaBinomial(0, static_cast<double>(n), options_.mapped_prior, options_.unmapped_prior));
 }
 
-double LayoutLikelihood::LabelGain(int local_label, int global_label) const {
-  if (label_share_.size() < 2) return 0;
-  if (local_label == global_label) return std::log((1 - options_.wrong_label) / label_share_.at(local_label));
-  return std::log(options_.wrong_label);
+void LayoutLikelihood::PrepareLabels() {
+  std::map<int, double> share;
+  for (const auto& [label, count] : index_.label_counts()) share[label] = count;
+  for (const LayoutObject& object : local_) share[object.label] += 0;
+  const double total = static_cast<double>(index_.objects().size() + share.size());
+  const bool tells = share.size() > 1;
+  if (tells) other_label_ = std::log(options_.wrong_label);
+  for (const LayoutObject& object : local_) {
+    const double expected = (share[object.label] + 1) / total;
+    equal_label_.push_back(tells ? std::log((1 - options_.wrong_label) / expected) : 0.);
+  }
+}
+
+void LayoutLikelihood::PrepareHull() {
+  std::vector<Vec2> points;
+  for (const LayoutObject& object : local_) points.push_back(object.position.head<2>());
+  corners_ = ConvexHull(points);
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vec2 along = corners_[(i + 1) % corners_.size()] - corners_[i];
+    hull_.push_back({corners_[i], along, -kHullMargin * along.norm()});
+  }
 }
 
 // log density of a local object's heading, were the local objects others of the same kind: they then face as the map's
@@ -187,7 +193,7 @@ double LayoutLikelihood::Appearance(int i, int j) const {
   return known->second;
 }
 
-std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose) const {
+std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose, bool with_view) const {
   std::vector<Candidate> candidates;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   const double reach2 = index_.reach() * index_.reach();
@@ -201,9 +207,9 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       const double d2 = dx * dx + dy * dy;
       if (d2 >= reach2) continue;
       const int local = static_cast<int>(i);
-      const double gain =
-          LabelGain(local_[i].label, object.label) + HeadingGain(local, object, pose.yaw) + Appearance(local, j);
-      candidates.push_back({local, j, d2, dz * dz, gain, 0, InView(object.position, pose.t, c, s)});
+      const double label = local_[i].label == object.label ? equal_label_[i] : other_label_;
+      const double gain = label + HeadingGain(local, object, pose.yaw) + Appearance(local, j);
+      candidates.push_back({local, j, d2, dz * dz, gain, with_view && InView(object.position, pose.t, c, s)});
     }
   }
   return candidates;
@@ -213,7 +219,8 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
 int LayoutLikelihood::CountInView(const YawShift& pose) const {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   Eigen::AlignedBox2d box;
-  for (const Vec2& p : hull_) box.extend(Vec2(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y()));
+  for (const Vec2& p : corners_)
+    box.extend(Vec2(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y()));
   int count = 0;
   const Vec2 margin(kHullMargin, kHullMargin);
   index_.VisitBox(box.min() - margin, box.max() + margin,
@@ -223,66 +230,82 @@ int LayoutLikelihood::CountInView(const YawShift& pose) const {
 
 bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, double s) const {
   const double dx = global.x() - t.x(), dy = global.y() - t.y();
-  return Inside(hull_, kHullMargin, c * dx + s * dy, -s * dx + c * dy);
+  const double x = c * dx + s * dy, y = -s * dx + c * dy;
+  return std::all_of(hull_.begin(), hull_.end(), [&](const Edge& edge) {
+    return !(edge.along.x() * (y - edge.from.y()) - edge.along.y() * (x - edge.from.x()) < edge.least);
+  });
 }
 
 // Local objects that fall where the map knows the surroundings: about the others it says nothing.
 int LayoutLikelihood::OnMap(const YawShift& pose) const {
   if (!options_.leave_map) return static_cast<int>(local_.size());
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   return static_cast<int>(std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
-    const Vec3 p = Apply(pose, object.position);
-    return index_.Known(p.x(), p.y());
+    const Vec3& p = object.position;
+    return index_.Known(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y());
   }));
 }
 
 // Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what the shares of
 // mapped and of seen objects say.
-LayoutFit LayoutLikelihood::Assign(std::vector<Candidate> candidates, int in_view, int on_map, double sigma) const {
+LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
+                                   double sigma) const {
   const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
   const double constant = -std::log(2 * kPi * sigma * sigma * index_.density());
   const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z), wrong = options_.wrong_height;
-  for (Candidate& candidate : candidates) {
+  const double most_by_height = std::log(wrong + (1 - wrong) * background_z / sigma_z) + 1e-9;
+  struct Ranked {
+    double gain;
+    const Candidate* candidate;
+  };
+  std::vector<Ranked> ranked;
+  ranked.reserve(candidates.size());
+  for (const Candidate& candidate : candidates) {
+    const double without_height = constant - 0.5 * candidate.d2 / (sigma * sigma);
+    if (without_height + most_by_height + candidate.semantic_gain < options_.min_gain) continue;
     const double height_ratio = background_z / sigma_z * std::exp(per_z2 * candidate.z2);
-    candidate.gain = constant - 0.5 * candidate.d2 / (sigma * sigma) + std::log(wrong + (1 - wrong) * height_ratio) +
-                     candidate.semantic_gain;
+    const double gain = without_height + std::log(wrong + (1 - wrong) * height_ratio) + candidate.semantic_gain;
+    if (!(gain < options_.min_gain)) ranked.push_back({gain, &candidate});
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    return a.gain != b.gain ? a.gain > b.gain : a.candidate < b.candidate;
+  });
   const double n_local = on_map;
   double all = in_view;
-  double score = LogBetaBinomial(0, n_local, options_.mapped_prior, options_.unmapped_prior) +
-                 LogBetaBinomial(0, all, options_.seen_prior, options_.unseen_prior);
+  double score = none_mapped_[on_map];
+  if (in_view > 0) score += LogBetaBinomial(0, all, options_.seen_prior, options_.unseen_prior);
   LayoutFit fit;
   fit.sigma = sigma;
   fit.score = score;
   fit.should_see = static_cast<int>(all);
-  std::vector<std::pair<int, int>> matches;
-  for (const Candidate& candidate : candidates) {
-    if (candidate.gain < options_.min_gain) break;
-    const bool taken = std::any_of(matches.begin(), matches.end(), [&](const auto& match) {
-      return match.first == candidate.local || match.second == candidate.global;
-    });
+  std::vector<std::pair<int, int>>& matches = fit.matches;
+  std::size_t that_pay = 0;
+  for (const auto& [gain, candidate] : ranked) {
+    const int local = candidate->local, global = candidate->global;
+    const bool taken = std::any_of(matches.begin(), matches.end(),
+                                   [&](const auto& match) { return match.first == local || match.second == global; });
     if (taken) continue;
     const double n = static_cast<double>(matches.size());
-    score += candidate.gain + std::log((n + options_.mapped_prior) / (n_local - n - 1 + options_.unmapped_prior));
-    if (candidate.in_view) {
+    score += gain + std::log((n + options_.mapped_prior) / (n_local - n - 1 + options_.unmapped_prior));
+    if (candidate->in_view) {
       score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
     } else {
       score += std::log((n + options_.seen_prior) / (all + options_.seen_prior + options_.unseen_prior));
       all += 1;
     }
-    matches.push_back({candidate.local, candidate.global});
+    matches.push_back({local, global});
     if (score < fit.score) continue;
     fit.score = score;
-    fit.matches = matches;
+    that_pay = matches.size();
     fit.should_see = static_cast<int>(all);
   }
-  std::sort(fit.matches.begin(), fit.matches.end());
+  matches.resize(that_pay);
+  std::sort(matches.begin(), matches.end());
   return fit;
 }
 
 LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
-  const std::vector<Candidate> candidates = Candidates(pose);
+  const std::vector<Candidate> candidates = Candidates(pose, true);
   const int in_view = CountInView(pose);
   const int on_map = OnMap(pose);
   const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / index_.density();
@@ -307,34 +330,45 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   return best;
 }
 
+YawShift LayoutLikelihood::Align(const LayoutFit& fit) const {
+  std::vector<Vec3> from, to;
+  for (const auto& [i, j] : fit.matches) {
+    from.push_back(local_[i].position);
+    to.push_back(index_.objects()[j].position);
+  }
+  return AlignPoints(from, to);
+}
+
+// Matches by the likelihood, from where hard ones have led.
+LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
+  Settled best{pose, Evaluate(pose)};
+  for (int round = 0; round < 2 && best.fit.matches.size() >= 2; ++round) {
+    const YawShift moved = Align(best.fit);
+    LayoutFit better = Evaluate(moved);
+    if (better.score <= best.fit.score) break;
+    best = {moved, std::move(better)};
+  }
+  return best;
+}
+
+// Hard matches with a shrinking gate first, then the likelihood's own.
 LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
-  // Hard matches with a shrinking gate first, then the likelihood's own.
-  const auto align = [&](const std::vector<std::pair<int, int>>& matches) {
-    std::vector<Vec3> from, to;
-    for (const auto& [i, j] : matches) {
-      from.push_back(local_[i].position);
-      to.push_back(index_.objects()[j].position);
-    }
-    return AlignPoints(from, to);
-  };
+  std::vector<Waypoint> way;
+  std::shared_ptr<const Settled> end;
   double sigma = index_.reach() / kGate;
-  for (int round = 0; round < rounds; ++round) {
-    std::vector<Candidate> candidates = Candidates(pose);
-    for (Candidate& candidate : candidates) candidate.in_view = false;
-    const LayoutFit fit = Assign(std::move(candidates), 0, OnMap(pose), sigma);
+  for (int round = 0; round < rounds && end == nullptr; ++round) {
+    const LayoutFit fit = Assign(Candidates(pose, false), 0, OnMap(pose), sigma);
     if (fit.matches.size() < 2) break;
-    pose = align(fit.matches);
+    pose = Align(fit);
     sigma = std::max(0.33, 0.85 * sigma);
+    way.push_back({double(rounds), double(round), pose.yaw, pose.t.x(), pose.t.y(), pose.t.z()});
+    const auto known = been_here_.find(way.back());
+    if (known != been_here_.end()) end = known->second;
   }
-  LayoutFit fit = Evaluate(pose);
-  for (int round = 0; round < 2 && fit.matches.size() >= 2; ++round) {
-    const YawShift moved = align(fit.matches);
-    const LayoutFit better = Evaluate(moved);
-    if (better.score <= fit.score) break;
-    fit = better;
-    pose = moved;
-  }
-  return fit;
+  if (end == nullptr) end = std::make_shared<Settled>(Settle(pose));
+  for (const Waypoint& waypoint : way) been_here_.insert({waypoint, end});
+  pose = end->pose;
+  return end->fit;
 }
 
 }  // namespace sslcd

@@ -19,13 +19,13 @@ void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options) {
   visitor.Real("distinct_rad", options.distinct_rad, 0.001, 3.2, "... if they differ in yaw by less than this");
 }
 
-std::vector<PoseHypothesis> SearchPoses(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                                        const PoseSearchOptions& options, const LayoutLikelihoodOptions& weights) {
+std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood, const PoseSearchOptions& options) {
+  const std::vector<LayoutObject>& local = likelihood.local();
+  const LayoutIndex& index = likelihood.index();
   std::vector<PoseHypothesis> found;
   if (local.size() < 2 || index.objects().size() < 2) return found;
   Vec3 centre = Vec3::Zero();
   for (const LayoutObject& object : local) centre += object.position / static_cast<double>(local.size());
-  const LayoutLikelihood likelihood(local, index, weights);
   for (const CoarsePose& start : CoarsePoses(local, centre, index, options)) {
     PoseHypothesis hypothesis;
     YawShift& pose = hypothesis.pose;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "sslcd/core/pose.h"
 
@@ -25,43 +25,52 @@ void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
   visitor.Integer("max_tracks", options.max_tracks, 1, 10000, "hypotheses that are followed, the best ones");
 }
 
-void PoseTracks::Update(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                        const std::vector<PoseHypothesis>& found, const LayoutMatchOptions& match, double path_m,
-                        const Prior& prior) {
+void PoseTracks::Update(const LayoutLikelihood& likelihood, const std::vector<PoseHypothesis>& found,
+                        const PoseSearchOptions& search, double path_m, const Prior& prior) {
+  const std::vector<LayoutObject>& local = likelihood.local();
   if (local.empty()) return;
   const Vec3 centre = CentreOf(local);
   const auto near = [&](const YawShift& a, const YawShift& b, double distance, double angle) {
     return (Apply(a, centre) - Apply(b, centre)).head<2>().norm() < distance &&
            std::abs(WrapAngle(a.yaw - b.yaw)) < angle;
   };
-  const LayoutLikelihood likelihood(local, index, match.likelihood);
   std::vector<int> ids;
   for (const LayoutObject& object : local) ids.push_back(object.id);
+  // Tracks that are as old have seen the same local maps: how many different objects these had is counted once.
+  std::map<double, double> different_since;
+  const auto different = [&](const std::vector<PoseTrack::Vote>& votes) {
+    const auto [known, fresh] = different_since.insert({votes.front().path_m, 0});
+    if (fresh) {
+      std::vector<int> all;
+      for (const PoseTrack::Vote& vote : votes) all.insert(all.end(), vote.objects.begin(), vote.objects.end());
+      std::sort(all.begin(), all.end());
+      known->second = static_cast<double>(std::unique(all.begin(), all.end()) - all.begin());
+    }
+    return known->second;
+  };
   std::vector<PoseTrack> now;
   const auto add = [&](PoseTrack track, const YawShift& pose, const LayoutFit& fit) {
     for (const PoseTrack& other : now)
-      if (near(other.pose, pose, match.search.distinct_m, match.search.distinct_rad)) return;
+      if (near(other.pose, pose, search.distinct_m, search.distinct_rad)) return;
     track.pose = pose;
     track.fit = fit;
     track.votes.push_back({path_m, fit.score, ids});
     while (path_m - track.votes.front().path_m > options_.agree_m) track.votes.erase(track.votes.begin());
     double scores = 0, objects = 0;
-    std::set<int> different;
     for (const PoseTrack::Vote& vote : track.votes) {
       scores += vote.score;
       objects += static_cast<double>(vote.objects.size());
-      different.insert(vote.objects.begin(), vote.objects.end());
     }
     track.prior = prior(pose, fit);
-    track.evidence = track.prior + fit.evidence - fit.score + scores * static_cast<double>(different.size()) / objects;
+    track.evidence = track.prior + fit.evidence - fit.score + scores * different(track.votes) / objects;
     now.push_back(std::move(track));
   };
-  for (const PoseTrack& track : tracks_) {
+  for (PoseTrack& track : tracks_) {
     YawShift pose = track.pose;
     LayoutFit fit = likelihood.Refine(pose, 4);
     if (!near(pose, track.pose, options_.step_m, options_.step_rad)) continue;
-    if (static_cast<int>(fit.matches.size()) < match.search.min_matches) continue;
-    add(track, pose, fit);
+    if (static_cast<int>(fit.matches.size()) < search.min_matches) continue;
+    add(std::move(track), pose, fit);
   }
   for (const PoseHypothesis& hypothesis : found) {
     PoseTrack track;

@@ -9,6 +9,7 @@
 #include "pipeline/loop_graph.h"
 #include "pipeline/loop_prior.h"
 #include "pipeline/move.h"
+#include "pipeline/refine.h"
 
 namespace sslcd {
 namespace {
@@ -61,6 +62,11 @@ bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timin
   const bool moved = !Agree();
   if (moved) Correct(scale);
   const bool fused = Fuse();
+  if (moved && options_.mode != Options::Mode::kPaper) {
+    const Pose before = frames_.back().T_world_cam;
+    OptimiseAfterLoop(map_, frames_, scale, options_);
+    tracks_.Move(LayoutChange(before, frames_.back().T_world_cam, map_.gravity()));
+  }
   return moved || fused;
 }
 
@@ -74,11 +80,14 @@ bool LoopCloser::Detect(double lag_m) {
   if (static_cast<int>(std::min(local.objects.size(), global.objects.size())) < few) return false;
 
   const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
-  std::vector<PoseHypothesis> found = SearchPoses(local.objects, index, o.match.search, o.match.likelihood);
+  const LayoutLikelihood likelihood(local.objects, index, o.match.likelihood);
+  PoseSearchOptions search = o.match.search;  // the tracks of earlier attempts need not be found again
+  search.refine = std::min(search.refine, 2 * o.tracks.max_tracks);
+  std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
   PoseHypothesis as_believed;  // the camera may be where it believes to be
-  as_believed.fit = LayoutLikelihood(local.objects, index, o.match.likelihood).Refine(as_believed.pose, 4);
+  as_believed.fit = likelihood.Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
-  tracks_.Update(local.objects, index, found, o.match, here,
+  tracks_.Update(likelihood, found, search, here,
                  OdometryPrior(passes_, path_.From(here), local, global, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 

@@ -105,8 +105,9 @@ std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int,
   return seen;
 }
 
-BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options) {
-  const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
+// Objects that are not yet, or never, in the map go along with the cameras that have seen them.
+BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
+                   double& log_scale, const Options& options) {
   BaProblem problem = FullProblem(map, frames, keyframes, log_scale, options);
   BaSummary summary = SolveBa(problem, options.ba);
   if (summary.usable && options.map.learn_noise) {
@@ -117,7 +118,9 @@ BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, double& log
   if (!summary.usable) return summary;
   std::vector<Pose> poses;
   for (const BaCamera& camera : problem.cameras) poses.push_back(camera.T_world_cam);
+  const std::vector<Pose> before = PosesOf(frames);
   MoveKeyframes(frames, keyframes, poses);
+  MoveObjects(map, frames, before, options.noise);
   std::map<int, Pose> cameras;
   for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
   for (BaObject& object : problem.objects) {
@@ -209,16 +212,31 @@ void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const O
 
 }  // namespace
 
+BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale, const Options& options) {
+  constexpr double kTurn = 0.5;  // [rad] that makes a keyframe, as in the pose graph
+  constexpr int kMaxSteps = 4;   // from where the pose graph has left everything; more of them change next to nothing
+  const std::vector<int> keyframes = SelectKeyframes(frames, options.loop.keyframe_m, kTurn);
+  if (static_cast<int>(keyframes.size()) > options.loop.adjust_keyframes) return {};
+  Options after_loop = options;
+  after_loop.map.learn_noise = false;
+  after_loop.ba.max_iterations = std::min(options.ba.max_iterations, kMaxSteps);
+  after_loop.ba.odometry = options.loop.odometry;
+  after_loop.ba.odometry.scale_prior = 0;  // the scale stays
+  double log_scale = std::log(scale);
+  return Optimise(map, frames, keyframes, log_scale, after_loop);
+}
+
 BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
                     const Camera* camera) {
   ConfirmAll(map, options);
-  BaSummary summary = Optimise(map, frames, log_scale, options);
+  const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
+  BaSummary summary = Optimise(map, frames, keyframes, log_scale, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
     RejectMoved(map, frames, options);
     FuseDuplicates(map, frames, options);
     AssociateAnew(map, frames, options, camera);
     ConfirmAll(map, options);
-    summary = Optimise(map, frames, log_scale, options);
+    summary = Optimise(map, frames, keyframes, log_scale, options);
   }
   return summary;
 }

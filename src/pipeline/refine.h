@@ -13,4 +13,9 @@ namespace sslcd {
 BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
                     const Camera* camera);
 
+/// Cameras and objects after a loop has moved them: a bundle adjustment over a keyframe every
+/// `options.loop.keyframe_m`, a few steps, with the scale as it is and odometry as loose as in the pose graph. Not
+/// usable, and nothing moves, where there are more keyframes than `options.loop.adjust_keyframes`.
+BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale, const Options& options);
+
 }  // namespace sslcd

@@ -12,11 +12,16 @@ namespace {
 
 const YawShift kPose{-1.2, {-300, 200, 3}};
 
+std::vector<PoseHypothesis> Search(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& map,
+                                   const PoseSearchOptions& options = {}) {
+  return SearchPoses(LayoutLikelihood(local, LayoutIndex(map, 50, 2), {}), options);
+}
+
 TEST(SearchPoses, TheTruthComesFirst) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const std::vector<LayoutObject> map = Strewn(80, 80, seed);
     const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 0}, 18, 0.2, seed);
-    const std::vector<PoseHypothesis> found = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+    const std::vector<PoseHypothesis> found = Search(local, map);
     ASSERT_FALSE(found.empty());
     EXPECT_LT(ShiftBetween(found[0].pose, kPose, local[0].position), 1.) << "seed " << seed;
   }
@@ -27,7 +32,7 @@ TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
   for (int i = 0; i < 48; ++i) grid.push_back(ObjectAt({2.5 * (i % 8), 6. * (i / 8), 0}));
   const std::vector<LayoutObject> local(grid.begin(), grid.begin() + 20);
   const PoseSearchOptions options;
-  const std::vector<PoseHypothesis> found = SearchPoses(local, LayoutIndex(grid, 50, 2), options, {});
+  const std::vector<PoseHypothesis> found = Search(local, grid, options);
   ASSERT_GT(found.size(), 4u);
   Vec3 centre = Vec3::Zero();
   for (const LayoutObject& object : local) centre += object.position / 20.;
@@ -44,9 +49,9 @@ TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
 TEST(SearchPoses, TheOrderOfTheObjectsDoesNotMatter) {
   const std::vector<LayoutObject> map = Strewn(60, 70, 4);
   std::vector<LayoutObject> local = SeenFrom(map, kPose, {0, 0}, 18, 0.2, 5);
-  const auto a = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+  const auto a = Search(local, map);
   std::reverse(local.begin(), local.end());
-  const auto b = SearchPoses(local, LayoutIndex(map, 50, 2), {}, {});
+  const auto b = Search(local, map);
   ASSERT_FALSE(a.empty());
   ASSERT_FALSE(b.empty());
   EXPECT_LT(ShiftBetween(a[0].pose, b[0].pose, local[0].position), 0.05);
@@ -55,9 +60,9 @@ TEST(SearchPoses, TheOrderOfTheObjectsDoesNotMatter) {
 
 TEST(SearchPoses, NothingIsFoundInNothing) {
   const std::vector<LayoutObject> map = Strewn(30, 60, 1);
-  EXPECT_TRUE(SearchPoses({}, LayoutIndex(map, 50, 2), {}, {}).empty());
-  EXPECT_TRUE(SearchPoses(map, LayoutIndex({}, 50, 2), {}, {}).empty());
-  EXPECT_TRUE(SearchPoses({map[0]}, LayoutIndex({map[0]}, 50, 2), {}, {}).empty());
+  EXPECT_TRUE(Search({}, map).empty());
+  EXPECT_TRUE(Search(map, {}).empty());
+  EXPECT_TRUE(Search({map[0]}, {map[0]}).empty());
 }
 
 }  // namespace

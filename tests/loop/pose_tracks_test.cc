@@ -32,10 +32,11 @@ struct Attempts {
     return SeenFrom(map, kPose, {x, y}, radius_m, 0.1, 2);
   }
   void Update(const std::vector<LayoutObject>& local, double path_m, const PoseTracks::Prior& prior = NoPrior) {
-    tracks.Update(local, index, MatchLayouts(local, index, match).hypotheses, match, path_m, prior);
+    const LayoutLikelihood likelihood(local, index, match.likelihood);
+    tracks.Update(likelihood, SearchPoses(likelihood, match.search), match.search, path_m, prior);
   }
   void UpdateWithoutSearch(const std::vector<LayoutObject>& local, double path_m) {
-    tracks.Update(local, index, {}, match, path_m, NoPrior);
+    tracks.Update(LayoutLikelihood(local, index, match.likelihood), {}, match.search, path_m, NoPrior);
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -55,19 +55,15 @@ class LayoutIndex {
     return {cell_objects_.data() + cell_start_[cell], cell_objects_.data() + cell_start_[cell + 1]};
   }
 
-  /// Calls visit(index) for the objects in a box, and for a few more. O(columns of 10 m * log n + objects visited).
+  /// Calls visit(index) for the objects in a box, and for a few more. O(columns of 10 m + objects visited).
   template <class Visitor>
   void VisitBox(const Vec2& low, const Vec2& high, Visitor&& visit) const {
     if (!low.allFinite() || !high.allFinite()) return;
-    const std::int64_t bottom = Block(low.y()), top = Block(high.y()), end = Key(Block(high.x()), top);
-    auto it = FirstBlock(Key(Block(low.x()), bottom));
-    while (it != blocks_.end() && it->key <= end) {
-      const std::int64_t column = it->key >> 32, row = it->key & 0xffffffff;
-      if (row >= bottom && row <= top)
-        visit((it++)->object);
-      else
-        it = FirstBlock(Key(row < bottom ? column : column + 1, bottom));
-    }
+    const int bottom = Block(low.y()), top = Block(high.y());
+    const int left = std::max(Block(low.x()), first_column_), right = std::min(Block(high.x()), last_column_);
+    for (int column = left; column <= right; ++column)
+      for (auto it = FirstInBlock(column, bottom), end = FirstInBlock(column, top + 1); it != end; ++it)
+        visit(it->object);
   }
 
   /// Is the point among mapped objects, or does it lie beyond the map's rim (no object within 10 to 20 m)?
@@ -95,12 +91,13 @@ class LayoutIndex {
 
  private:
   struct InBlock {
-    std::int64_t key;
-    int object;
+    int column, row, object;
+    bool operator<(const InBlock& o) const {
+      return column != o.column ? column < o.column : row != o.row ? row < o.row : object < o.object;
+    }
   };
-  static std::int64_t Block(double coordinate);
-  static std::int64_t Key(std::int64_t column, std::int64_t row) { return column << 32 | row; }
-  std::vector<InBlock>::const_iterator FirstBlock(std::int64_t key) const;
+  static int Block(double coordinate);
+  std::vector<InBlock>::const_iterator FirstInBlock(int column, int row) const;  // of this block or a later one
   void CountProperties();
   void BuildBlocks();
   void BuildGrid();
@@ -113,6 +110,8 @@ class LayoutIndex {
   std::vector<LayoutPoint> points_;
   double max_pair_, reach_;
   std::vector<InBlock> blocks_;  // each object once, by column, then row of blocks
+  int first_column_ = 0, last_column_ = -1, first_row_ = 0, block_rows_ = 0;
+  std::vector<int> block_start_;  // of each block in blocks_; empty where the map has next to nothing but gaps
   double per_cell_ = 1, min_x_ = 0, min_y_ = 0;
   int columns_ = 0, rows_ = 0;
   std::vector<int> cell_start_, cell_objects_;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -38,45 +39,63 @@ struct LayoutFit {
   int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
 };
 
+/// Of one local layout on one map; refers to both.
 class LayoutLikelihood {
  public:
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                    const LayoutLikelihoodOptions& options);
 
+  const std::vector<LayoutObject>& local() const { return local_; }
+  const LayoutIndex& index() const { return index_; }
+
   /// Matches under `pose` and what they say.
   LayoutFit Evaluate(const YawShift& pose) const;
 
-  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates there.
+  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates there. Remembers the way:
+  /// a start that leads to a pose where an earlier one has been costs little.
   LayoutFit Refine(YawShift& pose, int rounds) const;
-
-  /// Weight of a match by label alone: 1 for equal labels.
-  double LabelGain(int local_label, int global_label) const;
 
  private:
   struct Candidate {
     int local, global;
     double d2, z2;         // squared distance, horizontal and vertical [m^2]
     double semantic_gain;  // label, heading, appearance [nats]
-    double gain;
-    bool in_view;  // the map's object lies among the local ones
+    bool in_view;          // the map's object lies among the local ones
   };
-  std::vector<Candidate> Candidates(const YawShift& pose) const;
+  struct Edge {  // of the hull
+    Vec2 from, along;
+    double least;  // cross product with it of what is inside
+  };
+  struct Settled {
+    YawShift pose;
+    LayoutFit fit;
+  };
+  using Waypoint = std::array<double, 6>;  // rounds asked for, round, pose
+  std::vector<Candidate> Candidates(const YawShift& pose, bool with_view) const;
+  Settled Settle(const YawShift& pose) const;
+  YawShift Align(const LayoutFit& fit) const;
+  void PrepareLabels();
   void PrepareHeadings();
+  void PrepareHull();
   double HeadingGain(int local, const LayoutObject& global, double yaw) const;
   double Appearance(int local, int global) const;
   int OnMap(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
-  LayoutFit Assign(std::vector<Candidate> candidates, int in_view, int on_map, double sigma) const;
+  LayoutFit Assign(const std::vector<Candidate>& candidates, int in_view, int on_map, double sigma) const;
 
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
   static constexpr int kHeadings = 72;
-  std::map<int, double> label_share_;
-  std::vector<double> chance_heading_;                        // of each local object: log density [1/rad]
+  std::vector<double> equal_label_;     // gain of each local object where its label is right; 0 if there is but one
+  double other_label_ = 0;              // ... and where it is wrong
+  std::vector<double> chance_heading_;  // of each local object: log density [1/rad]
+  std::vector<Vec2> corners_;           // of the local objects' convex hull, counter-clockwise
+  std::vector<Edge> hull_;
+  std::vector<double> none_mapped_;                           // log probability that none of so many is mapped
   mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
-  std::vector<Vec2> hull_;                                    // of the local objects, counter-clockwise
+  mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;  // where a way through a pose has led
 };
 
 /// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points; else yaw 0.

@@ -32,9 +32,8 @@ struct PoseHypothesis {
   LayoutFit fit;  ///< how well the layouts agree under it
 };
 
-/// Distinct poses, best first. `index` holds the global map. O(pairs of equal distance), in large maps
-/// O(triangles of equal sides).
-std::vector<PoseHypothesis> SearchPoses(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                                        const PoseSearchOptions& options, const LayoutLikelihoodOptions& likelihood);
+/// Distinct poses of `likelihood.local()` in `likelihood.index()`, best first. O(pairs of equal distance), in large
+/// maps O(triangles of equal sides).
+std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood, const PoseSearchOptions& options);
 
 }  // namespace sslcd

@@ -14,7 +14,7 @@ struct PoseTrackOptions {
   double agree_m = 100.;   ///< what lies further back does not count any more
   double step_m = 3.;      ///< a hypothesis that jumps by more than this is another one
   double step_rad = 0.15;  ///< ... or turns by more
-  int max_tracks = 50;     ///< the best ones are followed
+  int max_tracks = 20;     ///< the best ones are followed
 };
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options);
 
@@ -44,10 +44,9 @@ class PoseTracks {
 
   explicit PoseTracks(const PoseTrackOptions& options) : options_(options) {}
 
-  /// One more attempt, after `path_m` of path, and the hypotheses it has found.
-  void Update(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-              const std::vector<PoseHypothesis>& found, const LayoutMatchOptions& match, double path_m,
-              const Prior& prior);
+  /// One more attempt, after `path_m` of path, and the hypotheses it has found by `likelihood`.
+  void Update(const LayoutLikelihood& likelihood, const std::vector<PoseHypothesis>& found,
+              const PoseSearchOptions& search, double path_m, const Prior& prior);
 
   /// Best first.
   const std::vector<PoseTrack>& tracks() const { return tracks_; }

@@ -59,7 +59,9 @@ struct LoopOptions {
   /// more than what the sliding window has to expect over metres.
   OdometryNoise odometry;
   RobustPoseGraphOptions graph;
-  PaperMatchOptions paper;  ///< of mode: paper
+  int adjust_keyframes = 500;  ///< a run of so many keyframes at most has all cameras and objects adjusted after a loop
+                               ///< has moved them; a longer one not before the end
+  PaperMatchOptions paper;     ///< of mode: paper
 
   LoopOptions();
 };
