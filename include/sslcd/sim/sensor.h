@@ -35,7 +35,9 @@ struct DetectorNoise {
   double max_range_m = 60.;
   double miss_rate_near = 0.03;  ///< chance to miss a visible object at range 0 ...
   double miss_rate_far = 0.5;    ///< ... and at the maximal range
+  double miss_rate_hidden = 0;   ///< further chance to miss what is all but hidden; half of it for what is half hidden
   double min_visible = 0.25;     ///< less than this fraction in the image or not hidden by nearer objects: not seen
+  double wrong_label = 0;        ///< car for van, pole for tree and the like, where the world has both classes
   double false_positives = 0.2;  ///< mean number per frame
 };
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise);
