@@ -20,12 +20,14 @@ class OptionAdder : public FieldVisitor {
   void Text(const char* key, std::string& value, const char* meaning) override { Add(key, value, meaning); }
   void Flag(const char* key, bool& value, const char* meaning) override { Add(key, value, meaning); }
   void Choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
-  void Section(const char*, const char*, const std::function<void(FieldVisitor&)>&) override {
-  }  // too detailed for here
+  void Section(const char*, const char*, const std::function<void(FieldVisitor&)>& describe) override {
+    describe(*this);
+  }
 
  private:
   template <class T>
   void Add(std::string key, T& value, const char* meaning) {
+    if (key == "initial_scale") return;  // of the estimator that shares the table of detection sigmas
     std::replace(key.begin(), key.end(), '_', '-');
     app_.add_option("--" + key, value, meaning)->capture_default_str();
   }

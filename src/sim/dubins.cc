@@ -24,7 +24,8 @@ std::vector<PathPiece> Word(const Path::Point& from, const Path::Point& to, doub
   const double distance = between.norm(), across = first == last ? 0 : 2 * radius;
   if (distance < across) return {};
   const double line = std::sqrt(distance * distance - across * across);
-  const double heading = std::atan2(between.y(), between.x()) + first * std::atan2(across, line);
+  const double heading =
+      distance < 1e-9 ? from.heading : std::atan2(between.y(), between.x()) + first * std::atan2(across, line);
   return {{radius * Positive(first * (heading - from.heading)), first / radius},
           {line, 0},
           {radius * Positive(last * (to.heading - heading)), last / radius}};

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/sim/halv.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "sim/check_fields.h"
 #include "sim/halv_course.h"
 #include "sim/streams.h"
@@ -13,6 +17,8 @@ OdometryNoise Scaled(OdometryNoise noise, double factor) {
   noise.heading_rad_per_sqrt_m *= factor;
   noise.tilt_rad_per_sqrt_m *= factor;
   noise.position_m_per_sqrt_m *= factor;
+  noise.wander_rad_per_m *= factor;
+  noise.wander_scale *= factor;
   return noise;
 }
 
@@ -35,26 +41,32 @@ DetectorNoise HalvDetector() {
   return noise;
 }
 
-Trajectory SimulateOdometryWithAte(const Trajectory& truth, const OdometryNoise& shape, double ate_m,
-                                   std::uint64_t seed) {
-  CheckFields(shape);
-  // The ATE grows with the factor, nearly in proportion: false position, kept between two bounds.
-  double low = 0, high = 1;
-  constexpr double kLargest = 100;
-  const auto ate = [&](double factor) { return AteOf(SimulateOdometry(truth, Scaled(shape, factor), seed), truth); };
-  while (ate(high) < ate_m) {
-    low = high, high *= 2;
-    if (high > kLargest) {
-      throw Error(ErrorKind::kUsage,
-                  "the odometry cannot be made to drift by so much: lower --ate-m, or raise its noise "
-                  "(--heading-rad-per-sqrt-m, ...)");
-    }
+CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const OdometryNoise& shape, double ate_m,
+                                           double spread, std::uint64_t seed) {
+  constexpr int kDraws = 30, kRounds = 4, kPatience = 1000;
+  constexpr double kLargestFactor = 20, kTolerance = 0.03;
+  const auto drift = [&](double factor, int draw) {
+    return SimulateOdometry(truth, Scaled(shape, factor), seed * kPatience + draw);
+  };
+  double factor = 1;
+  for (int round = 0; round < kRounds; ++round) {  // the ATE is nearly proportional to the factor
+    double sum = 0;
+    for (int draw = 0; draw < kDraws; ++draw) sum += AteOf(drift(factor, draw), truth);
+    factor *= ate_m * kDraws / std::max(sum, 1e-9);
+    if (factor > kLargestFactor)
+      throw Error(ErrorKind::kUsage, "the odometry cannot drift by so much: lower --ate-m, or raise its noise");
   }
-  for (int i = 0; i < 25; ++i) {
-    const double middle = 0.5 * (low + high);
-    (ate(middle) < ate_m ? low : high) = middle;
+  const double wanted = ate_m * Random(seed, kDriftStream).Uniform(1 - spread, 1 + spread);
+  Trajectory best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int draw = 0; draw < kPatience && nearest > kTolerance * ate_m; ++draw) {
+    Trajectory odometry = drift(factor, draw);
+    const double off = std::abs(AteOf(odometry, truth) - wanted);
+    if (off >= nearest) continue;
+    nearest = off;
+    best = std::move(odometry);
   }
-  return SimulateOdometry(truth, Scaled(shape, high), seed);
+  return {std::move(best), factor};
 }
 
 HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
@@ -64,13 +76,10 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
   sequence.scene = MakeHalvWorld(seed, options.scene);
   const World& world = sequence.scene.world;
   const HalvDrift& drift = options.drift;
-  if (drift.ate_m == 0) {
-    sequence.odometry = SimulateOdometry(world.truth, drift.shape, seed);
-  } else {
-    const double mean = drift.ate_m < 0 ? HalvAte(options.scene.case_number) : drift.ate_m;
-    const double factor = Random(seed, kDriftStream).Uniform(1 - drift.ate_spread, 1 + drift.ate_spread);
-    sequence.odometry = SimulateOdometryWithAte(world.truth, drift.shape, mean * factor, seed);
-  }
+  const double ate = drift.ate_m < 0 ? HalvAte(options.scene.case_number) : drift.ate_m;
+  sequence.odometry = ate == 0
+                          ? SimulateOdometry(world.truth, drift.shape, seed)
+                          : SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed).odometry;
   sequence.detections = SimulateDetections(world, options.detector, seed);
   AddAppearance(world, options.appearance, seed, sequence.detections);
   return sequence;
@@ -80,7 +89,7 @@ void DescribeFields(FieldVisitor& visitor, HalvDrift& drift) {
   DescribeFields(visitor, drift.shape);
   visitor.Real("ate_m", drift.ate_m, -1, 1000,
                "mean ATE of the odometry over seeds, after Sim(3); -1: the case's; 0: the noise above as it is");
-  visitor.Real("ate_spread", drift.ate_spread, 0, 0.9, "a seed's ATE differs from the mean by up to this fraction");
+  visitor.Real("ate_spread", drift.ate_spread, 0, 0.5, "a seed's ATE differs from the mean by up to this fraction");
 }
 
 }  // namespace sslcd::sim

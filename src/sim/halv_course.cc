@@ -28,10 +28,10 @@ std::vector<PathPiece> Corners(const std::vector<double>& straights, int corners
 
 const HalvCase& HalvCaseOf(int number) {
   static const std::array<HalvCase, 4> kCases = {{
-      {"rectangle", Corners({52, 20, 52}, 3), 26, 26, 26, 60, 120, 1.670},
+      {"rectangle", Corners({52, 21.2, 52}, 3), 26, 26, 26, 60, 120, 1.670},
       {"straight out and back", {{90, 0}}, 50, 38, 44, 170, 180, 1.336},
       {"curve", {{12, 0}, {50, 1 / 30.}, {30, -1 / 22.}}, 26, 24, 30, 120, 170, 0.814},
-      {"small loop", Corners({20, 4, 20, 6}, 3), 14, 9, 26, 0, 45, 0.720},
+      {"small loop", Corners({20, 4.6, 20, 6}, 3), 14, 9, 26, 0, 45, 0.720},
   }};
   return kCases.at(number - 1);
 }

@@ -55,8 +55,8 @@ WorldObject& Park(World& world, Random& random, const HalvScene& scene, Slot slo
   }
   const Vec3 car = CarDims(random);
   const Vec3 dims = slot.label == "Car"   ? car
-                    : slot.label == "Van" ? Vec3(car + Vec3(0.5, 0.2, 0.5))
-                                          : Vec3(car + Vec3(0.9, 0.35, 1.1));
+                    : slot.label == "Van" ? Vec3(car + Vec3(0.4, 0.2, 0.5))
+                                          : Vec3(car + Vec3(0.6, 0.35, 1.1));
   const bool from_file = scene.layout != "lot" && scene.layout != "street";
   if (!from_file) {  // nobody parks exactly
     if (random.Chance(0.3)) slot.heading += M_PI;

@@ -161,7 +161,8 @@ class Detector {
 
 Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed) {
   CheckFields(noise);
-  Random random(seed, kOdometryStream);
+  Random random(seed, kOdometryStream), slow(seed, kWanderStream);
+  double heading_wander = slow.Normal(), scale_wander = slow.Normal();
   Trajectory odometry{truth.stamps, {}};
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i == 0) {
@@ -169,14 +170,20 @@ Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise,
       continue;
     }
     Pose step = truth.poses[i - 1].inverse() * truth.poses[i];
-    const double spread = std::sqrt(step.translation().norm());
+    const double length = step.translation().norm();
+    const double spread = std::sqrt(length);
     const auto walk = [&](double sigma) { return spread * random.Normal(0, sigma); };
     Pose::Tangent error;
     for (int axis : {0, 1, 2}) error[axis] = walk(noise.position_m_per_sqrt_m);
     error[3] = walk(noise.tilt_rad_per_sqrt_m);
     error[4] = walk(noise.heading_rad_per_sqrt_m);  // y is the vertical
     error[5] = walk(noise.tilt_rad_per_sqrt_m);
-    step.translation() *= 1 + noise.scale_error;
+
+    const double kept = std::exp(-length / noise.wander_m), fresh = std::sqrt(1 - kept * kept);
+    heading_wander = kept * heading_wander + fresh * slow.Normal();
+    scale_wander = kept * scale_wander + fresh * slow.Normal();
+    error[4] += noise.wander_rad_per_m * heading_wander * length;
+    step.translation() *= 1 + noise.scale_error + noise.wander_scale * scale_wander;
     odometry.poses.push_back(odometry.poses.back() * step * Pose::Exp(error));
   }
   return odometry;
@@ -203,6 +210,9 @@ void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
   visitor.Real("heading_rad_per_sqrt_m", noise.heading_rad_per_sqrt_m, 0, 1, "random walk of the odometry's heading");
   visitor.Real("tilt_rad_per_sqrt_m", noise.tilt_rad_per_sqrt_m, 0, 1, "random walk of its roll and pitch");
   visitor.Real("position_m_per_sqrt_m", noise.position_m_per_sqrt_m, 0, 10, "random walk of its position");
+  visitor.Real("wander_rad_per_m", noise.wander_rad_per_m, 0, 1, "slowly varying drift of its heading");
+  visitor.Real("wander_scale", noise.wander_scale, 0, 1, "slowly varying error of its scale");
+  visitor.Real("wander_m", noise.wander_m, 0.1, 1e6, "after so much path these are something else");
 }
 
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLength = 4.8, kWidth = 1.9;  // of a slot's vehicle [m]
 constexpr double kClearance = 1.2;             // from the camera's path to a vehicle
 constexpr double kStall = 2.6;                 // width of a stall
-constexpr double kAisles = 16;                 // from one aisle's middle to the next one's
+constexpr double kAisles = 16.6;               // from one aisle's middle to the next one's
 constexpr double kToStall = 5.5;               // from an aisle's middle to that of a stall
 constexpr double kAround = 14;                 // the car park goes on so far beyond the path
 constexpr double kSpace = 5.8;                 // a kerb-side parking space

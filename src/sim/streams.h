@@ -12,6 +12,7 @@ enum Stream {
   kAppearanceStream = 4,
   kChurnStream = 5,
   kDriftStream = 6,
+  kWanderStream = 7,
 };
 
 }  // namespace sslcd::sim

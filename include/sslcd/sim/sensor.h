@@ -12,12 +12,17 @@
 
 namespace sslcd::sim {
 
-/// How visual odometry goes wrong: a wrong scale, and random walks that grow with the square root of the distance.
+/// How visual odometry goes wrong: a wrong scale, random walks that grow with the square root of the distance, and
+/// errors that stay alike for a while.
 struct OdometryNoise {
   double scale_error = 0.03;  ///< every step is too long by this fraction (real stereo odometry: about 3 %)
   double heading_rad_per_sqrt_m = 5e-4;
   double tilt_rad_per_sqrt_m = 5e-5;    ///< roll and pitch
   double position_m_per_sqrt_m = 4e-3;  ///< each axis
+  // What a slowly varying bias leaves; it forgets itself over `wander_m`.
+  double wander_rad_per_m = 0;  ///< of the heading
+  double wander_scale = 0;      ///< of the scale
+  double wander_m = 40;
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
