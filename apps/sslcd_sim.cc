@@ -58,7 +58,8 @@ void WriteSimple(const sim::World& world, const Arguments& arguments) {
 void WriteHalv(const Arguments& arguments) {
   const sim::HalvSequence sequence = sim::MakeHalv(arguments.seed, arguments.halv);
   Write(sequence.scene.world, sequence.odometry, sequence.detections, arguments);
-  std::printf("the passes meet at %.0f degrees\n", sequence.scene.viewpoint_rad * 180 / M_PI);
+  std::printf("the passes meet at %.0f degrees, the odometry errs %.2f times as much as --wander-scale etc. say\n",
+              sequence.scene.viewpoint_rad * 180 / M_PI, sequence.drift_factor);
   if (sequence.scene.left_out > 0)
     std::printf("%d vehicles of %s left out: in the way, or twice in one place\n", sequence.scene.left_out,
                 arguments.halv.scene.layout.c_str());

@@ -77,9 +77,13 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
   const World& world = sequence.scene.world;
   const HalvDrift& drift = options.drift;
   const double ate = drift.ate_m < 0 ? HalvAte(options.scene.case_number) : drift.ate_m;
-  sequence.odometry = ate == 0
-                          ? SimulateOdometry(world.truth, drift.shape, seed)
-                          : SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed).odometry;
+  if (ate == 0) {
+    sequence.odometry = SimulateOdometry(world.truth, drift.shape, seed);
+  } else {
+    CalibratedOdometry result = SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed);
+    sequence.odometry = std::move(result.odometry);
+    sequence.drift_factor = result.factor;
+  }
   sequence.detections = SimulateDetections(world, options.detector, seed);
   AddAppearance(world, options.appearance, seed, sequence.detections);
   return sequence;

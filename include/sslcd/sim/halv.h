@@ -61,6 +61,7 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene = {});
 struct HalvSequence {
   HalvWorld scene;
   Trajectory odometry;
+  double drift_factor = 1;  ///< on the errors of HalvDrift::shape
   SimulatedDetections detections;
 };
 HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options = {});
