@@ -65,18 +65,20 @@ CosineStats Stats(const Mean& mean) { return {mean.value(), mean.sigma(), mean.c
 
 bool CalibrationRow::ok() const { return std::abs(reached - target) <= 0.1 * std::abs(target); }
 
-double MeanIou(const World& world, const SimulatedDetections& detections) {
-  Mean mean;
+DetectionStats MeasureDetections(const World& world, const SimulatedDetections& detections) {
+  Mean iou, flips;
   for (std::size_t frame = 0; frame < detections.frames.size(); ++frame) {
     for (const Detection& detection : detections.frames[frame]) {
       const int id = detections.identity[detection.row];
       if (id < 0 || !IsParkedCar(world.objects[id])) continue;
       const WorldObject& object = world.objects[id];
-      mean.Add(Iou3d(ToCuboid(world.truth.poses[frame] * detection.T_cam_object, detection.dims, world.gravity),
-                     ToCuboid(object.PoseAt(0), object.dims, world.gravity)));
+      const Cuboid seen = ToCuboid(world.truth.poses[frame] * detection.T_cam_object, detection.dims, world.gravity);
+      const Cuboid truth = ToCuboid(object.PoseAt(0), object.dims, world.gravity);
+      iou.Add(Iou3d(seen, truth));
+      flips.Add(std::abs(WrapAngle(seen.yaw - truth.yaw)) > M_PI / 2);
     }
   }
-  return mean.value();
+  return {iou.value(), flips.value()};
 }
 
 EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int pairs) {
@@ -106,7 +108,7 @@ std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options) {
   if (seeds < 1) throw Error(ErrorKind::kUsage, "seeds is " + std::to_string(seeds) + ": at least one is needed");
   std::vector<CalibrationRow> rows;
   std::vector<HalvSequence> sequences;
-  Mean iou;
+  Mean iou, flips;
   for (int number = 1; number <= 4; ++number) {
     options.scene.case_number = number;
     Mean ate;
@@ -114,13 +116,16 @@ std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options) {
       HalvSequence sequence = MakeHalv(seed, options);
       const World& world = sequence.scene.world;
       ate.Add(ComputeAte(sequence.odometry.poses, world.truth.poses, Alignment::kSim3).error.rmse);
-      iou.Add(MeanIou(world, sequence.detections));
+      const DetectionStats detections = MeasureDetections(world, sequence.detections);
+      iou.Add(detections.iou);
+      flips.Add(detections.flips);
       if (seed <= 3) sequences.push_back(std::move(sequence));
     }
     rows.push_back(
         {"case " + std::to_string(number) + ": ATE of the odometry after Sim(3) [m]", HalvAte(number), ate.value()});
   }
   rows.push_back({"mean 3D IoU of single detections of cars and vans", 0.45, iou.value()});
+  rows.push_back({"share of them that take front for back", 0.03, flips.value()});
   const EmbeddingStats cosines = MeasureEmbeddings(sequences, 60000);
   rows.push_back({"cosine of embeddings, same car, same side: mean", 0.75, cosines.same_side.mean});
   rows.push_back({"... standard deviation", 0.10, cosines.same_side.sigma});

@@ -93,7 +93,7 @@ class SimTest(CliCase):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         rows = result.stdout.splitlines()
         self.assertEqual(rows[0], '| what | target | reached | within 10 % |')
-        self.assertEqual(len(rows), 13)
+        self.assertEqual(len(rows), 14)
         self.assertEqual(sim('calibrate', '--seeds', 1, '--scale', 0.1).returncode, 5)
         self.assertEqual(sim('calibrate', '--seeds', 0).returncode, 2)
 

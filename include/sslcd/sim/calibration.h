@@ -29,8 +29,12 @@ struct EmbeddingStats {
 /// Over random pairs of detections of cars. `pairs` are drawn of each kind, where there are such.
 EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int pairs);
 
-/// Mean over all detections of parked cars and vans of the 3D IoU with the truth: DESIGN's "raw" figure.
-double MeanIou(const World& world, const SimulatedDetections& detections);
+/// Of all detections of parked cars and vans, compared with the truth.
+struct DetectionStats {
+  double iou = 0;    ///< mean 3D IoU: "raw" in eval/map_metrics.h
+  double flips = 0;  ///< share that faces the other way
+};
+DetectionStats MeasureDetections(const World& world, const SimulatedDetections& detections);
 
 /// All four cases with seeds 1 to `seeds`: the paper's figures and those that DESIGN section 6 asks for. Options other
 /// than the case are the caller's.

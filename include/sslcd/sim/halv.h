@@ -30,7 +30,7 @@ void DescribeFields(FieldVisitor& visitor, HalvScene& scene);
 
 /// How far the odometry drifts.
 struct HalvDrift {
-  OdometryNoise shape{0.01, 5e-4, 5e-5, 4e-3, 4e-4, 0.03, 40};  ///< which errors, relative to each other
+  OdometryNoise shape{0.01, 5e-4, 5e-5, 4e-3, 5e-4, 0.015, 40};  ///< which errors, relative to each other
   double ate_m = -1;         ///< mean ATE over seeds, after Sim(3); -1: the case's; 0: `shape` as given
   double ate_spread = 0.15;  ///< one seed's ATE differs from that by up to this fraction
 };
