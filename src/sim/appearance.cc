@@ -24,6 +24,7 @@ Vector RandomVector(Random& random, int dimension) {
 /// What is the same in all sightings of one object.
 struct Identity {
   Vector constant, forward, left;
+  double side = 0;  ///< share of what turns with the viewing direction
 };
 
 class Painter {
@@ -34,15 +35,14 @@ class Painter {
   }
 
   void Embed(int frame, int identity, Detection& detection) {
-    // Cosine of two sightings from directions a apart: other + constant + side cos(a).
-    const double constant = 0.5 * (noise_.same_side + noise_.opposite_side) - noise_.other_object;
-    const double side = 0.5 * (noise_.same_side - noise_.opposite_side);
+    // Cosine of two sightings from directions a apart: same_side - side + side cos(a).
     const double blur = Blur(detection);
     const Identity nobody = identity < 0 ? NewIdentity() : Identity();
     const Identity& who = identity < 0 ? nobody : identities_[identity];
     const double direction = identity < 0 ? 0 : ViewedFrom(frame, world_.objects[identity]);
-    const Vector clear = std::sqrt(noise_.other_object) * common_ + std::sqrt(constant) * who.constant +
-                         std::sqrt(side) * (std::cos(direction) * who.forward + std::sin(direction) * who.left);
+    const Vector clear = std::sqrt(noise_.other_object) * common_ +
+                         std::sqrt(noise_.same_side - noise_.other_object - who.side) * who.constant +
+                         std::sqrt(who.side) * (std::cos(direction) * who.forward + std::sin(direction) * who.left);
     // `clear` has a squared length of same_side; the rest is noise.
     const Vector vector =
         (std::sqrt((1 - blur) / noise_.same_side) * clear + std::sqrt(blur) * NewVector()).normalized();
@@ -76,6 +76,9 @@ class Painter {
   Identity NewIdentity() {
     Identity identity;
     identity.constant = NewVector(), identity.forward = NewVector(), identity.left = NewVector();
+    const double spread = random_.Uniform(1 - noise_.side_spread, 1 + noise_.side_spread);
+    identity.side =
+        std::min(0.5 * (noise_.same_side - noise_.opposite_side) * spread, noise_.same_side - noise_.other_object);
     return identity;
   }
 
@@ -147,6 +150,7 @@ void DescribeFields(FieldVisitor& visitor, AppearanceNoise& noise) {
   visitor.Real("same_side", noise.same_side, 0.01, 1, "mean cosine of an object's embeddings from the same side");
   visitor.Real("opposite_side", noise.opposite_side, 0, 1, "... from opposite sides");
   visitor.Real("other_object", noise.other_object, 0, 1, "... of different objects");
+  visitor.Real("side_spread", noise.side_spread, 0, 1, "how much more the sides of some objects differ than of others");
   visitor.Real("unevenness", noise.unevenness, 0, 1, "how much better some images are than others");
   visitor.Real("light", noise.light, 0, 2, "standard deviation of an image's log brightness");
 }

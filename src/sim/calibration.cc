@@ -119,7 +119,7 @@ std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options) {
       const DetectionStats detections = MeasureDetections(world, sequence.detections);
       iou.Add(detections.iou);
       flips.Add(detections.flips);
-      if (seed <= 3) sequences.push_back(std::move(sequence));
+      sequences.push_back(std::move(sequence));
     }
     rows.push_back(
         {"case " + std::to_string(number) + ": ATE of the odometry after Sim(3) [m]", HalvAte(number), ate.value()});

@@ -28,10 +28,10 @@ std::vector<PathPiece> Corners(const std::vector<double>& straights, int corners
 
 const HalvCase& HalvCaseOf(int number) {
   static const std::array<HalvCase, 4> kCases = {{
-      {"rectangle", Corners({52, 21.2, 52}, 3), 26, 26, 26, 60, 120, 1.670},
-      {"straight out and back", {{90, 0}}, 50, 38, 44, 170, 180, 1.336},
-      {"curve", {{12, 0}, {50, 1 / 30.}, {30, -1 / 22.}}, 26, 24, 30, 120, 170, 0.814},
-      {"small loop", Corners({20, 4.6, 20, 6}, 3), 14, 9, 26, 0, 45, 0.720},
+      {"rectangle", Corners({76, 37.8, 76}, 3), 38, 28, 28, 60, 120, 1.670},
+      {"straight out and back", {{105, 0}}, 58, 44, 52, 170, 180, 1.336},
+      {"curve", {{20, 0}, {60, 1 / 40.}, {36, -1 / 26.}}, 32, 28, 34, 120, 170, 0.814},
+      {"small loop", Corners({32, 21.2, 32, 18}, 3), 20, 12, 28, 0, 45, 0.720},
   }};
   return kCases.at(number - 1);
 }

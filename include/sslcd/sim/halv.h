@@ -18,7 +18,7 @@ struct HalvScene {
   std::string layout = "lot";  ///< "lot", "street", or a JSON file of parked cars
   double viewpoint_low_deg = -1, viewpoint_high_deg = -1;  ///< between the two passes where they meet; -1: the case's
   double size = 1;                                         ///< factor on the straight parts of the path
-  double speed_mps = 1.5;
+  double speed_mps = 2;
   double keyframe_hz = 3;
   double taken_fraction = 0.6;                        ///< of the generated stalls
   double van_fraction = 0.08, truck_fraction = 0.03;  ///< of the parked vehicles, where the layout does not say
