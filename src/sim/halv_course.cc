@@ -28,10 +28,10 @@ std::vector<PathPiece> Corners(const std::vector<double>& straights, int corners
 
 const HalvCase& HalvCaseOf(int number) {
   static const std::array<HalvCase, 4> kCases = {{
-      {"rectangle", Corners({76, 37.8, 76}, 3), 38, 28, 28, 60, 120, 1.670},
-      {"straight out and back", {{105, 0}}, 58, 44, 52, 170, 180, 1.336},
-      {"curve", {{20, 0}, {60, 1 / 40.}, {36, -1 / 26.}}, 32, 28, 34, 120, 170, 0.814},
-      {"small loop", Corners({32, 21.2, 32, 18}, 3), 20, 12, 28, 0, 45, 0.720},
+      {"rectangle", Corners({76, 37.8, 76}, 3), 54, 30, -5, 40, 60, 120, 1.670},
+      {"straight out and back", {{105, 0}}, 58, 44, 52, 0, 170, 180, 1.336},
+      {"curve", {{20, 0}, {60, 1 / 40.}, {36, -1 / 26.}}, 32, 28, 34, 0, 120, 170, 0.814},
+      {"small loop", Corners({26, 4.6, 26, 12}, 3), 16, 10, 26, 0, 0, 45, 0.720},
   }};
   return kCases.at(number - 1);
 }
@@ -56,6 +56,14 @@ HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg
   pieces.insert(pieces.end(), shortest.begin(), shortest.end());
   const double last_leg = LengthOf(pieces);
   pieces.push_back({(shape.before_m + shape.after_m) * size, 0});
+  if (shape.along_m > 0) {
+    constexpr double kMerge = 10;
+    const Path crossed(pieces);
+    Path::Point merge = out.At(shape.meet_m * size - kMerge);
+    merge.heading += M_PI;
+    for (const PathPiece& piece : ArcLineArc(crossed.At(crossed.length()), merge, kTightest)) pieces.push_back(piece);
+    pieces.push_back({shape.along_m * size, 0});
+  }
 
   HalvCourse course{Path(pieces), out.length(), last_leg, angle, {}};
   for (double s = 0; s <= course.path.length(); s += kStep) course.points.push_back(course.path.At(s));

@@ -13,7 +13,8 @@ struct HalvCase {
   const char* name;
   std::vector<PathPiece> out;
   double meet_m;                         ///< where on the way out the last leg meets it
-  double before_m, after_m;              ///< length of the last leg before and after that
+  double before_m, after_m;              ///< the last leg begins so long before and ends so long after that
+  double along_m;                        ///< then it turns into the way out, against its direction, for so long
   double viewpoint_low, viewpoint_high;  ///< by how much its direction differs there [deg]
   double ate_m;                          ///< of VINS-Fusion without a loop (paper Table II), after Sim(3)
 };

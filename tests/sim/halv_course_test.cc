@@ -51,11 +51,17 @@ TEST(HalvCourse, MeetsItsWayOutAtTheGivenAngle) {
       EXPECT_GE(course.viewpoint_rad, shape.viewpoint_low * M_PI / 180);
       EXPECT_LE(course.viewpoint_rad, shape.viewpoint_high * M_PI / 180);
       const Path::Point meet = course.path.At(shape.meet_m);
-      const Path::Point again = course.path.At(course.last_leg_m + shape.before_m);
-      EXPECT_LT(std::hypot(meet.x - again.x, meet.z - again.z), 2.) << number;
+      const double short_of = std::max(0., -shape.after_m);  // the rectangle turns into the way out just before
+      const Path::Point again = course.path.At(course.last_leg_m + shape.before_m - short_of);
+      EXPECT_LT(std::hypot(meet.x - again.x, meet.z - again.z), short_of + 2.) << number;
+      if (shape.along_m > 0) {
+        const Path::Point end = course.path.At(course.path.length());
+        EXPECT_NEAR(std::abs(WrapAngle(end.heading - meet.heading)), M_PI, 1e-9);
+        EXPECT_NEAR(end.x, meet.x, 1e-9);
+      }
       EXPECT_NEAR(std::abs(WrapAngle(again.heading - meet.heading)), course.viewpoint_rad, 1e-9) << number;
       EXPECT_GT(course.path.length(), 110);
-      EXPECT_LT(course.path.length(), 350);
+      EXPECT_LT(course.path.length(), 390);
     }
   }
 }
