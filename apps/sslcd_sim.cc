@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a synthetic sequence folder: a street or a parking lot, seen by a drifting, noisy system.
+// Writes a synthetic sequence folder: HALV-sim, or a street or a parking lot seen by a drifting, noisy system.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
 #include <string>
-#include <vector>
 
+#include "option_adder.h"
 #include "sslcd/core/error.h"
+#include "sslcd/sim/calibration.h"
+#include "sslcd/sim/halv.h"
 #include "sslcd/sim/sensor.h"
 #include "sslcd/sim/world.h"
 #include "sslcd/sim/write_sequence.h"
@@ -16,27 +16,6 @@
 namespace {
 
 using namespace sslcd;
-
-/// A field table as command-line options: `scale_error` becomes `--scale-error`. Ranges are the library's to check.
-class OptionAdder : public FieldVisitor {
- public:
-  explicit OptionAdder(CLI::App& app) : app_(app) {}
-  void Real(const char* key, double& value, double, double, const char* meaning) override { Add(key, value, meaning); }
-  void Integer(const char* key, int& value, int, int, const char* meaning) override { Add(key, value, meaning); }
-  void Text(const char* key, std::string& value, const char* meaning) override { Add(key, value, meaning); }
-  void Flag(const char* key, bool& value, const char* meaning) override { Add(key, value, meaning); }
-  void Choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
-  void Section(const char*, const char*, const std::function<void(FieldVisitor&)>&) override {
-  }  // too detailed for here
-
- private:
-  template <class T>
-  void Add(std::string key, T& value, const char* meaning) {
-    std::replace(key.begin(), key.end(), '_', '-');
-    app_.add_option("--" + key, value, meaning)->capture_default_str();
-  }
-  CLI::App& app_;
-};
 
 struct Arguments {
   std::string out;
@@ -46,33 +25,59 @@ struct Arguments {
   sim::ParkingLotOptions lot;
   sim::OdometryNoise odometry;
   sim::DetectorNoise detector;
+  sim::HalvOptions halv;
+  int seeds = 10;
 };
 
-template <class WorldOptions>
-CLI::App* AddWorld(CLI::App& app, const char* name, const char* meaning, WorldOptions& world, Arguments& arguments) {
+CLI::App* AddWriter(CLI::App& app, const char* name, const char* meaning, Arguments& arguments) {
   CLI::App* command = app.add_subcommand(name, meaning);
   command->add_option("--out", arguments.out, "folder to write")->required();
   command->add_option("--seed", arguments.seed, "another seed, another world")->capture_default_str();
   command->add_flag("--force", arguments.force, "write into a folder that is not empty");
-  OptionAdder adder(*command);
-  DescribeFields(adder, world);
-  DescribeFields(adder, arguments.odometry);
-  DescribeFields(adder, arguments.detector);
   return command;
 }
 
-void Write(const sim::World& world, const Arguments& arguments) {
-  const Trajectory odometry = sim::SimulateOdometry(world.truth, arguments.odometry, arguments.seed);
-  const sim::SimulatedDetections detections = sim::SimulateDetections(world, arguments.detector, arguments.seed);
+template <class... Tables>
+void AddTables(CLI::App* command, Tables&... tables) {
+  apps::OptionAdder adder(*command);
+  (DescribeFields(adder, tables), ...);
+}
+
+void Write(const sim::World& world, const Trajectory& odometry, const sim::SimulatedDetections& detections,
+           const Arguments& arguments) {
   sim::WriteSequence(world, odometry, detections, arguments.out, arguments.force);
   std::printf("%s: %zu frames, %zu objects, %zu detections\n", arguments.out.c_str(), world.truth.size(),
               world.objects.size(), detections.identity.size());
+}
+
+void WriteSimple(const sim::World& world, const Arguments& arguments) {
+  Write(world, sim::SimulateOdometry(world.truth, arguments.odometry, arguments.seed),
+        sim::SimulateDetections(world, arguments.detector, arguments.seed), arguments);
+}
+
+void WriteHalv(const Arguments& arguments) {
+  const sim::HalvSequence sequence = sim::MakeHalv(arguments.seed, arguments.halv);
+  Write(sequence.scene.world, sequence.odometry, sequence.detections, arguments);
+  std::printf("the passes meet at %.0f degrees, the odometry errs %.2f times as much as --wander-scale etc. say\n",
+              sequence.scene.viewpoint_rad * 180 / M_PI, sequence.drift_factor);
+  if (sequence.scene.left_out > 0)
+    std::printf("%d vehicles of %s left out: in the way, or twice in one place\n", sequence.scene.left_out,
+                arguments.halv.scene.layout.c_str());
+}
+
+int Calibrate(const Arguments& arguments) {
+  bool ok = true;
+  const std::vector<sim::CalibrationRow> rows = sim::Calibrate(arguments.seeds, arguments.halv);
+  for (const sim::CalibrationRow& row : rows) ok = ok && row.ok();
+  std::fputs(sim::ToMarkdown(rows).c_str(), stdout);
+  return ok ? 0 : 5;
 }
 
 int ExitCode(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::kUsage: return 2;
     case ErrorKind::kBadInput: return 3;
+    case ErrorKind::kNoSolution: return 5;
     default: return 1;
   }
 }
@@ -81,17 +86,25 @@ int Run(int argc, char** argv) {
   CLI::App app("Writes a synthetic sequence folder for sslcd_run.", "sslcd_sim");
   app.require_subcommand(1);
   Arguments arguments;
-  const CLI::App* street =
-      AddWorld(app, "street", "a street with parked and driving cars", arguments.street, arguments);
-  AddWorld(app, "lot", "a parking lot, driven round and round", arguments.lot, arguments);
+  sim::HalvOptions& halv = arguments.halv;
+  CLI::App* halv_command = AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
+  AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance);
+  CLI::App* calibrate = app.add_subcommand("calibrate", "what HALV-sim should be and what it is, as a table");
+  calibrate->add_option("--seeds", arguments.seeds, "how many of each case")->capture_default_str();
+  AddTables(calibrate, halv.drift, halv.detector, halv.appearance);
+  CLI::App* street = AddWriter(app, "street", "a street with parked and driving cars", arguments);
+  AddTables(street, arguments.street, arguments.odometry, arguments.detector);
+  CLI::App* lot = AddWriter(app, "lot", "a parking lot, driven round and round", arguments);
+  AddTables(lot, arguments.lot, arguments.odometry, arguments.detector);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  Write(street->parsed() ? sim::MakeStreet(arguments.seed, arguments.street)
-                         : sim::MakeParkingLot(arguments.seed, arguments.lot),
-        arguments);
+  if (calibrate->parsed()) return Calibrate(arguments);
+  if (halv_command->parsed()) WriteHalv(arguments);
+  if (street->parsed()) WriteSimple(sim::MakeStreet(arguments.seed, arguments.street), arguments);
+  if (lot->parsed()) WriteSimple(sim::MakeParkingLot(arguments.seed, arguments.lot), arguments);
   return 0;
 }
 

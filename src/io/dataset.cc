@@ -79,7 +79,8 @@ class Loader {
   void AddFrames();
   void AddImages();
   void AddDetections();
-  void AddEmbeddings();
+  void AddAppearance();
+  int AddVectors(const std::string& path, std::vector<float> Detection::*vector);  // returns how many are unusable
   void CheckLabels();
   void AddGroundtruth();
   void Warn(const std::string& text) { out_.warnings.push_back(text); }
@@ -188,17 +189,17 @@ void Loader::AddDetections() {
     Warn(layout_.detections + ": dropped " + std::to_string(out_.rows_beyond_end) +
          " detections of frames after the last pose (" + std::to_string(frames_in_file_ - 1) + ")");
   }
-  AddEmbeddings();
+  AddAppearance();
   CheckLabels();
 }
 
-void Loader::AddEmbeddings() {
-  if (layout_.embeddings.empty()) return;
-  const NpyMatrix matrix = ReadNpy(layout_.embeddings);
+int Loader::AddVectors(const std::string& path, std::vector<float> Detection::*vector) {
+  if (path.empty()) return 0;
+  const NpyMatrix matrix = ReadNpy(path);
   if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
-    throw Error(ErrorKind::kBadInput, {layout_.embeddings},
+    throw Error(ErrorKind::kBadInput, {path},
                 "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections + " has " +
-                    std::to_string(out_.rows_read) + ": one embedding a detection row is needed");
+                    std::to_string(out_.rows_read) + ": one row a detection row is needed");
   }
   int unusable = 0;
   for (Frame& frame : out_.frames) {
@@ -210,12 +211,24 @@ void Loader::AddEmbeddings() {
         ++unusable;
         continue;
       }
-      detection.embedding.assign(row, row + matrix.columns);
-      for (float& value : detection.embedding) value = static_cast<float>(value / std::sqrt(squares));
+      (detection.*vector).assign(row, row + matrix.columns);
+      for (float& value : detection.*vector) value = static_cast<float>(value / std::sqrt(squares));
     }
   }
-  if (unusable > 0)
+  return unusable;
+}
+
+void Loader::AddAppearance() {
+  if (const int unusable = AddVectors(layout_.embeddings, &Detection::embedding)) {
     Warn(layout_.embeddings + ": left out " + std::to_string(unusable) + " embedding(s) that are zero or not finite");
+  }
+  // A gap would be filled from the image, with a vector of another kind.
+  if (const int unusable = AddVectors(layout_.colours, &Detection::colour)) {
+    throw Error(ErrorKind::kBadInput, {layout_.colours},
+                std::to_string(unusable) +
+                    " colour vector(s) are zero or not finite: give every detection its colour, " +
+                    "or remove the file");
+  }
 }
 
 /// A label that sequence.yaml forgets is most likely misspelt in one of the two files.

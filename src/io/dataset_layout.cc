@@ -109,6 +109,7 @@ DatasetLayout SequenceLayout(const std::string& folder) {
   layout.calib = IfFile(folder + "/calib.txt");
   layout.sequence_yaml = IfFile(folder + "/sequence.yaml");
   layout.embeddings = IfFile(folder + "/embeddings.npy");
+  layout.colours = IfFile(folder + "/colours.npy");
   layout.images = IfFolder(folder + "/image_2");
   return layout;
 }

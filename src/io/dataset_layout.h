@@ -16,7 +16,7 @@ struct DatasetLayout {
   std::string groundtruth;  ///< pose file or oxts packets
   std::string times;        ///< times.txt, or timestamps.txt of a raw drive
   std::string calib;        ///< calib.txt; for a raw drive the folder of calib_cam_to_cam.txt
-  std::string sequence_yaml, embeddings;
+  std::string sequence_yaml, embeddings, colours;
   std::string images;    ///< folder of the left colour images
   int image_digits = 6;  ///< in the images' names
 };

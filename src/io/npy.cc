@@ -87,4 +87,19 @@ NpyMatrix ReadNpy(const std::string& path) {
   return matrix;
 }
 
+std::string NpyBytes(const NpyMatrix& matrix) {
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(matrix.rows) + ", " +
+                       std::to_string(matrix.columns) + "), }";
+  constexpr std::size_t kBefore = 10, kAlign = 64;  // as NumPy does, so that the data can be mapped into memory
+  header.append(kAlign - 1 - (kBefore + header.size()) % kAlign, ' ');
+  header += '\n';
+  std::string bytes(kMagic);
+  bytes += {'\x01', '\0', static_cast<char>(header.size() & 255), static_cast<char>(header.size() >> 8)};
+  bytes += header;
+  const std::size_t start = bytes.size(), size = matrix.values.size() * sizeof(float);
+  bytes.resize(start + size);
+  if (size > 0) std::memcpy(&bytes[start], matrix.values.data(), size);
+  return bytes;
+}
+
 }  // namespace sslcd

@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "sim/check_fields.h"
+#include "sim/streams.h"
 #include "sim/visibility.h"
 #include "sslcd/perception/projection.h"
 #include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
 namespace {
-
-enum Stream { kOdometryStream = 1, kDetectorStream = 2 };  // 0 is the world's
 
 /// Unit normals for [radial, lateral, vertical, yaw, length, width, height].
 using Draw = std::array<double, 7>;
@@ -39,6 +38,7 @@ std::vector<Sighting> InView(const World& world, int frame) {
   endless.width = endless.height = 0;
   std::vector<Sighting> sightings;
   for (const WorldObject& object : world.objects) {
+    if (!object.IsThereAt(frame)) continue;
     const Pose T_cam_object = T_cam_world * object.PoseAt(frame);
     const double reach = 0.5 * object.dims.norm();
     if (T_cam_object.translation().z() < reach + 0.5) continue;  // beside or behind the camera
@@ -69,9 +69,12 @@ class Detector {
     for (const Sighting& sighting : sightings) {
       const double range = sighting.silhouette.range;
       if (range > noise_.max_range_m || sighting.in_image < noise_.min_visible) continue;
-      if (VisibleFraction(sighting.silhouette, silhouettes) < noise_.min_visible) continue;
+      const double visible = VisibleFraction(sighting.silhouette, silhouettes);
+      if (visible < noise_.min_visible) continue;
       const double far = range / noise_.max_range_m;
-      if (random_.Chance(noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near))) continue;
+      const double miss_range = noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near);
+      const double miss_hidden = (1 - visible) * noise_.miss_rate_hidden;
+      if (random_.Chance(1 - (1 - miss_range) * (1 - miss_hidden))) continue;
       const double score = std::clamp(random_.Normal(0.95 - 0.25 * far, 0.04), 0.05, 0.999);
       Push(Measure(sighting), score, sighting.object->id, result);
     }
@@ -101,7 +104,7 @@ class Detector {
     }
 
     Detection detection;
-    detection.label = object.label;
+    detection.label = Mistaken(object.label);
     const Vec3 offset(sigmas.radial * error[0], sigmas.lateral * error[1], sigmas.vertical * error[2]);
     double yaw = upright_.YawOf(sighting.T_cam_object.so3()) + sigmas.yaw * error[3];
     if (random_.Chance(noise_.flip_rate)) yaw += M_PI;
@@ -111,6 +114,17 @@ class Detector {
     for (int i = 0; i < 3; ++i) detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
     detection.box = Blur(sighting.box);
     return detection;
+  }
+
+  /// Cars and vans are taken for each other, and so are poles and trees.
+  std::string Mistaken(const std::string& label) {
+    if (noise_.wrong_label == 0 || !random_.Chance(noise_.wrong_label)) return label;
+    constexpr std::pair<const char*, const char*> kMistakes[] = {
+        {"Car", "Van"}, {"Van", "Car"}, {"Truck", "Van"}, {"Pole", "Tree"}, {"Tree", "Pole"}};
+    for (const auto& [truth, mistake] : kMistakes) {
+      if (label == truth && world_.labels.entries().count(mistake) > 0) return mistake;
+    }
+    return label;
   }
 
   std::optional<Box2d> Blur(Box2d box) {
@@ -126,7 +140,7 @@ class Detector {
     const double range = random_.Uniform(8, std::max(9., noise_.max_range_m));
     const double bearing = random_.Uniform(-half_view, half_view);
     const double yaw = random_.Uniform(-M_PI, M_PI);
-    const double down = random_.Normal(0.9, 0.2);
+    const double down = random_.Normal(world_.camera_height_m - 0.75, 0.2);
     Detection detection;
     detection.label = "Car";
     detection.dims = {random_.Uniform(3, 5), random_.Uniform(1.4, 2), random_.Uniform(1.3, 1.9)};
@@ -147,7 +161,8 @@ class Detector {
 
 Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed) {
   CheckFields(noise);
-  Random random(seed, kOdometryStream);
+  Random random(seed, kOdometryStream), slow(seed, kWanderStream);
+  double heading_wander = slow.Normal(), scale_wander = slow.Normal();
   Trajectory odometry{truth.stamps, {}};
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i == 0) {
@@ -155,14 +170,20 @@ Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise,
       continue;
     }
     Pose step = truth.poses[i - 1].inverse() * truth.poses[i];
-    const double spread = std::sqrt(step.translation().norm());
+    const double length = step.translation().norm();
+    const double spread = std::sqrt(length);
     const auto walk = [&](double sigma) { return spread * random.Normal(0, sigma); };
     Pose::Tangent error;
     for (int axis : {0, 1, 2}) error[axis] = walk(noise.position_m_per_sqrt_m);
     error[3] = walk(noise.tilt_rad_per_sqrt_m);
     error[4] = walk(noise.heading_rad_per_sqrt_m);  // y is the vertical
     error[5] = walk(noise.tilt_rad_per_sqrt_m);
-    step.translation() *= 1 + noise.scale_error;
+
+    const double kept = std::exp(-length / noise.wander_m), fresh = std::sqrt(1 - kept * kept);
+    heading_wander = kept * heading_wander + fresh * slow.Normal();
+    scale_wander = kept * scale_wander + fresh * slow.Normal();
+    error[4] += noise.wander_rad_per_m * heading_wander * length;
+    step.translation() *= 1 + noise.scale_error + noise.wander_scale * scale_wander;
     odometry.poses.push_back(odometry.poses.back() * step * Pose::Exp(error));
   }
   return odometry;
@@ -189,6 +210,9 @@ void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
   visitor.Real("heading_rad_per_sqrt_m", noise.heading_rad_per_sqrt_m, 0, 1, "random walk of the odometry's heading");
   visitor.Real("tilt_rad_per_sqrt_m", noise.tilt_rad_per_sqrt_m, 0, 1, "random walk of its roll and pitch");
   visitor.Real("position_m_per_sqrt_m", noise.position_m_per_sqrt_m, 0, 10, "random walk of its position");
+  visitor.Real("wander_rad_per_m", noise.wander_rad_per_m, 0, 1, "slowly varying drift of its heading");
+  visitor.Real("wander_scale", noise.wander_scale, 0, 1, "slowly varying error of its scale");
+  visitor.Real("wander_m", noise.wander_m, 0.1, 1e6, "after so much path these are something else");
 }
 
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {
@@ -200,7 +224,9 @@ void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {
   visitor.Real("max_range_m", noise.max_range_m, 1, 1e4, "nothing is detected beyond");
   visitor.Real("miss_rate_near", noise.miss_rate_near, 0, 1, "chance to miss a visible object at range 0");
   visitor.Real("miss_rate_far", noise.miss_rate_far, 0, 1, "chance to miss a visible object at the maximal range");
+  visitor.Real("miss_rate_hidden", noise.miss_rate_hidden, 0, 1, "chance to miss an object all but hidden");
   visitor.Real("min_visible", noise.min_visible, 0, 1, "objects of which less is visible are not detected");
+  visitor.Real("wrong_label", noise.wrong_label, 0, 1, "chance that a car is called a van, a pole a tree, ...");
   visitor.Real("false_positives", noise.false_positives, 0, 100, "mean number per frame");
 }
 

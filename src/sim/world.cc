@@ -4,13 +4,11 @@
 #include <cmath>
 
 #include "sim/check_fields.h"
-#include "sim/path.h"
+#include "sim/furnish.h"
 #include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
 namespace {
-
-constexpr double kCameraHeight = 1.65;  // as on the KITTI car [m]
 
 World EmptyWorld() {
   World world;
@@ -20,47 +18,17 @@ World EmptyWorld() {
   return world;
 }
 
-void Drive(const Path& path, int frames, double rate_hz, double speed_mps, World& world) {
-  for (int i = 0; i < frames; ++i) {
-    world.truth.stamps.push_back(i / rate_hz);
-    world.truth.poses.push_back(path.CameraAt(speed_mps * i / rate_hz));
-  }
-}
-
-WorldObject& Add(World& world, const std::string& label, const Vec3& dims, std::vector<Pose> poses) {
-  world.objects.push_back({static_cast<int>(world.objects.size()), label, dims, std::move(poses)});
-  return world.objects.back();
-}
-
-Vec3 CarDims(Random& random) {
-  return {random.Uniform(3.5, 4.7), random.Uniform(1.55, 1.85), random.Uniform(1.4, 1.75)};
-}
-
-/// y of the centre of something that stands on the ground.
-double CentreY(const Vec3& dims) { return kCameraHeight - 0.5 * dims.z(); }
-
 void AddParkedCar(World& world, Random& random, const Path& path, double s_m, double right_m, double turn_rad) {
   const Vec3 dims = CarDims(random);
   const double s = s_m + random.Normal(0, 0.2);
   const double right = right_m + random.Normal(0, 0.1);
   const double turn = turn_rad + random.Normal(0, 0.03);
-  Add(world, "Car", dims, {path.ObjectAt(s, right, CentreY(dims), turn)});
+  Add(world, "Car", dims, {path.ObjectAt(s, right, CentreY(world, dims), turn)});
 }
 
 void AddPole(World& world, Random& random, const Path& path, double s_m, double right_m) {
-  const double diameter = random.Uniform(0.15, 0.35);
-  const Vec3 dims(diameter, diameter, random.Uniform(2.5, 4.));
-  Add(world, "Pole", dims, {path.ObjectAt(s_m, right_m, CentreY(dims), 0)});
-}
-
-/// Follows the path, from `s_m` at `speed_mps` (negative: oncoming).
-void AddDrivingCar(World& world, Random& random, const Path& path, double s_m, double right_m, double speed_mps) {
-  const Vec3 dims = CarDims(random);
-  std::vector<Pose> poses;
-  for (double stamp : world.truth.stamps) {
-    poses.push_back(path.ObjectAt(s_m + speed_mps * stamp, right_m, CentreY(dims), speed_mps < 0 ? M_PI : 0));
-  }
-  Add(world, "Car", dims, std::move(poses));
+  const Vec3 dims = PoleDims(random);
+  Add(world, "Pole", dims, {path.ObjectAt(s_m, right_m, CentreY(world, dims), 0)});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
+#include "sslcd/io/npy.h"
 
 namespace sslcd::sim {
 namespace {
@@ -26,8 +27,8 @@ std::string CalibRow(int number, const Camera& camera, const Vec3& offset) {
                 camera.fy, camera.cy, column.y(), column.z());
 }
 
-std::string Calib(const Camera& camera) {
-  const Vec3 baseline(-0.54, 0, 0);
+std::string Calib(const Camera& camera, double baseline_m) {
+  const Vec3 baseline(-baseline_m, 0, 0);
   return CalibRow(0, camera, Vec3::Zero()) + CalibRow(1, camera, baseline) + CalibRow(2, camera, camera.offset) +
          CalibRow(3, camera, camera.offset + baseline);
 }
@@ -89,6 +90,21 @@ std::string SequenceYaml(const World& world) {
   return text;
 }
 
+/// One row a detection; empty where the first one has no such vector.
+std::string Npy(const SimulatedDetections& detections, std::vector<float> Detection::*vector) {
+  NpyMatrix matrix;
+  for (const std::vector<Detection>& frame : detections.frames) {
+    for (const Detection& detection : frame) {
+      const std::vector<float>& row = detection.*vector;
+      if (row.empty()) return "";
+      matrix.columns = row.size();
+      ++matrix.rows;
+      matrix.values.insert(matrix.values.end(), row.begin(), row.end());
+    }
+  }
+  return matrix.rows > 0 ? NpyBytes(matrix) : "";
+}
+
 void PrepareFolder(const std::filesystem::path& folder, bool overwrite) {
   MakeWritableFolder(folder.string());
   if (!overwrite && !std::filesystem::is_empty(folder)) {
@@ -104,13 +120,15 @@ void WriteSequence(const World& world, const Trajectory& odometry, const Simulat
   const auto write = [&folder](const char* name, const std::string& text) {
     WriteFileAtomically((folder / name).string(), text);
   };
-  write("calib.txt", Calib(world.camera));
+  write("calib.txt", Calib(world.camera, world.baseline_m));
   write("times.txt", Times(world.truth));
   write("odometry.txt", Tum(odometry));
   write("groundtruth.txt", Tum(world.truth));
   write("detections.txt", Detections(detections));
   write("landmark_ids.txt", Identities(detections));
   write("sequence.yaml", SequenceYaml(world));
+  if (const std::string npy = Npy(detections, &Detection::embedding); !npy.empty()) write("embeddings.npy", npy);
+  if (const std::string npy = Npy(detections, &Detection::colour); !npy.empty()) write("colours.npy", npy);
 }
 
 }  // namespace sslcd::sim

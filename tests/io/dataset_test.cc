@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/dataset.h"
 
+#include "sslcd/io/npy.h"
 #include "temp_folder.h"
 
 namespace sslcd {
@@ -191,6 +192,15 @@ TEST_F(SequenceFolder, EmbeddingsBelongToRows) {
   EXPECT_THAT(dataset.warnings, Contains(HasSubstr("left out 1 embedding(s)")));
   folder_.Write("detections.txt", Row(0));
   Refuse({"embeddings.npy", "has 3 rows", "has 1"});
+}
+
+TEST_F(SequenceFolder, ColoursBelongToRows) {
+  folder_.Write("colours.npy", NpyBytes({3, 2, {3, 4, 9, 9, 1, 0}}));
+  EXPECT_THAT(Load().frames[0].detections[0].colour, testing::ElementsAre(0.6f, 0.8f));
+  folder_.Write("colours.npy", NpyBytes({3, 2, {3, 4, 9, 9, 0, 0}}));
+  Refuse({"colours.npy", "1 colour vector(s)", "remove the file"});
+  folder_.Write("colours.npy", NpyBytes({2, 2, {3, 4, 9, 9}}));
+  Refuse({"colours.npy", "has 2 rows", "has 3"});
 }
 
 TEST_F(SequenceFolder, MissingPartsAreNamed) {

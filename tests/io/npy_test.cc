@@ -41,6 +41,14 @@ TEST(Npy, ReadsEmptyArrays) {
   EXPECT_TRUE(ReadNpy(folder.Write("a.npy", Npy("<f4", "(3, 0)", ""))).values.empty());
 }
 
+TEST(Npy, WritesWhatItReads) {
+  const TempFolder folder;
+  const std::string bytes = NpyBytes({2, 3, kValues});
+  EXPECT_EQ((bytes.size() - 6 * sizeof(float)) % 64, 0u);
+  EXPECT_EQ(ReadNpy(folder.Write("a.npy", bytes)).values, kValues);
+  EXPECT_EQ(ReadNpy(folder.Write("a.npy", NpyBytes({0, 3, {}}))).columns, 3u);
+}
+
 TEST(Npy, RefusesWhatItCannotRead) {
   const TempFolder folder;
   const auto refuse = [&](const std::string& file, const char* part) {

@@ -20,8 +20,8 @@ enum class DatasetFormat {
   kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2}, poses/NN.txt
   kKittiTracking,  ///< calib/NNNN.txt label_02 oxts image_02
   kKittiRaw,  ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data, calib_*.txt there or above
-  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy sequence.yaml
-              ///< image_2]
+  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy colours.npy
+              ///< sequence.yaml image_2]
 };
 
 /// "auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence".

@@ -18,4 +18,7 @@ struct NpyMatrix {
 /// Throws Error saying what was found and how to save it otherwise.
 NpyMatrix ReadNpy(const std::string& path);
 
+/// The bytes of a float32 file of the same kind.
+std::string NpyBytes(const NpyMatrix& matrix);
+
 }  // namespace sslcd

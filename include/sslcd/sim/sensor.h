@@ -12,12 +12,17 @@
 
 namespace sslcd::sim {
 
-/// How visual odometry goes wrong: a wrong scale, and random walks that grow with the square root of the distance.
+/// How visual odometry goes wrong: a wrong scale, random walks that grow with the square root of the distance, and
+/// errors that stay alike for a while.
 struct OdometryNoise {
   double scale_error = 0.03;  ///< every step is too long by this fraction (real stereo odometry: about 3 %)
   double heading_rad_per_sqrt_m = 5e-4;
   double tilt_rad_per_sqrt_m = 5e-5;    ///< roll and pitch
   double position_m_per_sqrt_m = 4e-3;  ///< each axis
+  // What a slowly varying bias leaves; it forgets itself over `wander_m`.
+  double wander_rad_per_m = 0;  ///< of the heading
+  double wander_scale = 0;      ///< of the scale
+  double wander_m = 40;
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
@@ -35,7 +40,9 @@ struct DetectorNoise {
   double max_range_m = 60.;
   double miss_rate_near = 0.03;  ///< chance to miss a visible object at range 0 ...
   double miss_rate_far = 0.5;    ///< ... and at the maximal range
+  double miss_rate_hidden = 0;   ///< further chance to miss what is all but hidden; half of it for what is half hidden
   double min_visible = 0.25;     ///< less than this fraction in the image or not hidden by nearer objects: not seen
+  double wrong_label = 0;        ///< car for van, pole for tree and the like, where the world has both classes
   double false_positives = 0.2;  ///< mean number per frame
 };
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise);

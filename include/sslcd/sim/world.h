@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,13 @@ namespace sslcd::sim {
 struct WorldObject {
   int id = 0;  ///< index in World::objects
   std::string label;
-  Vec3 dims{0, 0, 0};                ///< length, width, height [m]
-  std::vector<Pose> T_world_object;  ///< one pose where it stands, one for every frame where it drives
+  Vec3 dims{0, 0, 0};                               ///< length, width, height [m]
+  std::vector<Pose> T_world_object;                 ///< one pose where it stands, one for every frame where it drives
+  Vec3 paint{0.5, 0.5, 0.5};                        ///< colour of its body: red, green, blue in [0, 1]
+  int first_frame = 0;                              ///< it is there from this frame ...
+  int end_frame = std::numeric_limits<int>::max();  ///< ... until before this one
   bool driving() const { return T_world_object.size() > 1; }
+  bool IsThereAt(int frame) const { return first_frame <= frame && frame < end_frame; }
   const Pose& PoseAt(int frame) const { return T_world_object[driving() ? frame : 0]; }
 };
 
@@ -31,6 +36,8 @@ struct World {
   Trajectory truth;  ///< T_world_cam for every frame
   GravityFrame gravity;
   Camera camera;
+  double camera_height_m = 1.65;  ///< above the ground; default: the KITTI car's
+  double baseline_m = 0.54;       ///< to the right camera
   LabelTable labels;
 };
 

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""sslcd_sim: HALV-sim and its calibration. usage: see cli_case.main"""
+import json
+import os
+import subprocess
+
+from cli_case import CliCase, binaries, call, read, write, main
+
+FILES = ['calib.txt', 'colours.npy', 'detections.txt', 'embeddings.npy', 'groundtruth.txt', 'landmark_ids.txt',
+         'odometry.txt', 'sequence.yaml', 'times.txt']
+
+
+def sim(*args):
+    return subprocess.run([binaries['sim'], *map(str, args)], capture_output=True, text=True, timeout=60)
+
+
+def read_bytes(path):
+    with open(path, 'rb') as file:
+        return file.read()
+
+
+class SimTest(CliCase):
+    def refused_sim(self, code, *args_and_messages):
+        args, messages = args_and_messages
+        result = sim('halv', '--out', self.out, *args)
+        self.assertEqual(result.returncode, code, result.stderr)
+        for message in messages:
+            self.assertIn(message, result.stderr)
+        self.assertFalse(os.path.exists(self.out), 'a refused call must leave nothing')
+
+    def test_every_case_is_a_sequence_that_runs(self):
+        for case in (1, 2, 3, 4):
+            folder = f'{self.out}{case}'
+            result = sim('halv', '--case', case, '--seed', 2, '--out', folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(sorted(os.listdir(folder)), FILES)
+            rows = len(read(folder + '/detections.txt').splitlines())
+            self.assertEqual(rows, len(read(folder + '/landmark_ids.txt').splitlines()))
+            self.assertGreater(rows, 1000)
+        result = call('run', self.out + '4', '--out', self.out + 'run', '--json', '--groundtruth', 'groundtruth.txt')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        metrics = json.loads(result.stdout)
+        self.assertLess(metrics['ate_sim3_rmse_m'], metrics['odometry_ate_sim3_rmse_m'])
+
+    def test_same_seed_same_bytes(self):
+        for name, seed in (('a', 3), ('b', 3), ('c', 4)):
+            self.assertEqual(sim('halv', '--case', 4, '--seed', seed, '--out', self.out + name).returncode, 0)
+        for name in FILES:
+            same = read_bytes(f'{self.out}a/{name}') == read_bytes(f'{self.out}b/{name}')
+            self.assertTrue(same, name)
+        self.assertNotEqual(read(self.out + 'a/detections.txt'), read(self.out + 'c/detections.txt'))
+
+    def test_nothing_true_but_where_it_belongs(self):
+        """What the estimator reads is the same whatever the truth is called."""
+        self.assertEqual(sim('halv', '--case', 4, '--seed', 3, '--out', self.out).returncode, 0)
+        for row in read(self.out + '/detections.txt').splitlines():
+            self.assertEqual(row.split()[1], '-1', 'no track ids')
+        calls = []
+        for name in ('with', 'without'):
+            calls.append(call('run', self.out, '--out', f'{self.out}_{name}'))
+            for truth in ('groundtruth.txt', 'landmark_ids.txt'):
+                if os.path.exists(f'{self.out}/{truth}'):
+                    os.remove(f'{self.out}/{truth}')
+        self.assertEqual([c.returncode for c in calls], [0, 0])
+        self.assertEqual(read(self.out + '_with/trajectory_tum.txt'), read(self.out + '_without/trajectory_tum.txt'))
+
+    def test_layout_file(self):
+        cars = [{'x': 2.7 * (i % 20), 'y': 12. * (i // 20), 'z': 0.4, 'qx': 0, 'qy': 0, 'qz': 0, 'w': 1} for i in range(60)]
+        layout = self.data + '/cars.json'
+        write(layout, json.dumps(cars))
+        result = sim('halv', '--case', 4, '--layout', layout, '--out', self.out, '--churn', 0.3)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        write(layout, '[{"x": 1, "y": 2, "z": 0, "qx": 0, "qy": 0}]')
+        self.out += '2'
+        self.refused_sim(3, ['--layout', layout], ['cars.json:1', "'qz' is missing"])
+        self.refused_sim(3, ['--layout', layout + 'x'], ['cars.jsonx'])
+        write(layout, json.dumps(cars[:12]))
+        self.refused_sim(2, ['--layout', layout, '--case', 1], ['leaves the lot', '--size'])
+
+    def test_impossible_options(self):
+        self.refused_sim(2, ['--taken-fraction', 0], ['no cars', '--taken-fraction'])
+        self.refused_sim(2, ['--flip-rate', -1], ['flip_rate is -1', '0 to 1'])
+        self.refused_sim(2, ['--radial-m', -1, '--miss-rate-far', 2], ['radial_m is -1', 'miss_rate_far is 2'])
+        self.refused_sim(2, ['--case', 5], ['case is 5', '1 to 4'])
+        self.refused_sim(2, ['--viewpoint-low-deg', 90, '--viewpoint-high-deg', 20], ['viewpoint_low_deg'])
+        self.refused_sim(2, ['--ate-m', 500], ['cannot drift', '--ate-m'])
+        self.refused_sim(2, ['--same-side', 0.1], ['same_side'])
+        self.refused_sim(2, ['--nonsense'], [])
+
+    def test_calibration_prints_a_table(self):
+        result = sim('calibrate', '--seeds', 2)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        rows = result.stdout.splitlines()
+        self.assertEqual(rows[0], '| what | target | reached | within 10 % |')
+        self.assertEqual(len(rows), 14)
+        self.assertEqual(sim('calibrate', '--seeds', 1, '--scale', 0.1).returncode, 5)
+        self.assertEqual(sim('calibrate', '--seeds', 0).returncode, 2)
+
+
+if __name__ == '__main__':
+    main()
