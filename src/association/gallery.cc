@@ -43,14 +43,29 @@ std::optional<double> Gallery::Compare(const std::vector<float>& vector, double 
   return std::clamp(dot / bin->count, 0., 1.);
 }
 
+double Gallery::CentreOf(int bin) const {
+  const auto bins = static_cast<double>(bins_.size());
+  return ((bin + 0.5) / bins - 0.5) * 2 * M_PI;
+}
+
+std::vector<AppearanceView> Gallery::Views() const {
+  std::vector<AppearanceView> views;
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
+    const Bin& bin = bins_[i];
+    if (bin.count == 0) continue;
+    views.push_back({CentreOf(static_cast<int>(i)), bin.count, bin.sum});
+    for (float& value : views.back().vector) value /= static_cast<float>(bin.count);
+  }
+  return views;
+}
+
 void Gallery::Merge(const Gallery& other, double turn_rad) {
   const int bins = static_cast<int>(other.bins_.size());
   for (int i = 0; i < bins; ++i) {
     const Bin& from = other.bins_[i];
     if (from.count == 0) continue;
     if (bins_.empty()) bins_.resize(mode_ == Mode::kMean ? 1 : kBins);
-    const double centre = ((i + 0.5) / bins - 0.5) * 2 * M_PI;
-    Bin& to = bins_[BinOf(centre + turn_rad)];
+    Bin& to = bins_[BinOf(other.CentreOf(i) + turn_rad)];
     if (to.sum.empty()) to.sum.assign(from.sum.size(), 0.f);
     assert(to.sum.size() == from.sum.size());
     for (std::size_t k = 0; k < from.sum.size(); ++k) to.sum[k] += from.sum[k];

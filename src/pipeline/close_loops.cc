@@ -22,7 +22,8 @@ LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<Frame
     : options_(options),
       map_(map),
       frames_(frames),
-      passes_(map, frames, options.noise, options.loop.layout.split_m),
+      passes_(map, frames, options.noise, options.loop.layout.split_m,
+              options.mode == Options::Mode::kPaper ? Gallery::Mode::kMean : Gallery::Mode::kByViewpoint),
       tracks_(options.loop.tracks) {}
 
 std::vector<LoopClosure> LoopCloser::closures() const {
@@ -55,7 +56,6 @@ void LoopCloser::Finish(double scale, TimingTable& timing) {
 bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
-    passes_.Update();
     if (!(options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m))) return false;
   }
   const ScopedTimer timer(timing, "drift correction");

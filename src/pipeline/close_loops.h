@@ -22,6 +22,9 @@ class LoopCloser {
  public:
   LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames);
 
+  /// The newest frame, while it still knows how its detections look. To be called with each frame.
+  void AddFrame() { passes_.Update(); }
+
   /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or map have changed.
   bool AddKeyframe(double scale, TimingTable& timing);
 

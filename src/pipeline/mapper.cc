@@ -55,13 +55,14 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections, camera, travelled);
     record.matched = report.map.matched;
   }
+  report.keyframe = IsKeyframe(T_odom_cam);
+  frames_.push_back(std::move(record));
+  if (options_.loop.enabled) loops_->AddFrame();
   for (Detection& detection :
-       record.detections) {  // kept for associating anew at the end: what was seen, not how it looked
+       frames_.back().detections) {  // kept for associating anew at the end: what was seen, not how it looked
     detection.colour.clear();
     detection.embedding.clear();
   }
-  report.keyframe = IsKeyframe(T_odom_cam);
-  frames_.push_back(std::move(record));
   if (report.keyframe) {
     window_.push_back(static_cast<int>(frames_.size()) - 1);
     if (options_.window.enabled) {

@@ -67,11 +67,17 @@ void PassMap::Update() {
       if (known == open_.end() || frame.travelled - passes_[known->second].last_m > split_m_) {
         if (known != open_.end()) Finish(passes_[known->second]);
         open_[id.value] = static_cast<int>(passes_.size());
-        passes_.push_back({id, frame.travelled, frame.travelled, {}, -1, {}});
+        passes_.push_back(
+            {id, frame.travelled, frame.travelled, {}, -1, {}, 0, Gallery(galleries_), Gallery(galleries_)});
       }
       PassObject& pass = passes_[open_[id.value]];
       pass.last_m = frame.travelled;
       pass.sightings.push_back({static_cast<int>(next_frame_), static_cast<int>(d)});
+      const Detection& detection = frame.detections[d];
+      const Vec3 camera = detection.T_cam_object.inverse().translation();
+      const double viewpoint = std::atan2(camera.y(), camera.x());
+      pass.colour.Add(detection.colour, viewpoint);
+      pass.embedding.Add(detection.embedding, viewpoint);
     }
   }
   for (auto open = open_.begin(); open != open_.end();) {
@@ -83,10 +89,24 @@ void PassMap::Update() {
 }
 
 void PassMap::Rebuild() {
+  const std::vector<PassObject> before = std::move(passes_);
   passes_.clear();
   open_.clear();
   next_frame_ = 0;
   if (!frames_.empty()) Update();
+  std::map<std::pair<int, int>, std::size_t> now;
+  for (std::size_t i = 0; i < passes_.size(); ++i)
+    for (const auto& sighting : passes_[i].sightings) now[sighting] = i;
+  for (const PassObject& old : before) {
+    std::map<std::size_t, std::size_t> shares;
+    for (const auto& sighting : old.sightings) {
+      const auto pass = now.find(sighting);
+      if (pass == now.end() || 2 * ++shares[pass->second] != old.sightings.size() + old.sightings.size() % 2) continue;
+      passes_[pass->second].colour.Merge(old.colour);
+      passes_[pass->second].embedding.Merge(old.embedding);
+      break;
+    }
+  }
 }
 
 void PassMap::Finish(PassObject& pass) const {
@@ -108,8 +128,8 @@ void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
   open_ = std::move(open);
 }
 
-void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
-                     PassLayout& layout) const {
+void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, const Gallery& colour,
+                     const Gallery& embedding, PassLayout& layout) const {
   const MapLandmark& landmark = map_.at(id);
   LayoutObject object;
   object.id = id.value;
@@ -119,6 +139,8 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, d
   object.position.z() = height_m;
   object.yaw = landmark.symmetry == Symmetry::kFull ? std::numeric_limits<double>::quiet_NaN() : place.yaw;
   object.dims = landmark.dims;
+  object.colour = colour.Views();
+  object.embedding = embedding.Views();
   layout.objects.push_back(std::move(object));
   layout.places.push_back(place);
   layout.seen_m.push_back(seen_m);
@@ -131,7 +153,7 @@ PassLayout PassMap::Recent(double from_m, int min_sightings) const {
   PassLayout layout;
   for (const auto& [id, pass] : latest) {
     const auto place = MeanPlace(*pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
-    if (place) Append({id}, place->pose, place->height_m, place->seen_m, layout);
+    if (place) Append({id}, place->pose, place->height_m, place->seen_m, pass->colour, pass->embedding, layout);
   }
   return layout;
 }
@@ -140,6 +162,7 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
   struct Sum {
     Vec3 position{0, 0, 0};
     double weight = 0, yaw = 0, height = 0, seen_m = 0;
+    Gallery colour, embedding;
   };
   std::map<int, Sum> sums;
   for (const PassObject& pass : passes_) {
@@ -148,7 +171,11 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
       continue;
     const UprightPose place = ToUpright(frames_[pass.anchor].T_world_cam * pass.T_anchor_object, map_.gravity());
     const double weight = static_cast<double>(pass.sightings.size());
-    Sum& sum = sums[pass.id.value];
+    const auto [known, is_new] = sums.try_emplace(pass.id.value);
+    Sum& sum = known->second;
+    if (is_new) sum.colour = sum.embedding = Gallery(galleries_);
+    sum.colour.Merge(pass.colour);
+    sum.embedding.Merge(pass.embedding);
     sum.position += weight * place.position;
     sum.height += weight * pass.height_m;
     sum.weight += weight;
@@ -157,7 +184,8 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
   }
   PassLayout layout;
   for (const auto& [id, sum] : sums)
-    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, sum.seen_m, layout);
+    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, sum.seen_m, sum.colour, sum.embedding,
+           layout);
   return layout;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/association/gallery.h"
 #include "sslcd/core/layout.h"
 #include "sslcd/pipeline/mapper.h"
 
@@ -21,6 +22,7 @@ struct PassObject {
   int anchor = -1;                             ///< the frame that a finished pass is tied to; -1: not finished yet
   Pose T_anchor_object;                        ///< where the pass puts the object; it moves with its anchor
   double height_m = 0;                         ///< over the camera that saw it from nearest
+  Gallery colour, embedding;                   ///< what it looked like on this pass
 };
 
 /// Objects as matching sees them, and where they are in the world, in step. The height of a layout object is that over
@@ -35,13 +37,15 @@ struct PassLayout {
 class PassMap {
  public:
   /// A landmark out of sight for more path than `split_m` is on another pass when it comes back.
-  PassMap(const ObjectMap& map, const std::vector<FrameRecord>& frames, const DetectionNoise& noise, double split_m)
-      : map_(map), frames_(frames), noise_(noise), split_m_(split_m) {}
+  PassMap(const ObjectMap& map, const std::vector<FrameRecord>& frames, const DetectionNoise& noise, double split_m,
+          Gallery::Mode galleries = Gallery::Mode::kByViewpoint)
+      : map_(map), frames_(frames), noise_(noise), split_m_(split_m), galleries_(galleries) {}
 
-  /// Takes in the frames that were added since the last call.
+  /// Takes in the frames that were added since the last call, and how their detections look.
   void Update();
 
-  /// Starts again from what the frames say now, e.g. after everything was associated anew.
+  /// Starts again from what the frames say now, e.g. after everything was associated anew. Where the frames do not know
+  /// any more how their detections looked, a pass takes that over from the former ones it mostly consists of.
   void Rebuild();
 
   /// Landmarks were fused: those that are gone -> those that took them over.
@@ -60,12 +64,14 @@ class PassMap {
 
  private:
   void Finish(PassObject& pass) const;
-  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, PassLayout& layout) const;
+  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, const Gallery& colour,
+              const Gallery& embedding, PassLayout& layout) const;
 
   const ObjectMap& map_;
   const std::vector<FrameRecord>& frames_;
   DetectionNoise noise_;
   double split_m_;
+  Gallery::Mode galleries_;
   std::size_t next_frame_ = 0;
   std::vector<PassObject> passes_;
   std::map<int, int> open_;  // landmark -> its present pass

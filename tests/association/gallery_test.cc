@@ -29,6 +29,21 @@ TEST(Gallery, TheOtherSideDoesNotDiluteThisOne) {
   EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI - 0.5), 1., 1e-6) << "the nearest direction that was seen answers";
 }
 
+TEST(Gallery, ViewsAreMeansByDirection) {
+  Gallery gallery;
+  EXPECT_TRUE(gallery.Views().empty());
+  gallery.Add({1, 0}, 0.1);
+  gallery.Add({0, 1}, 0.2);
+  gallery.Add({0.6f, 0.8f}, -3.);
+  const std::vector<AppearanceView> views = gallery.Views();
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_EQ(views[0].count, 1);
+  EXPECT_NEAR(WrapAngle(views[0].viewpoint_rad + 3.), 0, M_PI / 8);
+  EXPECT_EQ(views[1].count, 2);
+  EXPECT_NEAR(views[1].viewpoint_rad, 0.1, M_PI / 8);
+  EXPECT_EQ(views[1].vector, (std::vector<float>{0.5f, 0.5f})) << "its dot products are means of dot products";
+}
+
 TEST(Gallery, MergeTurnsViewpoints) {
   Gallery a, b;
   b.Add({0, 1}, 0.1);

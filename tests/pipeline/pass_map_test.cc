@@ -114,6 +114,40 @@ TEST(PassMap, AllFramesAtOnceAreTheSame) {
   }
 }
 
+TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
+  TwoVisits world;
+  const LandmarkId car = world.Add({4, 1, 12}, "Car");
+  world.See(car, 0, 5);
+  world.See(car, 300, 305);
+  for (FrameRecord& record : world.frames)
+    for (Detection& detection : record.detections)
+      detection.embedding = record.frame < 300 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
+  world.Drive();
+  const auto mean_of_views = [](const LayoutObject& object) {
+    Eigen::Vector2d sum(0, 0);
+    double count = 0;
+    for (const AppearanceView& view : object.embedding) {
+      sum += view.count * Eigen::Vector2d(view.vector[0], view.vector[1]);
+      count += view.count;
+    }
+    EXPECT_EQ(count, 5);
+    return Eigen::Vector2d(sum / count);
+  };
+  const auto expect_both = [&] {
+    const PassLayout old = world.passes.Before(200, 1), recent = world.passes.Recent(250, 1);
+    ASSERT_EQ(old.objects.size(), 1u);
+    ASSERT_EQ(recent.objects.size(), 1u);
+    EXPECT_EQ(mean_of_views(old.objects[0]), Eigen::Vector2d(1, 0)) << "nothing of the second visit";
+    EXPECT_EQ(mean_of_views(recent.objects[0]), Eigen::Vector2d(0, 1));
+    EXPECT_TRUE(old.objects[0].colour.empty());
+  };
+  expect_both();
+  for (FrameRecord& record : world.frames)
+    for (Detection& detection : record.detections) detection.embedding.clear();
+  world.passes.Rebuild();
+  expect_both();
+}
+
 TEST(PassMap, WhatTakesPart) {
   TwoVisits world;
   const LandmarkId often = world.Add({4, 1, 12}), once = world.Add({-4, 1, 12}), driving = world.Add({0, 1, 20}, "Car");

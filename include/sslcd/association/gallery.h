@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "sslcd/core/layout.h"
+
 namespace sslcd {
 
 /// What a landmark has looked like: the paper's H_k and E_k, bounded.
@@ -24,6 +26,10 @@ class Gallery {
   /// is empty.
   std::optional<double> Compare(const std::vector<float>& vector, double viewpoint_rad) const;
 
+  /// What was seen from each direction that something was seen from: the mean vector, so that the dot product of two
+  /// views is the mean of those of their sightings.
+  std::vector<AppearanceView> Views() const;
+
   /// Takes over what another gallery has seen (fusion of two landmarks), its viewpoints turned by `turn_rad`.
   void Merge(const Gallery& other, double turn_rad = 0.);
 
@@ -34,6 +40,7 @@ class Gallery {
     int count = 0;
   };
   int BinOf(double viewpoint_rad) const;
+  double CentreOf(int bin) const;
   const Bin* NearestFilled(int bin) const;
 
   Mode mode_;

@@ -12,7 +12,7 @@ namespace sslcd {
 struct AppearanceView {
   double viewpoint_rad = 0;   ///< bearing of the camera in the object frame, 0 = from the front
   int count = 1;              ///< sightings behind it
-  std::vector<float> vector;  ///< unit length
+  std::vector<float> vector;  ///< mean of the unit vectors of its sightings
 };
 
 /// An object as graph matching sees it: a vertex of the paper's G = (V, E) (IV-A). Coordinates are gravity-aligned:
