@@ -26,6 +26,20 @@ double AteOf(const Trajectory& odometry, const Trajectory& truth) {
   return ComputeAte(odometry.poses, truth.poses, Alignment::kSim3).error.rmse;
 }
 
+/// As a detector hands them out; in the order of the objects they would tell who is who.
+void SortByScore(SimulatedDetections& detections) {
+  const std::vector<int> identity = detections.identity;
+  int row = 0;
+  for (std::vector<Detection>& frame : detections.frames) {
+    std::stable_sort(frame.begin(), frame.end(),
+                     [](const Detection& a, const Detection& b) { return a.score > b.score; });
+    for (Detection& detection : frame) {
+      detections.identity[row] = identity[detection.row];
+      detection.row = row++;
+    }
+  }
+}
+
 }  // namespace
 
 double HalvAte(int case_number) { return HalvCaseOf(case_number).ate_m; }
@@ -85,6 +99,7 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
     sequence.drift_factor = result.factor;
   }
   sequence.detections = SimulateDetections(world, options.detector, seed);
+  SortByScore(sequence.detections);
   AddAppearance(world, options.appearance, seed, sequence.detections);
   return sequence;
 }

@@ -114,6 +114,26 @@ TEST(Halv, SameSeedSameSequence) {
   EXPECT_NE(a.detections.identity, c.detections.identity);
 }
 
+TEST(Halv, RowsTellNothingButTheirScores) {
+  const HalvSequence sequence = MakeHalv(5);
+  int row = 0, in_order = 0, pairs = 0;
+  for (std::size_t frame = 0; frame < sequence.detections.frames.size(); ++frame) {
+    const std::vector<Detection>& detections = sequence.detections.frames[frame];
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+      ASSERT_EQ(detections[i].row, row);
+      const int id = sequence.detections.identity[row++];
+      if (i > 0) {
+        EXPECT_LE(detections[i].score, detections[i - 1].score);
+        ++pairs, in_order += id > sequence.detections.identity[row - 2];
+      }
+      if (id < 0) continue;  // its true object stands where it was seen
+      const Vec3 seen = sequence.scene.world.truth.poses[frame] * detections[i].T_cam_object.translation();
+      EXPECT_LT((seen - sequence.scene.world.objects[id].PoseAt(static_cast<int>(frame)).translation()).norm(), 8);
+    }
+  }
+  EXPECT_NEAR(static_cast<double>(in_order) / pairs, 0.5, 0.1);
+}
+
 TEST(Halv, ChurnReplacesThatShareOfTheVehicles) {
   HalvScene scene = Case(2);
   scene.churn = 0.3;

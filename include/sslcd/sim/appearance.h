@@ -21,7 +21,7 @@ struct AppearanceNoise {
   double opposite_side = 0.45;  ///< ... from opposite sides
   double other_object = 0.3;    ///< ... of different objects
   double side_spread = 0.3;     ///< how much more the sides of some objects differ than those of others; 0 to 1
-  double unevenness = 0.5;      ///< how much better some images are than others; share of the noise, 0 to 1
+  double unevenness = 0.65;     ///< how much better some images are than others; share of the noise, 0 to 1
   double light = 0.15;          ///< log brightness of one image of an object
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceNoise& noise);
