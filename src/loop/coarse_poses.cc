@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 
 #include "loop/triangle_poses.h"
@@ -131,14 +132,15 @@ class Contest {
   Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index, const PoseSearchOptions& options)
       : points_(points),
         index_(index),
-        bound_(index.points(), static_cast<float>(options.inlier_m)),
         inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)),
         winners_(options.refine) {
     const std::size_t padded = points.size() + GainBound::kAtOnce;
     x_.resize(padded, 0.f);
     y_.resize(padded, 0.f);
-    bounds_.resize(padded, 0);
+    bounds_.resize(padded, GainBound::kOne);
     for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
+    // Where triangles propose the poses, these are too few for a picture of the map.
+    if (index.triangles() == nullptr) bound_.emplace(index.points(), static_cast<float>(options.inlier_m));
   }
 
   void Enter(CoarsePose pose) {
@@ -169,17 +171,25 @@ class Contest {
  private:
   // Could the pose reach least_? Leaves the points behind that gain something.
   bool MayWin(const CoarsePose& pose) {
-    const int needed = Needed(0), count = static_cast<int>(points_.size());
-    const GainBound::Placing at = bound_.Place(pose);
+    if (bound_ && !BoundPoints(pose)) return false;
     most_ = 0;
+    landed_.clear();
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+      most_ += bounds_[i];
+      if (bounds_[i] > 0) landed_.push_back({i, bounds_[i]});
+    }
+    return true;
+  }
+
+  bool BoundPoints(const CoarsePose& pose) {
+    const int needed = Needed(0), count = static_cast<int>(points_.size());
+    const GainBound::Placing at = bound_->Place(pose);
+    int most = 0;
     for (int first = 0; first < count; first += GainBound::kAtOnce) {
       const int others = std::max(0, count - first - GainBound::kAtOnce);
-      most_ += bound_.Look(at, &x_[first], &y_[first], &bounds_[first]);
-      if (most_ + GainBound::kOne * others < needed) return false;
+      most += bound_->Look(at, &x_[first], &y_[first], &bounds_[first]);
+      if (most + GainBound::kOne * others < needed) return false;
     }
-    landed_.clear();
-    for (int i = 0; i < count; ++i)
-      if (bounds_[i] > 0) landed_.push_back({i, bounds_[i]});
     return true;
   }
 
@@ -224,11 +234,11 @@ class Contest {
   };
   const std::vector<LayoutPoint>& points_;
   const LayoutIndex& index_;
-  std::vector<float> x_, y_;  // of the points, and a few zeros
-  std::vector<std::uint8_t> bounds_;
-  std::vector<Landed> landed_;  // of the pose that is looked at
-  int most_ = 0;                // that these can gain
-  GainBound bound_;
+  std::vector<float> x_, y_;          // of the points, and a few zeros
+  std::vector<std::uint8_t> bounds_;  // on what they may gain
+  std::vector<Landed> landed_;        // of the pose that is looked at
+  int most_ = 0;                      // that these can gain
+  std::optional<GainBound> bound_;
   float inlier2_, least_ = 0;  // least score that can still matter
   std::size_t winners_, entered_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
