@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 
 #include "loop/triangle_poses.h"
@@ -68,6 +69,7 @@ class GainBound {
     for (const LayoutPoint& p : map) box.extend(Eigen::Vector2f(p.x, p.y));
     const Eigen::Vector2f size = box.sizes() + Eigen::Vector2f::Constant(2 * inlier_);
     cell_ = std::max(kFinest, size.maxCoeff() / (kMaxSide - 4));
+    per_cell_ = 1 / cell_;
     low_ = box.min() - Eigen::Vector2f::Constant(inlier_ + 2 * cell_);  // nothing gains anything on the rim
     last_column_ = std::floor(size.x() / cell_) + 3;
     last_row_ = std::floor(size.y() / cell_) + 3;
@@ -76,18 +78,27 @@ class GainBound {
     for (const LayoutPoint& p : map) Paint(p.x - low_.x(), p.y - low_.y());
   }
 
-  /// Where kAtOnce points fall that stand at (x, y) before the pose moves them. In steps that compilers vectorise.
-  void Look(const CoarsePose& pose, const float* x, const float* y, std::uint8_t* bounds) const {
-    const float c = pose.cosine / cell_, s = pose.sine / cell_;
-    const float to_x = (pose.x - low_.x()) / cell_, to_y = (pose.y - low_.y()) / cell_;
-    int cells[kAtOnce];
+  /// A pose in cells.
+  struct Placing {
+    float c, s, x, y;
+  };
+  Placing Place(const CoarsePose& pose) const {
+    return {pose.cosine * per_cell_, pose.sine * per_cell_, (pose.x - low_.x()) * per_cell_,
+            (pose.y - low_.y()) * per_cell_};
+  }
+
+  /// What kAtOnce points may gain that stand at (x, y) before they are placed, and the sum. Compilers vectorise the
+  /// first loop.
+  int Look(const Placing& at, const float* x, const float* y, std::uint8_t* bounds) const {
+    int cells[kAtOnce], sum = 0;
     for (int i = 0; i < kAtOnce; ++i) {
-      const float column = c * x[i] - s * y[i] + to_x, row = s * x[i] + c * y[i] + to_y;
+      const float column = at.c * x[i] - at.s * y[i] + at.x, row = at.s * x[i] + at.c * y[i] + at.y;
       const float inner_column = std::min(std::max(column, 0.f), last_column_);
       const float inner_row = std::min(std::max(row, 0.f), last_row_);
       cells[i] = (static_cast<int>(inner_row) << shift_) + static_cast<int>(inner_column);
     }
-    for (int i = 0; i < kAtOnce; ++i) bounds[i] = bound_[cells[i]];
+    for (int i = 0; i < kAtOnce; ++i) sum += bounds[i] = bound_[cells[i]];
+    return sum;
   }
 
  private:
@@ -109,7 +120,7 @@ class GainBound {
     }
   }
 
-  float inlier_, cell_ = 1, last_column_ = 0, last_row_ = 0;
+  float inlier_, cell_ = 1, per_cell_ = 1, last_column_ = 0, last_row_ = 0;
   Eigen::Vector2f low_;
   int shift_ = 0;
   std::vector<std::uint8_t> bound_;  // by rows of 2^shift_ cells [1/kOne]
@@ -121,13 +132,15 @@ class Contest {
   Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index, const PoseSearchOptions& options)
       : points_(points),
         index_(index),
-        bound_(index.points(), static_cast<float>(options.inlier_m)),
         inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)),
         winners_(options.refine) {
     const std::size_t padded = points.size() + GainBound::kAtOnce;
     x_.resize(padded, 0.f);
     y_.resize(padded, 0.f);
+    bounds_.resize(padded, GainBound::kOne);
     for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
+    // Where triangles propose the poses, these are too few for a picture of the map.
+    if (index.triangles() == nullptr) bound_.emplace(index.points(), static_cast<float>(options.inlier_m));
   }
 
   void Enter(CoarsePose pose) {
@@ -158,17 +171,24 @@ class Contest {
  private:
   // Could the pose reach least_? Leaves the points behind that gain something.
   bool MayWin(const CoarsePose& pose) {
-    const int needed = Needed(0), count = static_cast<int>(points_.size());
-    most_ = GainBound::kOne * count;
+    if (bound_ && !BoundPoints(pose)) return false;
+    most_ = 0;
     landed_.clear();
-    std::uint8_t bounds[GainBound::kAtOnce];
+    for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
+      most_ += bounds_[i];
+      if (bounds_[i] > 0) landed_.push_back({i, bounds_[i]});
+    }
+    return true;
+  }
+
+  bool BoundPoints(const CoarsePose& pose) {
+    const int needed = Needed(0), count = static_cast<int>(points_.size());
+    const GainBound::Placing at = bound_->Place(pose);
+    int most = 0;
     for (int first = 0; first < count; first += GainBound::kAtOnce) {
-      bound_.Look(pose, &x_[first], &y_[first], bounds);
-      for (int i = 0; i < std::min(GainBound::kAtOnce, count - first); ++i) {
-        most_ -= GainBound::kOne - bounds[i];
-        if (bounds[i] > 0) landed_.push_back({first + i, bounds[i]});
-      }
-      if (most_ < needed) return false;
+      const int others = std::max(0, count - first - GainBound::kAtOnce);
+      most += bound_->Look(at, &x_[first], &y_[first], &bounds_[first]);
+      if (most + GainBound::kOne * others < needed) return false;
     }
     return true;
   }
@@ -214,10 +234,11 @@ class Contest {
   };
   const std::vector<LayoutPoint>& points_;
   const LayoutIndex& index_;
-  std::vector<float> x_, y_;    // of the points, and a few zeros
-  std::vector<Landed> landed_;  // of the pose that is looked at
-  int most_ = 0;                // that these can gain
-  GainBound bound_;
+  std::vector<float> x_, y_;          // of the points, and a few zeros
+  std::vector<std::uint8_t> bounds_;  // on what they may gain
+  std::vector<Landed> landed_;        // of the pose that is looked at
+  int most_ = 0;                      // that these can gain
+  std::optional<GainBound> bound_;
   float inlier2_, least_ = 0;  // least score that can still matter
   std::size_t winners_, entered_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;

@@ -82,7 +82,7 @@ bool LoopCloser::Detect(double lag_m) {
   const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
   const LayoutLikelihood likelihood(local.objects, index, o.match.likelihood);
   PoseSearchOptions search = o.match.search;  // the tracks of earlier attempts need not be found again
-  search.refine = std::min(search.refine, 2 * o.tracks.max_tracks);
+  search.refine = std::min(search.refine, o.tracks.max_tracks);
   std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);

@@ -195,5 +195,30 @@ TEST(LoopClosingMapper, RefusesBadPosesMidRunAndGoesOn) {
   EXPECT_GT(mapper.LoopClosures().size(), 10u);
 }
 
+// On the whole: a single trajectory, which is bent in one way here and in another there, may be a little worse for it.
+TEST(LoopClosingMapper, HasTheMapAdjustedBeforeAnythingIsRefined) {
+  double sum_with = 0, sum_without = 0;
+  for (const int seed : {1, 2, 3}) {
+    const Drives drives = TwoLaps(SecondLap::kSame, 0.5, seed);
+    std::vector<Pose> odometry;
+    for (const Frame& frame : drives.frames) odometry.push_back(frame.T_odom_cam);
+    const auto run = [&](int adjust_keyframes) {
+      Options options;
+      options.loop.adjust_keyframes = adjust_keyframes;
+      Mapper mapper(options, drives.Context());
+      for (const Frame& frame : drives.frames) mapper.AddFrame(frame);
+      return ComputeSequenceMetrics({mapper.CameraTrajectory().poses, odometry, drives.world.truth.poses, drives.frames,
+                                     drives.identities, mapper.LoopClosures(), mapper.Objects()});
+    };
+    const SequenceMetrics with = run(500), without = run(0), too_long = run(10);
+    sum_with += with.ate;
+    sum_without += without.ate;
+    EXPECT_LT(with.ate, 0.35 * with.ate_odometry) << "seed " << seed;
+    EXPECT_EQ(with.wrong_loops, 0) << "seed " << seed;
+    EXPECT_EQ(too_long.ate, without.ate) << "a run of more keyframes than that goes without";
+  }
+  EXPECT_LT(sum_with, sum_without);
+}
+
 }  // namespace
 }  // namespace sslcd
