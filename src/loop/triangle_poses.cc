@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 
 #include "loop/triangle_index.h"
@@ -12,8 +13,10 @@ namespace sslcd {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 400;  // of the local map that are looked up
-constexpr std::size_t kMaxFound = 2000;     // by one triangle
-constexpr std::size_t kMaxPoses = 3000;     // that are scored
+constexpr std::size_t kMinTriangles = 60;   // ... and where these have found enough poses, no more:
+constexpr std::size_t kEnoughPoses = 10000;
+constexpr std::size_t kMaxFound = 2000;  // by one triangle
+constexpr std::size_t kMaxPoses = 3000;  // that are scored
 
 // Three points laid on three others; none if they do not fit to within `tolerance`.
 std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from, const std::array<LayoutPoint, 3>& to,
@@ -99,10 +102,12 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points, co
   const float tolerance = static_cast<float>(options.pair_noise_m);
   const std::vector<ObjectTriangle> triangles = NeighbourTriangles(points);
   const std::size_t used = std::min(triangles.size(), kMaxTriangles);
+  std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(triangles.size())));
+  while (std::gcd(step, triangles.size()) > 1) ++step;  // so that any few of them are spread over the local map
   std::vector<CoarsePose> poses;
   std::vector<const ObjectTriangle*> found;
-  for (std::size_t k = 0; k < used; ++k) {
-    const ObjectTriangle& triangle = triangles[k * triangles.size() / used];
+  for (std::size_t k = 0; k < used && (k < kMinTriangles || poses.size() < kEnoughPoses); ++k) {
+    const ObjectTriangle& triangle = triangles[k * step % triangles.size()];
     found.clear();
     index.triangles()->Find(triangle, options.pair_noise_m, kMaxFound, found);
     for (const ObjectTriangle* other : found) Lay(triangle, points, *other, index.points(), tolerance, poses);
