@@ -13,8 +13,8 @@ namespace sslcd {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 400;  // of the local map that are looked up
-constexpr std::size_t kMinTriangles = 60;   // ... and where these have found enough poses, no more:
-constexpr std::size_t kEnoughPoses = 10000;
+constexpr std::size_t kMinTriangles = 40;   // ... and where these have found enough poses, no more:
+constexpr std::size_t kEnoughPoses = 5000;
 constexpr std::size_t kMaxFound = 2000;  // by one triangle
 constexpr std::size_t kMaxPoses = 3000;  // that are scored
 
