@@ -69,11 +69,13 @@ bool OdometryCost::Evaluate(double const* const* blocks, double* residual, doubl
   const Vec3 metric = std::exp(*blocks[2]) * T_from_to_.translation();
   const Pose B = T_world_from.inverse() * T_world_to;
   const Vec6 e = (Pose(T_from_to_.so3(), metric).inverse() * B).Log();
+  Vec6 weight = weight_;
+  weight.head<3>() *= std::exp(-*blocks[2]);
   Eigen::Map<Vec6> r(residual);
-  r = weight_.cwiseProduct(e);
+  r = weight.cwiseProduct(e);
   if (jacobians == nullptr) return true;
   // e(d_to) = Log(E Exp(d_to)); moving `from` by d is moving `to` by -Adj(B^-1) d.
-  const Matrix6 J_to = weight_.asDiagonal() * Matrix6(Pose::RightJacobianInverse(e));
+  const Matrix6 J_to = weight.asDiagonal() * Matrix6(Pose::RightJacobianInverse(e));
   if (jacobians[0] != nullptr) {
     const Matrix6 J_from = -J_to.lazyProduct(Matrix6(B.inverse().Adj()));
     StoreAmbient<6>(J_from, blocks[0], jacobians[0]);
@@ -82,6 +84,7 @@ bool OdometryCost::Evaluate(double const* const* blocks, double* residual, doubl
   if (jacobians[2] != nullptr) {
     Eigen::Map<Vec6> J(jacobians[2]);
     J = -(J_to.leftCols<3>() * Vec3(B.so3().inverse() * metric));
+    J.head<3>() -= r.head<3>();
   }
   return true;
 }

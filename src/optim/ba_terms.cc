@@ -62,7 +62,11 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
       ceres_.AddResidualBlock(AutoDiff<PaperObjectResidual, 6, 7, 4>(residual), nullptr, camera, object);
       continue;
     }
-    DetectionSigmas sigmas = SigmasAt(sighting.T_cam_object.translation().norm(), problem.noise, problem.noise_scale);
+    // By the range as estimated: by the one measured, what errs to the near side would count more than what errs to the
+    // far side, and the map would shrink.
+    const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
+    const double range = (T_world_cam.inverse() * problem.objects[sighting.object].pose.position).norm();
+    DetectionSigmas sigmas = SigmasAt(range, problem.noise, problem.noise_scale);
     sigmas.radial *= options.correlation;
     sigmas.lateral *= options.correlation;
     sigmas.vertical *= options.correlation;

@@ -91,8 +91,9 @@ struct OdometryResidual {
     lie::SE3<T> measured = T_from_to.template cast<T>();
     measured.translation() = Vector3(measured.translation() * exp(log_scale[0]));
     const auto log = (measured.inverse() * (T_world_from.inverse() * T_world_to)).Log();
+    const T unscaled = exp(-log_scale[0]);
     for (int i = 0; i < 3; ++i) {
-      residual[i] = log[i] / sigma_translation;
+      residual[i] = log[i] * unscaled / sigma_translation;
       residual[i + 3] = log[i + 3] / sigma_rotation;
     }
     return true;
