@@ -164,5 +164,13 @@ TEST(OdometryResidual, ScaleStretchesTranslationOnly) {
   for (const double component : r) EXPECT_NEAR(component, 0, 1e-9);
 }
 
+TEST(OdometryResidual, IsInTheOdometrysOwnUnits) {  // else a small scale would make small noise of large
+  const Pose odometry = Pose::Trans(1, 0, 0), from, to = Pose::Trans(2.2, 0, 0);
+  const double log_scale = std::log(2.);
+  double r[6];
+  OdometryResidual{odometry, 0.1, 0.1}(from.data(), to.data(), &log_scale, r);
+  EXPECT_NEAR(r[0], 1, 1e-9) << "the odometry says 1 m where it was 1.1 m: one sigma";
+}
+
 }  // namespace
 }  // namespace sslcd

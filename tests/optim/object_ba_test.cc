@@ -66,6 +66,19 @@ TEST(SolveBa, FindsTheScaleFromTheCarsAlone) {
     EXPECT_LT((problem.objects[k].pose.position - truth.objects[k].position).norm(), 0.3);
 }
 
+TEST(SolveBa, NoiseThatGrowsWithRangeDoesNotPullAnObjectNearer) {
+  BaProblem problem;
+  problem.noise.radial_m = 0.01;
+  problem.noise.radial_per_m = 0.08;
+  problem.cameras.push_back({0, Pose()});
+  problem.objects.push_back({1, Symmetry::kFull, {Vec3(0, 0, 20), 0}});
+  for (int i = 0; i < 20; ++i) problem.sightings.push_back({0, 0, Pose::Trans(0, 0, i % 2 == 0 ? 18 : 22)});
+  BaOptions options;
+  options.loss_scale = 0;
+  ASSERT_TRUE(SolveBa(problem, options).usable);
+  EXPECT_NEAR(problem.objects[0].pose.position.z(), 20, 0.01);
+}
+
 TEST(SolveBa, WithoutNoiseEverySolverReachesTheTruth) {
   for (const auto residual : {BaOptions::Residual::kRobust, BaOptions::Residual::kPaper}) {
     for (const auto solver : {BaOptions::Solver::kLevenbergMarquardt, BaOptions::Solver::kGaussNewton}) {

@@ -78,7 +78,8 @@ struct PaperObjectResidual {
 };
 
 /// Consecutive cameras against the odometry, whose translations are off by one common factor:
-/// r = diag(1/sigma) Log((s T_ij)^-1 T_i^-1 T_j), components [rho, phi], s T = (R, exp(log_scale) t).
+/// r = diag(1/sigma) Log((s T_ij)^-1 T_i^-1 T_j), components [rho / exp(log_scale), phi], s T = (R, exp(log_scale) t):
+/// the sigma of a translation is that of the odometry as measured.
 struct OdometryResidual {
   Pose T_from_to;                                    ///< odometry, as measured
   double sigma_translation = 1, sigma_rotation = 1;  ///< [m, rad]
