@@ -2,7 +2,6 @@
 #include "sslcd/association/gallery.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "sslcd/core/pose.h"
@@ -20,7 +19,7 @@ void Gallery::Add(const std::vector<float>& vector, double viewpoint_rad) {
   if (bins_.empty()) bins_.resize(mode_ == Mode::kMean ? 1 : kBins);
   Bin& bin = bins_[BinOf(viewpoint_rad)];
   if (bin.sum.empty()) bin.sum.assign(vector.size(), 0.f);
-  assert(bin.sum.size() == vector.size());
+  if (bin.sum.size() != vector.size()) return;
   for (std::size_t i = 0; i < vector.size(); ++i) bin.sum[i] += vector[i];
   ++bin.count;
 }
@@ -67,7 +66,7 @@ void Gallery::Merge(const Gallery& other, double turn_rad) {
     if (bins_.empty()) bins_.resize(mode_ == Mode::kMean ? 1 : kBins);
     Bin& to = bins_[BinOf(other.CentreOf(i) + turn_rad)];
     if (to.sum.empty()) to.sum.assign(from.sum.size(), 0.f);
-    assert(to.sum.size() == from.sum.size());
+    if (to.sum.size() != from.sum.size()) continue;
     for (std::size_t k = 0; k < from.sum.size(); ++k) to.sum[k] += from.sum[k];
     to.count += from.count;
   }

@@ -286,7 +286,7 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
                                    [&](const auto& match) { return match.first == local || match.second == global; });
     if (taken) continue;
     const double n = static_cast<double>(matches.size());
-    score += gain + std::log((n + options_.mapped_prior) / (n_local - n - 1 + options_.unmapped_prior));
+    score += gain + std::log((n + options_.mapped_prior) / std::max(0.1, n_local - n - 1 + options_.unmapped_prior));
     if (candidate->in_view) {
       score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
     } else {

@@ -37,9 +37,9 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood, const std::vector<Po
   std::vector<int> ids;
   for (const LayoutObject& object : local) ids.push_back(object.id);
   // Tracks that are as old have seen the same local maps: how many different objects these had is counted once.
-  std::map<double, double> different_since;
+  std::map<std::pair<double, std::size_t>, double> different_since;
   const auto different = [&](const std::vector<PoseTrack::Vote>& votes) {
-    const auto [known, fresh] = different_since.insert({votes.front().path_m, 0});
+    const auto [known, fresh] = different_since.insert({{votes.front().path_m, votes.size()}, 0});
     if (fresh) {
       std::vector<int> all;
       for (const PoseTrack::Vote& vote : votes) all.insert(all.end(), vote.objects.begin(), vote.objects.end());

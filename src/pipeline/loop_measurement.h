@@ -20,8 +20,8 @@ struct LoopMeasurement {
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
 ///
 /// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps, though, so that
-/// drift holds in their midst and not at their ends: the query camera is the newest one that has matched objects
-/// before and behind it, the match camera the old one nearest to its corrected pose, and objects seen far from the two
+/// drift holds in their midst and not at their ends: the query camera is the newest one among its matched
+/// objects, the match camera the old one nearest to its corrected pose, and objects seen far from the two
 /// along the path count less. Both maps are levelled first: the ground at one place has one slope, whatever odometry
 /// says.
 class LoopMeter {

@@ -141,6 +141,7 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, d
   object.dims = landmark.dims;
   object.colour = colour.Views();
   object.embedding = embedding.Views();
+  if (!object.position.allFinite()) return;
   layout.objects.push_back(std::move(object));
   layout.places.push_back(place);
   layout.seen_m.push_back(seen_m);

@@ -161,7 +161,7 @@ void DescribeFields(FieldVisitor& visitor, HalvScene& scene) {
                "smallest angle between the passes; -1: the case's");
   visitor.Real("viewpoint_high_deg", scene.viewpoint_high_deg, -1, 180,
                "largest angle between the passes; -1: the case's");
-  visitor.Real("size", scene.size, 0.3, 20, "factor on the straight parts of the path");
+  visitor.Real("size", scene.size, 0.3, 6, "factor on the straight parts of the path");
   visitor.Real("speed_mps", scene.speed_mps, 0.1, 50, "speed of the camera");
   visitor.Real("keyframe_hz", scene.keyframe_hz, 0.1, 100, "keyframes per second");
   visitor.Real("taken_fraction", scene.taken_fraction, 0, 1, "fraction of the generated parking spaces that is taken");

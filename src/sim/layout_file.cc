@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 
 #include "sslcd/core/error.h"
 #include "sslcd/io/text_rows.h"
@@ -38,7 +40,6 @@ class Reader {
   }
 
   double Number(const YAML::Node& car, const std::string& key) const {
-    if (!car.IsMap()) Fail(car, "expected a car as an object with keys x, y, z, qx, qy, qz, w");
     const YAML::Node node = car[key];
     if (!node.IsDefined()) Fail(car, "key '" + key + "' is missing");
     const auto number = node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
@@ -46,8 +47,24 @@ class Reader {
     return *number;
   }
 
+  // Misspelt keys and repeated ones, which yaml-cpp passes over in silence.
+  void CheckKeys(const YAML::Node& car) const {
+    static const std::set<std::string> kKnown{"x", "y", "z", "qx", "qy", "qz", "qw", "w", "label"};
+    if (!car.IsMap()) Fail(car, "expected a car as an object with keys x, y, z, qx, qy, qz, w");
+    std::set<std::string> seen;
+    for (const auto& entry : car) {
+      const std::string key = entry.first.Scalar();
+      if (kKnown.count(key) == 0)
+        Fail(entry.first, "unknown key '" + key + "': x, y, z, qx, qy, qz, w, label are known");
+      if (!seen.insert(key).second) Fail(entry.first, "key '" + key + "' stands here twice");
+    }
+  }
+
   Slot Car(const YAML::Node& node) const {
+    constexpr double kFar = 1e4;  // [m]
+    CheckKeys(node);
     const double x = Number(node, "x"), y = Number(node, "y");
+    if (std::max(std::abs(x), std::abs(y)) > kFar) Fail(node, "the car stands more than 10 km from the origin");
     Number(node, "z");
     const double qx = Number(node, "qx"), qy = Number(node, "qy"), qz = Number(node, "qz");
     const double w = Number(node, node["qw"].IsDefined() ? "qw" : "w");
@@ -128,9 +145,9 @@ LayoutFile ReadLayout(const std::string& path) {
 }
 
 PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& course) {
-  constexpr double kBeyond = 12;  // the course may leave the lot by so much
-  constexpr double kGrid = 2;
-  constexpr std::size_t kEvery = 5;  // of the course's points
+  constexpr double kBeyond = 12;             // the course may leave the lot by so much
+  constexpr double kGrid = 2, kSteps = 150;  // metres, coarser where the lot is wider than so many steps
+  constexpr std::size_t kEvery = 5;          // of the course's points
   std::vector<Path::Point> way_out, last_leg;
   for (std::size_t i = 0; i < course.points.size(); i += kEvery) {
     const double s = course.path.length() * static_cast<double>(i) / static_cast<double>(course.points.size());
@@ -145,8 +162,9 @@ PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& cours
   for (int quarter = 0; quarter < 4; ++quarter) {
     const std::vector<Slot> turned = SeenFrom(slots, 0, 0, grain + 0.5 * M_PI * quarter);
     const Box lot = BoxOf(turned);
-    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond; x += kGrid) {
-      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond; z += kGrid) {
+    const double step = std::max(kGrid, std::max(lot.right - lot.left, lot.front - lot.back) / kSteps);
+    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond; x += step) {
+      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond; z += step) {
         std::vector<Slot> placed = SeenFrom(turned, x, z, 0);
         int score = 0;
         for (const Slot& slot : placed) {

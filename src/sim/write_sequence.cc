@@ -127,8 +127,11 @@ void WriteSequence(const World& world, const Trajectory& odometry, const Simulat
   write("detections.txt", Detections(detections));
   write("landmark_ids.txt", Identities(detections));
   write("sequence.yaml", SequenceYaml(world));
-  if (const std::string npy = Npy(detections, &Detection::embedding); !npy.empty()) write("embeddings.npy", npy);
-  if (const std::string npy = Npy(detections, &Detection::colour); !npy.empty()) write("colours.npy", npy);
+  const auto write_or_remove = [&](const char* name, const std::string& npy) {
+    npy.empty() ? void(std::filesystem::remove(folder / name)) : write(name, npy);  // one left there is another world's
+  };
+  write_or_remove("embeddings.npy", Npy(detections, &Detection::embedding));
+  write_or_remove("colours.npy", Npy(detections, &Detection::colour));
 }
 
 }  // namespace sslcd::sim

@@ -52,6 +52,9 @@ TEST(ReadLayout, BadFilesAreNamed) {
   refuse(R"([{"x": 1, "y": 0, "z": 0, "qx": 0, "qy": 0, "qz": 0, "w": 2}])", {"unit quaternion"});
   refuse(R"([{"x": 1, "y": 0, "z": 0, "qx": 0, "qy": 0, "qz": 0}])", {"'w' is missing"});
   refuse("[" + Car(0, 0, 0, R"(, "label": "Boat")") + "]", {"'label' must be"});
+  refuse("[" + Car(0, 0, 0, R"(, "lable": "Van")") + "]", {"unknown key 'lable'"});
+  refuse("[" + Car(0, 0, 0, R"(, "x": 3)") + "]", {"'x' stands here twice"});
+  refuse("[" + Car(1e300, 0, 0) + "]", {"more than 10 km"});
   ExpectError([] { ReadLayout("/nowhere.json"); }, {"/nowhere.json"});
 }
 

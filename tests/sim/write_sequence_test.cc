@@ -121,6 +121,17 @@ TEST_F(WriteSequenceTest, RefusesAFolderThatIsNotEmpty) {
   EXPECT_EQ(Read(folder_ / "mine.txt"), "precious");
 }
 
+TEST_F(WriteSequenceTest, LeavesNoVectorsOfAnotherWorld) {
+  for (auto& frame : detections_.frames)
+    for (Detection& detection : frame) detection.embedding = {1, 0};
+  Write(folder_);
+  EXPECT_TRUE(fs::exists(folder_ / "embeddings.npy"));
+  for (auto& frame : detections_.frames)
+    for (Detection& detection : frame) detection.embedding.clear();
+  Write(folder_, true);
+  EXPECT_FALSE(fs::exists(folder_ / "embeddings.npy"));
+}
+
 TEST_F(WriteSequenceTest, FolderThatCannotBe) {
   std::ofstream(folder_) << "a file";
   EXPECT_EQ(KindOfFailure(folder_), ErrorKind::kOutput);

@@ -19,7 +19,7 @@ class Gallery {
   explicit Gallery(Mode mode = Mode::kByViewpoint) : mode_(mode) {}
 
   /// Adds a vector seen from `viewpoint_rad`: the bearing of the camera in the object frame, 0 = from the front.
-  /// Vectors of one gallery have one length; an empty vector is ignored.
+  /// Vectors of one gallery have one length; an empty vector, or one of another length, is ignored.
   void Add(const std::vector<float>& vector, double viewpoint_rad);
 
   /// Similarity of a vector seen from `viewpoint_rad` in [0, 1] (negative dot products count as 0). None while either

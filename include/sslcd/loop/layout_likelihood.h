@@ -39,7 +39,8 @@ struct LayoutFit {
   int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
 };
 
-/// Of one local layout on one map; refers to both.
+/// Of one local layout on one map; refers to both, which have to outlive it. Positions are finite. It remembers what it
+/// has worked out, so not two threads at once.
 class LayoutLikelihood {
  public:
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
