@@ -29,12 +29,6 @@ double BestSeconds(const std::function<void()>& run) {
   return best;
 }
 
-std::vector<Pose> PosesOf(const PoseGraph& graph) {
-  std::vector<Pose> poses;
-  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
-  return poses;
-}
-
 void Minimum(const std::string& name, const PoseGraph& given) {
   PoseGraphSummary summary;
   const double seconds = BestSeconds([&] {

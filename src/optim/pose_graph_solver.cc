@@ -28,12 +28,6 @@ double Chi2Of(const PoseGraph& graph, const Ends& ends, const std::vector<double
   return chi2;
 }
 
-std::vector<Pose> PosesOf(const PoseGraph& graph) {
-  std::vector<Pose> poses;
-  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
-  return poses;
-}
-
 // Fixed vertices, and the first vertex of each part that has none.
 std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& component) {
   std::vector<bool> anchored(graph.vertices.size()), held(graph.vertices.size());

@@ -41,12 +41,6 @@ LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vect
   return result;
 }
 
-std::vector<Pose> PosesOf(const PoseGraph& graph) {
-  std::vector<Pose> poses;
-  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
-  return poses;
-}
-
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity) {
   const Vec3 forward = (T_now * T_before.inverse()).so3() * gravity.forward;
   YawShift change;

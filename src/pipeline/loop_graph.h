@@ -26,9 +26,6 @@ struct LoopGraph {
 LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vector<LoopEdge>& loops, double scale,
                          const LoopOptions& options);
 
-/// Poses of the vertices, in order.
-std::vector<Pose> PosesOf(const PoseGraph& graph);
-
 /// How the layout around a camera moves with it: yaw about its place. Heights are the layout's own and stay.
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity);
 

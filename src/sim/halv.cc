@@ -8,6 +8,7 @@
 #include "sim/check_fields.h"
 #include "sim/halv_course.h"
 #include "sim/streams.h"
+#include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::sim {
@@ -86,6 +87,8 @@ CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const Odomet
 HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
   CheckFields(options.drift);
   CheckFields(options.detector);
+  if (options.drift.ate_m < 0 && options.drift.ate_m != -1)
+    throw Error(ErrorKind::kUsage, "ate_m is an error in metres, 0 or more, or -1: the case's");
   HalvSequence sequence;
   sequence.scene = MakeHalvWorld(seed, options.scene);
   const World& world = sequence.scene.world;

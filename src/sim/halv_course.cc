@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "sim/dubins.h"
 #include "sim/streams.h"
+#include "sslcd/core/error.h"
 #include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
@@ -33,7 +35,9 @@ const HalvCase& HalvCaseOf(int number) {
       {"curve", {{20, 0}, {60, 1 / 40.}, {36, -1 / 26.}}, 32, 28, 34, 0, 120, 170, 0.814},
       {"small loop", Corners({26, 4.6, 26, 12}, 3), 16, 10, 26, 0, 0, 45, 0.720},
   }};
-  return kCases.at(number - 1);
+  if (number < 1 || number > static_cast<int>(kCases.size()))
+    throw Error(ErrorKind::kUsage, "case is " + std::to_string(number) + ", must be 1 to 4");
+  return kCases[number - 1];
 }
 
 HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size, std::uint64_t seed) {

@@ -121,6 +121,9 @@ void CheckCars(const std::vector<Slot>& parked, const HalvCourse& course) {
 
 HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
   CheckFields(scene);
+  for (const double degrees : {scene.viewpoint_low_deg, scene.viewpoint_high_deg})
+    if (degrees < 0 && degrees != -1)
+      throw Error(ErrorKind::kUsage, "viewpoint_low_deg and viewpoint_high_deg are 0 to 180, or -1: the case's");
   const HalvCase& shape = HalvCaseOf(scene.case_number);
   const double low = scene.viewpoint_low_deg < 0 ? shape.viewpoint_low : scene.viewpoint_low_deg;
   const double high = scene.viewpoint_high_deg < 0 ? shape.viewpoint_high : scene.viewpoint_high_deg;

@@ -201,6 +201,9 @@ TEST(Halv, BadOptionsSayWhatToDo) {
   refuse([](auto& o) { o.appearance.same_side = 0.2; }, {"same_side", "opposite_side"});
   refuse([](auto& o) { o.scene.viewpoint_low_deg = 90, o.scene.viewpoint_high_deg = 10; }, {"viewpoint_low_deg"});
   refuse([](auto& o) { o.drift.shape = {0, 0, 0, 0, 0, 0, 1}; }, {"--ate-m"});
+  refuse([](auto& o) { o.drift.ate_m = -0.5; }, {"ate_m", "0 or more", "-1"});
+  refuse([](auto& o) { o.scene.viewpoint_low_deg = -0.5; }, {"viewpoint_low_deg", "-1"});
+  ExpectError([] { HalvAte(7); }, {"case is 7", "1 to 4"});
   refuse([](auto& o) { o.scene.layout = "/nowhere.json"; }, {"/nowhere.json"});
 }
 

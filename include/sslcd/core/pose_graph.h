@@ -26,4 +26,11 @@ struct PoseGraph {
   std::vector<Edge> edges;
 };
 
+/// T_world_vertex of all vertices, in order.
+inline std::vector<Pose> PosesOf(const PoseGraph& graph) {
+  std::vector<Pose> poses;
+  for (const auto& vertex : graph.vertices) poses.push_back(vertex.T_world_vertex);
+  return poses;
+}
+
 }  // namespace sslcd
