@@ -10,18 +10,28 @@
 #include "pipeline/loop_prior.h"
 #include "pipeline/move.h"
 #include "pipeline/refine.h"
+#include "sslcd/core/error.h"
 
 namespace sslcd {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
+void CheckMatches(const std::vector<std::pair<int, int>>& matches, std::size_t locals, std::size_t globals) {
+  for (const auto& [i, j] : matches)
+    if (i < 0 || j < 0 || i >= static_cast<int>(locals) || j >= static_cast<int>(globals))
+      throw Error(ErrorKind::kUsage, "the place matcher matches objects " + std::to_string(i) + " and " +
+                                         std::to_string(j) + " of " + std::to_string(locals) + " local and " +
+                                         std::to_string(globals) + " global ones");
+}
+
 }  // namespace
 
-LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames)
+LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames, PlaceMatcher matcher)
     : options_(options),
       map_(map),
       frames_(frames),
+      matcher_(std::move(matcher)),
       passes_(map, frames, options.noise, options.loop.layout.split_m,
               options.mode == Options::Mode::kPaper ? Gallery::Mode::kMean : Gallery::Mode::kByViewpoint),
       tracks_(options.loop.tracks) {}
@@ -49,14 +59,14 @@ bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
 
 void LoopCloser::Finish(double scale, TimingTable& timing) {
   constexpr double kStep = 10.;  // [m]
-  if (frames_.empty() || options_.mode == Options::Mode::kPaper) return;
+  if (frames_.empty() || options_.mode == Options::Mode::kPaper || matcher_) return;
   for (double lag = options_.loop.lag_m - kStep; lag > 0; lag -= kStep) DetectAndCorrect(lag, scale, timing);
 }
 
 bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
-    if (!(options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m))) return false;
+    if (!Find(lag_m)) return false;
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moved = !Agree();
@@ -71,6 +81,11 @@ bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timin
 }
 
 // True: something new is believed.
+bool LoopCloser::Find(double lag_m) {
+  if (matcher_) return DetectWithMatcher(lag_m);
+  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m);
+}
+
 bool LoopCloser::Detect(double lag_m) {
   const LoopOptions& o = options_.loop;
   const double here = frames_.back().travelled;
@@ -95,9 +110,7 @@ bool LoopCloser::Detect(double lag_m) {
   const LoopMeter meter(map_.gravity(), frames_, passes_, o);
   auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, lag_m, OldUntil());
   if (!loop) return false;
-  Attempt& attempt = attempts_.emplace_back();
-  attempt.loop = std::move(*loop);
-  attempt.pairs = attempt.loop.row.pairs;
+  Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.track = best.id;
   // The evidence is against poses anywhere on the map; the track leaves about this much of them.
   constexpr double kTrackVolume = 2.5;  // [m^2 rad]
@@ -154,11 +167,11 @@ bool LoopCloser::DetectAsPrinted() {
       layout->objects[i].position = map_.gravity().Basis().transpose() * layout->places[i].position;
   const auto matches = PaperMatch(local.objects, global.objects, options_.loop.paper);
   if (!matches) return false;
-  Attempt attempt;
-  LoopClosure& row = attempt.loop.row;
+  LoopMeasurement loop;
+  LoopClosure& row = loop.row;
   std::vector<DriftPair> pairs;
-  attempt.loop.query = static_cast<int>(frames_.size()) - 1;
-  attempt.loop.match = attempt.loop.query;
+  loop.query = static_cast<int>(frames_.size()) - 1;
+  loop.match = loop.query;
   for (const ObjectMatch& match : *matches) {
     DriftPair& pair = pairs.emplace_back();
     pair.T_world_local = ToPose(local.places[match.local], map_.gravity());
@@ -166,20 +179,77 @@ bool LoopCloser::DetectAsPrinted() {
     row.pairs.push_back({{local.objects[match.local].id}, {global.objects[match.global].id}});
     row.score += match.similarity;
     for (const PassObject& pass : passes_.passes())
-      if (pass.id == row.pairs.back().second)
-        attempt.loop.match = std::min(attempt.loop.match, pass.sightings.front().first);
+      if (pass.id == row.pairs.back().second) loop.match = std::min(loop.match, pass.sightings.front().first);
   }
   const std::optional<Pose> T_drift = SolveDriftAsPrinted(pairs);
-  if (!T_drift || attempt.loop.match == attempt.loop.query) return false;
-  const FrameRecord &query = frames_[attempt.loop.query], &match = frames_[attempt.loop.match];
+  if (!T_drift || loop.match == loop.query) return false;
+  const FrameRecord &query = frames_[loop.query], &match = frames_[loop.match];
   row.query_frame = query.frame;
   row.match_frame = match.frame;
   row.T_match_query = match.T_world_cam.inverse() * T_drift->inverse() * query.T_world_cam;  // Eq. 19
   row.covariance = Mat6::Identity() * 0.01;                                                  // none is printed: tight
-  attempt.pairs = row.pairs;
-  attempts_.push_back(std::move(attempt));
-  Believe(attempts_.back(), "as printed: " + std::to_string(pairs.size()) + " objects match");
+  Believe(AddAttempt(std::move(loop)), "as printed: " + std::to_string(pairs.size()) + " objects match");
   return true;
+}
+
+// A matcher of the host finds the place and decides; drift, pose graph and map are ours.
+bool LoopCloser::DetectWithMatcher(double lag_m) {
+  const LoopLayoutOptions& o = options_.loop.layout;
+  const PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
+  const PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
+  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(),
+                                        [](double m, const FrameRecord& frame) { return m < frame.travelled; });
+  if (old_end == frames_.begin()) return false;
+  const auto answer = matcher_({local.objects, global.objects, frames_.back().frame, std::prev(old_end)->frame});
+  if (!answer) return false;
+  std::optional<LoopMeasurement> loop;
+  if (answer->matches.empty()) {
+    loop = MeasureImages(answer->match_frame, answer->T_match_query);
+  } else {
+    constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
+    CheckMatches(answer->matches, local.objects.size(), global.objects.size());
+    const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
+    loop = meter.Measure(local, global, answer->matches, kSigma, lag_m, OldUntil());
+  }
+  if (!loop) return false;
+  Attempt& attempt = AddAttempt(std::move(*loop));
+  LoopClosure& row = attempt.loop.row;
+  row.score = answer->score;
+  row.decision = LoopDecision::kAmbiguous;
+  row.reason = "the matcher is not sure";
+  if (answer->accepted) Believe(attempt, "the matcher is sure");
+  return answer->accepted;
+}
+
+// Two images tie two cameras together: the newest one and an old one.
+LoopMeasurement LoopCloser::MeasureImages(int match_frame, const Pose& T_match_query) const {
+  const auto match = std::find_if(frames_.begin(), frames_.end(),
+                                  [&](const FrameRecord& frame) { return frame.frame == match_frame; });
+  if (match == frames_.end())
+    throw Error(ErrorKind::kUsage, "the place matcher answers with frame " + std::to_string(match_frame) +
+                                       ", which has not been seen; name one up to PlaceQuery::old_frame");
+  LoopMeasurement loop;
+  loop.query = static_cast<int>(frames_.size()) - 1;
+  loop.match = static_cast<int>(match - frames_.begin());
+  LoopClosure& row = loop.row;
+  row.query_frame = frames_.back().frame;
+  row.match_frame = match_frame;
+  row.T_match_query = T_match_query;
+  Vec6 sigmas;
+  sigmas << Vec3::Constant(options_.loop.sigma_m), Vec3::Constant(options_.loop.sigma_rad);
+  row.covariance = Mat6(sigmas.cwiseAbs2().asDiagonal());
+  const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
+  row.viewpoint_change_rad =
+      std::abs(WrapAngle(meter.Heading(match->T_world_cam * T_match_query) - meter.Heading(match->T_world_cam)));
+  return loop;
+}
+
+LoopCloser::Attempt& LoopCloser::AddAttempt(LoopMeasurement loop) {
+  Attempt& attempt = attempts_.emplace_back();
+  attempt.loop = std::move(loop);
+  attempt.loop.row.newest_frame = frames_.back().frame;
+  attempt.pairs = attempt.loop.row.pairs;
+  return attempt;
 }
 
 // True if the trajectory as it stands goes through all loops believed since the last correction.

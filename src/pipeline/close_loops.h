@@ -20,7 +20,7 @@ namespace sslcd {
 /// frames.
 class LoopCloser {
  public:
-  LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames);
+  LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames, PlaceMatcher matcher = {});
 
   /// The newest frame, while it still knows how its detections look. To be called with each frame.
   void AddFrame() { passes_.Update(); }
@@ -50,8 +50,12 @@ class LoopCloser {
     bool in_graph = false;   // ... since the last time that was solved
   };
   bool DetectAndCorrect(double lag_m, double scale, TimingTable& timing);
+  bool Find(double lag_m);
   bool Detect(double lag_m);
+  bool DetectWithMatcher(double lag_m);
+  LoopMeasurement MeasureImages(int match_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
+  Attempt& AddAttempt(LoopMeasurement loop);
   bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);
   void Believe(Attempt& attempt, const std::string& reason);
   bool Agree() const;
@@ -62,6 +66,7 @@ class LoopCloser {
   Options options_;
   ObjectMap& map_;
   std::vector<FrameRecord>& frames_;
+  PlaceMatcher matcher_;
   PassMap passes_;
   PoseTracks tracks_;
   PathGraph path_;

@@ -128,7 +128,6 @@ Pose LoopMeter::Levelling(int frame) const {
   return {turn, pivot - turn * pivot};
 }
 
-// Which way a camera looks, horizontally.
 double LoopMeter::Heading(const Pose& T_world_cam) const {
   const Vec3 axis = T_world_cam.so3() * Vec3::UnitZ();
   return std::atan2(axis.dot(gravity_.left), axis.dot(gravity_.forward));

@@ -37,6 +37,9 @@ class LoopMeter {
                                          const std::vector<std::pair<int, int>>& matches, double sigma_m, double lag_m,
                                          double old_until_m) const;
 
+  /// Which way a camera looks, horizontally. [rad]
+  double Heading(const Pose& T_world_cam) const;
+
  private:
   std::optional<LoopMeasurement> MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
                                            const std::vector<std::pair<int, int>>& matches, double sigma_m,
@@ -45,7 +48,6 @@ class LoopMeter {
   int NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const;
   double Bent(int frame, double seen_m) const;
   Pose Levelling(int frame) const;
-  double Heading(const Pose& T_world_cam) const;
 
   GravityFrame gravity_;
   const std::vector<FrameRecord>& frames_;

@@ -27,7 +27,7 @@ Mapper::Mapper(const Options& options, const MapperContext& context)
       context_(context),
       map_(context.gravity, context.labels, options.noise, options.association, options.map),
       leveller_(std::make_unique<Leveller>(context.gravity, options.level)),
-      loops_(std::make_unique<LoopCloser>(options, map_, frames_)) {}
+      loops_(std::make_unique<LoopCloser>(options, map_, frames_, context_.place_matcher)) {}
 
 Mapper::~Mapper() = default;
 

@@ -21,6 +21,7 @@ const char* ToString(LoopDecision decision);
 
 /// One attempt to close a loop, successful or not: a row of loops.csv.
 struct LoopClosure {
+  int newest_frame = 0;  ///< where it was looked for; the query frame may be an earlier one
   int query_frame = 0, match_frame = 0;
   LoopDecision decision = LoopDecision::kNone;
   std::string reason;  ///< why it was refused, or what settled it

@@ -12,6 +12,7 @@
 #include "sslcd/map/object_map.h"
 #include "sslcd/optim/object_ba.h"
 #include "sslcd/pipeline/options.h"
+#include "sslcd/pipeline/place_matcher.h"
 
 namespace sslcd {
 
@@ -20,6 +21,7 @@ struct MapperContext {
   GravityFrame gravity;
   LabelTable labels;
   std::optional<Camera> camera;  ///< none: nothing is projected, the box cue drops out
+  PlaceMatcher place_matcher{};  ///< none: sslcd's own
 };
 
 /// What one frame did.
