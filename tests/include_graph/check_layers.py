@@ -19,7 +19,7 @@ OPT_IN = {"include/sslcd/io/opencv_image.h": {"opencv2"}, "include/sslcd/optim/c
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "onnxruntime": "onnx"}
 # Not modules of the library: tools and synthetic data stand above it and may use all of it.
-ABOVE = {"sim"}
+ABOVE = {"sim", "benchmark"}
 
 
 def read_modules(cmake_lists):
