@@ -10,6 +10,7 @@
 
 #include "bench_kitti.h"
 #include "commands.h"
+#include "sslcd/benchmark/foreign.h"
 #include "sslcd/benchmark/halv_tables.h"
 #include "sslcd/benchmark/results.h"
 #include "sslcd/core/error.h"
@@ -30,7 +31,7 @@ struct BenchArguments {
   std::string name, out = "runs/bench", layout, kitti, docs;
   int seeds = 10, threads = 0;
   std::vector<int> cases = {1, 2, 3, 4};
-  std::vector<std::string> methods, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
+  std::vector<std::string> methods, trajectories, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
 };
 
 // Ends a benchmark that ctrl-C has stopped.
@@ -65,8 +66,28 @@ class Bench {
   }
 
   void Table2() {
-    const std::vector<MethodResults> results = Results(Places()[0], Chosen(benchmark::Methods()), false);
+    std::vector<MethodResults> foreign;  // first: what is wrong with them is to be known at once
+    for (const std::string& given : arguments_.trajectories) foreign.push_back(Foreign(given));
+    std::vector<MethodResults> results = Results(Places()[0], Chosen(benchmark::Methods()), false);
+    for (MethodResults& other : foreign) results.push_back(std::move(other));
     Write(AteTable(results));
+  }
+
+  // What another system has made of the same sequences: "NAME=FOLDER", with a file for each, e.g. lot-c1-s7.txt.
+  MethodResults Foreign(const std::string& given) const {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::kUsage, "--trajectories " + given + ": write NAME=FOLDER");
+    MethodResults foreign;
+    foreign.method.key = foreign.method.title = given.substr(0, equals);
+    for (Trial& trial : TrialsOf(Places()[0], foreign.method, false)) {
+      const std::string file = given.substr(equals + 1) + "/" + trial.World() + ".txt";
+      TrialResult result;
+      result.ate = benchmark::ForeignAte(file, MakeSequence(trial).scene.world.truth);
+      foreign.results.push_back(result);
+      foreign.trials.push_back(std::move(trial));
+    }
+    return foreign;
   }
 
   // Times are of one run at a time, whatever --threads says.
@@ -128,12 +149,18 @@ class Bench {
     return place.key == "lot" ? "generated car park" : "layout " + place.key;
   }
 
+  std::vector<Trial> TrialsOf(const Place& place, const Method& method, bool only_asked) const {
+    std::vector<Trial> trials;
+    for (const int c : arguments_.cases)
+      for (int seed = 1; seed <= arguments_.seeds; ++seed)
+        trials.push_back({place, c, static_cast<std::uint64_t>(seed), method, only_asked});
+    return trials;
+  }
+
   std::vector<MethodResults> Results(const Place& place, const std::vector<Method>& methods, bool only_asked) {
     std::vector<Trial> trials;
     for (const Method& method : methods)
-      for (const int c : arguments_.cases)
-        for (int seed = 1; seed <= arguments_.seeds; ++seed)
-          trials.push_back({place, c, static_cast<std::uint64_t>(seed), method, only_asked});
+      for (Trial& trial : TrialsOf(place, method, only_asked)) trials.push_back(std::move(trial));
     const std::vector<TrialResult> results = RunAll(trials, arguments_.threads);
     std::vector<MethodResults> sorted;
     const std::size_t each = arguments_.cases.size() * static_cast<std::size_t>(arguments_.seeds);
@@ -228,6 +255,10 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
       ->capture_default_str();
   command->add_option("--cases", a->cases, "cases of HALV-sim")->check(CLI::Range(1, 4))->delimiter(',');
   command->add_option("--methods", a->methods, "methods of table2 and pr; default: all")->delimiter(',');
+  command->add_option(
+      "--trajectories", a->trajectories,
+      "NAME=FOLDER: what another system has made of the same sequences, TUM rows in FOLDER/lot-c1-s1.txt "
+      "for case 1, seed 1, and so on; a row of table2");
   command->add_option("--layout", a->layout, "JSON file of parked cars, for attempts on a real car park")
       ->check(CLI::ExistingFile);
   command->add_option("--kitti", a->kitti, "folder of KITTI's tracking benchmark, for table1")

@@ -24,10 +24,6 @@ std::optional<std::string> ReadIfThere(const std::string& path) {
   return text.str();
 }
 
-std::string WorldOf(const Trial& trial) {
-  return trial.place.key + "-c" + std::to_string(trial.case_number) + "-s" + std::to_string(trial.seed);
-}
-
 }  // namespace
 
 ResultFolder::ResultFolder(std::string path, const std::string& commit) : path_(std::move(path)) {
@@ -67,7 +63,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
       ++done;
       continue;
     }
-    const auto [world, is_new] = worlds.insert({WorldOf(trials[i]), missing.size()});
+    const auto [world, is_new] = worlds.insert({trials[i].World(), missing.size()});
     if (is_new) missing.emplace_back();
     missing[world->second].push_back(i);
   }

@@ -22,10 +22,11 @@ PlaceMatcher OnlyAsked(PlaceMatcher matcher, std::set<int>& accepted) {
 
 }  // namespace
 
-std::string Trial::Name() const {
-  return place.key + "-c" + std::to_string(case_number) + "-s" + std::to_string(seed) + "-" + method.key +
-         (only_asked ? "-asked" : "");
+std::string Trial::World() const {
+  return place.key + "-c" + std::to_string(case_number) + "-s" + std::to_string(seed);
 }
+
+std::string Trial::Name() const { return World() + "-" + method.key + (only_asked ? "-asked" : ""); }
 
 sim::HalvSequence MakeSequence(const Trial& trial) {
   sim::HalvOptions options;

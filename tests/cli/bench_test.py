@@ -74,6 +74,21 @@ class BenchTest(CliCase):
         self.assertEqual(read(self.out + '.md'), 'Nothing.\n')
         self.refused(self.bench('table2', *SMALL, '--docs', self.out + '/none.md'), 3, '--docs')
 
+    def test_trajectories_of_another_system(self):
+        sim = [binaries['sim'], 'halv', '--case', '4', '--seed', '1', '--out', self.out + '_halv']
+        subprocess.run(sim, check=True, capture_output=True)
+        write(self.out + '_other/lot-c4-s1.txt', read(self.out + '_halv/odometry.txt'))
+        other = f'Other={self.out}_other'
+        result = self.bench('table2', *SMALL, '--trajectories', other)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        error = {row['method']: row['4 RMSE'] for row in self.read_csv('table2')}
+        self.assertEqual(error['Other'], error['the odometry as it comes'])
+        self.refused(self.bench('table2', *SMALL, '--trajectories', 'nothing'), 2, 'NAME=FOLDER')
+        self.refused(self.bench('table2', *SMALL, '--trajectories', other + '/none'), 3, 'none/lot-c4-s1.txt')
+        rows = read(self.out + '_other/lot-c4-s1.txt').splitlines()
+        write(self.out + '_other/lot-c4-s1.txt', '\n'.join(rows[:50]) + '\n')
+        self.refused(self.bench('table2', *SMALL, '--trajectories', other), 3, 'lot-c4-s1.txt: has poses for 50 of')
+
     def test_interrupted(self):
         arguments = [binaries['run'], 'bench', 'ablation', '--out', self.out, '--seeds', '5', '--threads', '1']
         bench = subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True)

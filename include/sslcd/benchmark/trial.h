@@ -29,7 +29,8 @@ struct Trial {
   /// The method is asked at each attempt, but closes nothing: all methods see the same maps. For precision and recall.
   bool only_asked = false;
 
-  std::string Name() const;  ///< e.g. "lot-c1-s7-sslcd", for files
+  std::string World() const;  ///< e.g. "lot-c1-s7", for files
+  std::string Name() const;   ///< e.g. "lot-c1-s7-sslcd"
 };
 
 struct TrialResult {
