@@ -18,8 +18,8 @@ OPT_IN = {"include/sslcd/io/opencv_image.h": {"opencv2"}, "include/sslcd/optim/c
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "onnxruntime": "onnx"}
-# Not modules of the library: tools and synthetic data stand above it and may use all of it.
-ABOVE = {"sim"}
+# Not modules of the library: synthetic data and other methods stand above it, beside each other, and may use all of it.
+ABOVE = {"sim", "baselines"}
 
 
 def read_modules(cmake_lists):
@@ -58,7 +58,7 @@ def check_include(include, module, relative, modules, source_dir):
     """None, or what is wrong with this include."""
     public = relative.startswith("include/")
     first = include.split("/")[0]
-    may_include, may_use = modules[module] if module not in ABOVE else (set(modules) | ABOVE, set(OUTSIDE))
+    may_include, may_use = modules[module] if module not in ABOVE else (set(modules) | {module}, set(OUTSIDE))
     if first == "sslcd":
         target = include.split("/")[1]
         if not (source_dir / "include" / include).exists():
