@@ -12,7 +12,7 @@ struct LinOptions {
   double edge_m = 20;       ///< objects this close are neighbours
   RandomWalkOptions walks;  ///< the descriptor that finds candidates
   double least_walk_similarity = 0.1;
-  int candidates = 10;            ///< global objects whose neighbourhood is compared with that of a local one
+  int candidates = 20;            ///< global objects whose neighbourhood is compared with that of a local one
   double edge_tolerance_m = 2;    ///< edges whose lengths differ by this much are different; 0: lengths do not count
   double least_similarity = 0.2;  ///< of two neighbourhoods
   ConsensusOptions consensus{5000, 2, 3};

@@ -10,18 +10,19 @@ namespace sslcd::baselines {
 /// Localization", RA-L 2018 (section III: graph extraction, descriptors, descriptor matching, localisation back-end).
 /// docs/baselines.md says which of the values are its authors'.
 struct XViewOptions {
-  double edge_m = 20;       ///< objects this close are neighbours
+  double edge_m = 10;       ///< objects this close are neighbours
   RandomWalkOptions walks;  ///< the descriptor: m walks of n steps
   double least_similarity = 0.2;
-  int candidates = 5;  ///< k: the most similar global objects of each local one take part
-  ConsensusOptions consensus{5000, 2, 3};
+  int candidates = 10;  ///< k: the most similar global objects of each local one take part
+  ConsensusOptions consensus{5000, 1, 3};
+  double accept_score = 0;  ///< 0, the published rule: every pose
   int seed = 1;
 };
 void DescribeFields(FieldVisitor& visitor, XViewOptions& options);
 
 /// Objects of equal labels are as similar as the share of identical random walks. The k best of each, checked for
 /// geometric consistency, give the pose. Score: the mean similarity of the matches times the share of the local objects
-/// that are matched, in [0, 1]. It takes every pose with `consensus.least_inliers` matches.
+/// that are matched, in [0, 1]. Taken from `accept_score` on.
 std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
                                  const XViewOptions& options);
 PlaceMatcher XViewMatcher(const XViewOptions& options);
