@@ -2,7 +2,10 @@
 #include "eval/identities.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "sslcd/core/error.h"
 
 namespace sslcd {
 
@@ -31,6 +34,14 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
     ++result.owned[winner->first];
   }
   return result;
+}
+
+int IdentityOfRow(const std::vector<int>& identities, int row) {
+  if (row < 0 || row >= static_cast<int>(identities.size())) {
+    throw Error(ErrorKind::kUsage, "detection row " + std::to_string(row) + " has no true identity: there are " +
+                                       std::to_string(identities.size()) + " identities, for the rows from 0 on");
+  }
+  return identities[row];
 }
 
 }  // namespace sslcd

@@ -25,4 +25,7 @@ struct Identities {
 Identities FindIdentities(const std::vector<MapObject>& objects,
                           const std::function<std::optional<int>(int)>& identity_of_row);
 
+/// The true identity of a detection row. Throws Error (kUsage) if it has none.
+int IdentityOfRow(const std::vector<int>& identities, int row);
+
 }  // namespace sslcd

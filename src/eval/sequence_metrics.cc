@@ -2,39 +2,18 @@
 #include "sslcd/eval/sequence_metrics.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "eval/identities.h"
-#include "sslcd/core/error.h"
+#include "eval/path.h"
+#include "sslcd/eval/revisits.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd {
 namespace {
-
-/// Direction the camera looks in, in the horizontal plane. [rad]
-double Heading(const Pose& T_world_cam) {
-  const Vec3 view = T_world_cam.so3() * Vec3(Vec3::UnitZ());
-  return std::atan2(view.x(), view.z());
-}
-
-std::vector<double> DistanceAlong(const std::vector<Pose>& poses) {
-  std::vector<double> distance{0.};
-  for (std::size_t i = 1; i < poses.size(); ++i) {
-    distance.push_back(distance.back() + (poses[i].translation() - poses[i - 1].translation()).norm());
-  }
-  return distance;
-}
-
-int IdentityOfRow(const std::vector<int>& identities, int row) {
-  if (row < 0 || row >= static_cast<int>(identities.size())) {
-    throw Error(ErrorKind::kUsage, "detection row " + std::to_string(row) + " has no true identity: there are " +
-                                       std::to_string(identities.size()) + " identities, for the rows from 0 on");
-  }
-  return identities[row];
-}
 
 /// Positions along the path [m] at which something of long ago should be recognised.
 std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<double>& distance,
@@ -61,34 +40,25 @@ std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<dou
   return marks;
 }
 
-void JudgeLoops(const SequenceRun& run, const std::vector<Pose>& reference, const SequenceMetricOptions& options,
-                SequenceMetrics& metrics) {
+void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference, const SequenceMetricOptions& options,
+              SequenceMetrics& metrics) {
   const std::vector<double> distance = DistanceAlong(reference);
   const std::vector<double> marks = RevisitedMarks(run, distance, options);
-  const int n = static_cast<int>(reference.size());
+  std::vector<LoopClosure> accepted;
+  std::copy_if(run.loops.begin(), run.loops.end(), std::back_inserter(accepted),
+               [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
   std::set<double> hit;
   std::vector<double> errors_m, errors_rad;
-  for (const LoopClosure& loop : run.loops) {
-    if (loop.decision != LoopDecision::kAccepted) continue;
-    if (std::min(loop.query_frame, loop.match_frame) < 0 || std::max(loop.query_frame, loop.match_frame) >= n) {
-      throw Error(ErrorKind::kUsage, "the loop " + std::to_string(loop.query_frame) + " - " +
-                                         std::to_string(loop.match_frame) + " is outside of the " + std::to_string(n) +
-                                         " frames that have a pose in all trajectories");
-    }
-    const Pose& query = reference[loop.query_frame];
-    const Pose& match = reference[loop.match_frame];
-    const Pose error = (match.inverse() * query).inverse() * loop.T_match_query;
-    errors_m.push_back(std::hypot(error.translation().x(), error.translation().z()));
-    errors_rad.push_back(error.so3().Log().norm());
-    if (!(errors_m.back() < options.true_loop_m && errors_rad.back() < options.true_loop_rad)) {
+  for (const LoopOutcome& loop : JudgeLoops(accepted, reference)) {
+    errors_m.push_back(loop.error_m);
+    errors_rad.push_back(loop.error_rad);
+    if (!(loop.error_m < options.true_loop_m && loop.error_rad < options.true_loop_rad)) {
       ++metrics.wrong_loops;
       continue;
     }
-    ++metrics.true_by_viewpoint[ViewpointBin(Heading(query) - Heading(match))];
-    const double at = distance[loop.query_frame];
-    for (const double mark : marks) {
-      if (mark - options.spacing_m < at && at <= mark + options.spacing_m) hit.insert(mark);
-    }
+    ++metrics.true_by_viewpoint[ViewpointBin(loop.viewpoint_rad)];
+    for (const double mark : marks)
+      if (mark - options.spacing_m < loop.at_m && loop.at_m <= mark + options.spacing_m) hit.insert(mark);
   }
   metrics.loops = static_cast<int>(errors_m.size());
   metrics.revisited_stretches = static_cast<int>(marks.size());
@@ -123,7 +93,7 @@ SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run, const SequenceMet
   SequenceMetrics metrics;
   metrics.ate = ComputeAte(cut(run.estimate), reference).error.rmse;
   metrics.ate_odometry = ComputeAte(cut(run.odometry), reference).error.rmse;
-  JudgeLoops(run, reference, options, metrics);
+  AddLoops(run, reference, options, metrics);
   JudgeMap(run, metrics);
   return metrics;
 }
