@@ -15,6 +15,7 @@
 #include "sslcd/benchmark/results.h"
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
+#include "sslcd/io/config.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {
@@ -28,11 +29,21 @@ using benchmark::Trial;
 using benchmark::TrialResult;
 
 struct BenchArguments {
-  std::string name, out = "runs/bench", layout, kitti, docs;
+  std::string name, out = "runs/bench", layout, kitti, docs, baselines, matches;
   int seeds = 10, threads = 0;
   std::vector<int> cases = {1, 2, 3, 4};
   std::vector<std::string> methods, trajectories, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
 };
+
+baselines::BaselineOptions LoadBaselines(const std::string& file) {
+  baselines::BaselineOptions options;
+  if (!file.empty()) LoadConfigFile(file, [&](FieldVisitor& visitor) { DescribeFields(visitor, options); });
+  return options;
+}
+
+std::string Dump(baselines::BaselineOptions options) {
+  return DumpConfig([&](FieldVisitor& visitor) { DescribeFields(visitor, options); }, false);
+}
 
 // Ends a benchmark that ctrl-C has stopped.
 struct Stopped {};
@@ -40,7 +51,10 @@ struct Stopped {};
 class Bench {
  public:
   Bench(const BenchArguments& arguments, const Console& console)
-      : arguments_(arguments), console_(console), folder_(arguments.out, SSLCD_COMMIT) {}
+      : arguments_(arguments),
+        console_(console),
+        baselines_(LoadBaselines(arguments.baselines)),
+        folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
 
   // What is asked for, in the order of the paper's tables.
   void Run() {
@@ -68,7 +82,7 @@ class Bench {
   void Table2() {
     std::vector<MethodResults> foreign;  // first: what is wrong with them is to be known at once
     for (const std::string& given : arguments_.trajectories) foreign.push_back(Foreign(given));
-    std::vector<MethodResults> results = Results(Places()[0], Chosen(benchmark::Methods()), false);
+    std::vector<MethodResults> results = Results(Places()[0], Chosen(), false);
     for (MethodResults& other : foreign) results.push_back(std::move(other));
     Write(AteTable(results));
   }
@@ -116,10 +130,12 @@ class Bench {
 
   void Pr() {
     std::vector<Method> full, asked;
-    for (const Method& method : Chosen(benchmark::Methods())) {
+    for (const Method& method : Chosen()) {
       if (method.matcher) asked.push_back(method);
       if (method.key == "sslcd") full.push_back(method);
     }
+    if (!arguments_.matches.empty())
+      asked.push_back(benchmark::PointMatchMethod(arguments_.matches, baselines_.point_matches));
     std::vector<MethodResults> results = Results(Places()[0], full, false);
     for (MethodResults& method : Results(Places()[0], asked, true)) results.push_back(std::move(method));
     Write(PrecisionRecallTable(results));
@@ -128,9 +144,7 @@ class Bench {
 
   void Ablation() { Write(AblationTable(Results(Places()[0], benchmark::Ablations(), false))); }
 
-  std::vector<Method> Chosen(const std::vector<Method>& methods) const {
-    return benchmark::Select(methods, arguments_.methods);
-  }
+  std::vector<Method> Chosen() const { return benchmark::Select(benchmark::Methods(baselines_), arguments_.methods); }
 
   // The car park, the same with other cars on the way back, and a real one where it is given.
   std::vector<Place> Places() const {
@@ -221,6 +235,7 @@ class Bench {
 
   const BenchArguments& arguments_;
   const Console& console_;
+  baselines::BaselineOptions baselines_;
   benchmark::ResultFolder folder_;
   std::vector<Table> tables_;
 };
@@ -255,6 +270,12 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
       ->capture_default_str();
   command->add_option("--cases", a->cases, "cases of HALV-sim")->check(CLI::Range(1, 4))->delimiter(',');
   command->add_option("--methods", a->methods, "methods of table2 and pr; default: all")->delimiter(',');
+  command->add_option("--baselines", a->baselines, "parameters of the other methods, see config/baselines.yaml");
+  command
+      ->add_option("--matches", a->matches,
+                   "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, and so on: "
+                   "rows of query_frame match_frame confidence; a row of pr")
+      ->check(CLI::ExistingDirectory);
   command->add_option(
       "--trajectories", a->trajectories,
       "NAME=FOLDER: what another system has made of the same sequences, TUM rows in FOLDER/lot-c1-s1.txt "

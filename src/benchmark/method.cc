@@ -44,8 +44,8 @@ std::optional<PlaceAnswer> PaperStages(const PlaceQuery& query) {
 }
 
 template <class Matcher>
-std::function<PlaceMatcher()> Always(Matcher matcher) {
-  return [matcher] { return PlaceMatcher(matcher); };
+std::function<PlaceMatcher(const std::string&)> Always(Matcher matcher) {
+  return [matcher](const std::string&) { return PlaceMatcher(matcher); };
 }
 
 Method Changed(const std::string& key, const std::string& title, const std::vector<std::string>& settings) {
@@ -56,7 +56,7 @@ Method Changed(const std::string& key, const std::string& title, const std::vect
 
 }  // namespace
 
-std::vector<Method> Methods() {
+std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
   Method paper_unrefined{"paper_unrefined", "the paper as printed, w/o refinement", PaperOptions()};
   paper_unrefined.options.window.enabled = paper_unrefined.options.refine.enabled = false;
   return {
@@ -67,8 +67,20 @@ std::vector<Method> Methods() {
       Changed("no_loops", "sslcd without loops", {"loop.enabled=false"}),
       {"paper", "the paper as printed", PaperOptions()},
       paper_unrefined,
-      {"paper_stages", "the paper's matching, all else sslcd's", {}, Always(PaperStages)},
+      {"paper_stages", "the paper's matching", {}, Always(PaperStages)},
+      {"lin", "Lin et al. 2021", {}, Always(LinMatcher(baselines.lin))},
+      {"x_view", "X-View", {}, Always(XViewMatcher(baselines.x_view))},
+      {"histogram", "semantic histograms", {}, Always(SemanticHistogramMatcher(baselines.semantic_histogram))},
   };
+}
+
+Method PointMatchMethod(const std::string& folder, const baselines::PointMatchOptions& options) {
+  Method method{"point_matches", "point matches, mean confidence", {}};
+  method.from_files = true;
+  method.matcher = [folder, options](const std::string& world) {
+    return baselines::PointMatchMatcher(folder + "/" + world + ".txt", options);
+  };
+  return method;
 }
 
 std::vector<Method> Ablations() {

@@ -26,17 +26,20 @@ std::optional<std::string> ReadIfThere(const std::string& path) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(std::string path, const std::string& commit) : path_(std::move(path)) {
+ResultFolder::ResultFolder(std::string path, const std::string& commit, const std::string& baselines_yaml)
+    : path_(std::move(path)) {
+  const std::string way_out = "; give another --out, or delete the folder to start again";
   MakeWritableFolder(path_);
   MakeWritableFolder(path_ + "/trials");
-  const std::string name = path_ + "/commit.txt";
-  if (const auto known = ReadIfThere(name); !known) {
-    WriteFileAtomically(name, commit + "\n");
-  } else if (*known != commit + "\n") {
+  const auto known = ReadIfThere(path_ + "/commit.txt");
+  if (known && *known != commit + "\n")
     throw Error(ErrorKind::kUsage, path_ + " holds results of commit " + known->substr(0, known->find('\n')) +
-                                       ", but this program is " + commit +
-                                       "; give another --out, or delete the folder to start again");
-  }
+                                       ", but this program is " + commit + way_out);
+  const auto baselines = ReadIfThere(path_ + "/baselines.yaml");
+  if (baselines && *baselines != baselines_yaml)
+    throw Error(ErrorKind::kUsage, path_ + " holds results with other parameters of the baselines" + way_out);
+  WriteFileAtomically(path_ + "/commit.txt", commit + "\n");
+  WriteFileAtomically(path_ + "/baselines.yaml", baselines_yaml);
 }
 
 std::string ResultFolder::FileOf(const Trial& trial) const { return path_ + "/trials/" + trial.Name() + ".json"; }
@@ -58,7 +61,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
   std::map<std::string, std::size_t> worlds;
   int done = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    if (auto found = folder.Find(trials[i])) {
+    if (auto found = trials[i].method.from_files ? std::nullopt : folder.Find(trials[i])) {
       results[i] = std::move(*found);
       ++done;
       continue;
@@ -81,7 +84,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
           if (stopped) return;
           if (!sequence) sequence = MakeSequence(trials[i]);
           results[i] = RunTrial(trials[i], *sequence);
-          folder.Put(trials[i], results[i]);
+          if (!trials[i].method.from_files) folder.Put(trials[i], results[i]);
           const std::lock_guard<std::mutex> lock(one_at_a_time);
           ++done;
           if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));

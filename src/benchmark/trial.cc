@@ -40,7 +40,7 @@ TrialResult RunTrial(const Trial& trial, const sim::HalvSequence& sequence) {
   const std::vector<Frame> frames = sim::MakeFrames(sequence.odometry, sequence.detections);
   MapperContext context{world.gravity, world.labels, world.camera};
   std::set<int> accepted;
-  if (trial.method.matcher) context.place_matcher = trial.method.matcher();
+  if (trial.method.matcher) context.place_matcher = trial.method.matcher(trial.World());
   if (trial.only_asked) context.place_matcher = OnlyAsked(std::move(context.place_matcher), accepted);
 
   const auto start = std::chrono::steady_clock::now();

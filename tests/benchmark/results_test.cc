@@ -80,6 +80,17 @@ TEST_F(Results, OfAnotherCommit) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
     EXPECT_NE(std::string(error.what()).find("results of commit abc, but this program is def"), std::string::npos);
   }
+  EXPECT_THROW(ResultFolder(path_, "abc", "lin: {seed: 2}\n"), Error) << "other parameters";
+}
+
+TEST_F(Results, FromFilesThatMayChangeAreNotKept) {
+  std::vector<Trial> trials(1, Trials()[0]);
+  trials[0].method.from_files = true;
+  const ResultFolder folder(path_, "abc");
+  int calls = 0;
+  for (int i = 0; i < 2; ++i) EXPECT_TRUE(RunTrials(trials, folder, 1, {[&](int, int) { ++calls; }, {}}));
+  EXPECT_EQ(calls, 2);
+  EXPECT_FALSE(folder.Find(trials[0]));
 }
 
 TEST_F(Results, TroubleEndsItAll) {

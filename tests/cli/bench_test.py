@@ -89,6 +89,19 @@ class BenchTest(CliCase):
         write(self.out + '_other/lot-c4-s1.txt', '\n'.join(rows[:50]) + '\n')
         self.refused(self.bench('table2', *SMALL, '--trajectories', other), 3, 'lot-c4-s1.txt: has poses for 50 of')
 
+    def test_point_matches(self):
+        rows = [f'{query} {query - 150} 0.8' for query in range(150, 300) for _ in range(6)]
+        write(self.out + '_points/lot-c4-s1.txt', '\n'.join(rows) + '\n')
+        result = self.bench('pr', *SMALL, '--matches', self.out + '_points')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('point matches, mean confidence', [row['method'] for row in self.read_csv('pr')])
+        write(self.out + '_points/lot-c4-s1.txt', '9 3 0.5\n9 3 x\n')
+        self.refused(self.bench('pr', *SMALL, '--matches', self.out + '_points'), 3, 'lot-c4-s1.txt:2')
+        write(self.out + '.yaml', 'lin:\n  edge_m: 3\n')
+        self.refused(self.bench('pr', *SMALL, '--baselines', self.out + '.yaml'), 2, 'other parameters')
+        write(self.out + '.yaml', 'lin:\n  edge: 3\n')
+        self.refused(self.bench('pr', *SMALL, '--baselines', self.out + '.yaml'), 4, '.yaml:2', "'edge_m'")
+
     def test_interrupted(self):
         arguments = [binaries['run'], 'bench', 'ablation', '--out', self.out, '--seeds', '5', '--threads', '1']
         bench = subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True)

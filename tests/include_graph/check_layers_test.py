@@ -69,6 +69,12 @@ class CheckLayers(unittest.TestCase):
         breaches = self.breaches({"include/sslcd/sim/world.h": "", "src/map/map.cc": '#include "sslcd/sim/world.h"\n'})
         self.assertEqual(breaches, ["src/map/map.cc:1: map is not above sim"])
 
+    def test_sim_and_baselines_stand_side_by_side(self):
+        self.assertEqual(self.breaches({"src/baselines/other.cc": '#include "sslcd/map/map.h"\n'}), [])
+        breaches = self.breaches({"include/sslcd/sim/world.h": "",
+                                  "src/baselines/other.cc": '#include "sslcd/sim/world.h"\n'})
+        self.assertEqual(breaches, ["src/baselines/other.cc:1: baselines is not above sim"])
+
     def test_link_to_a_module_listed_later(self):
         wrong = CMAKE.replace("core  LINK sslcd_lie", "core  LINK sslcd_optim")
         self.expect_one("CMakeLists.txt", wrong, "core links sslcd_optim")

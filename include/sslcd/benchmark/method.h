@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/baselines/options.h"
 #include "sslcd/pipeline/options.h"
 #include "sslcd/pipeline/place_matcher.h"
 
@@ -15,13 +16,18 @@ struct Method {
   std::string key;    ///< in file names and on the command line
   std::string title;  ///< in tables
   Options options;
-  /// How it finds places, anew for each run; none: sslcd's own pipeline, as the options say.
-  std::function<PlaceMatcher()> matcher{};
+  /// How it finds places, anew for each run, of whose world it is given the name (Trial::World); none: sslcd's own
+  /// pipeline, as the options say.
+  std::function<PlaceMatcher(const std::string& world)> matcher{};
+  bool from_files = false;  ///< it answers from files that may change: its results are not kept
 };
 
 /// All methods of the comparison, sslcd first. Those with a matcher share everything else with sslcd: map, measurement
 /// of the drift, pose graph, bundle adjustment.
-std::vector<Method> Methods();
+std::vector<Method> Methods(const baselines::BaselineOptions& baselines = {});
+
+/// Point matches from files, `folder`/WORLD.txt. For precision and recall only: they measure no pose.
+Method PointMatchMethod(const std::string& folder, const baselines::PointMatchOptions& options);
 
 /// sslcd, and sslcd with one part switched off or as printed in the paper.
 std::vector<Method> Ablations();

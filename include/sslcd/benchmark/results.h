@@ -14,9 +14,9 @@ namespace sslcd::benchmark {
 /// where it stopped. Results of different versions of the code are never mixed.
 class ResultFolder {
  public:
-  /// Made if need be. Throws Error: kUsage where the folder holds results of another `commit`, kOutput where it cannot
-  /// be written.
-  ResultFolder(std::string path, const std::string& commit);
+  /// Made if need be. Throws Error: kUsage where the folder holds results of another `commit` or with other parameters
+  /// of the baselines, kOutput where it cannot be written.
+  ResultFolder(std::string path, const std::string& commit, const std::string& baselines_yaml = "");
 
   const std::string& path() const { return path_; }
 
@@ -34,8 +34,9 @@ struct TrialHooks {
   std::function<bool()> stop;                         ///< true: finish what has begun; ask from any thread
 };
 
-/// Results of all trials, in step; those that are in the folder are not run again. On `threads` threads, with the same
-/// results for any number of them. None where `stop` ended it early. The first exception of a trial ends it, too.
+/// Results of all trials, in step; those that are in the folder are not run again (Method::from_files are). On
+/// `threads` threads, with the same results for any number of them. None where `stop` ended it early. The first
+/// exception of a trial ends it, too.
 std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials, const ResultFolder& folder,
                                                   int threads, const TrialHooks& hooks = {});
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sslcd/baselines/consensus.h"
+#include "sslcd/baselines/label_walks.h"
+
+namespace sslcd::baselines {
+
+/// X-View: A. Gawel, C. Del Don, R. Siegwart, J. Nieto, C. Cadena, "X-View: Graph-Based Semantic Multi-View
+/// Localization", RA-L 2018 (section III: graph extraction, descriptors, descriptor matching, localisation back-end).
+/// docs/baselines.md says which of the values are its authors'.
+struct XViewOptions {
+  double edge_m = 10;       ///< objects this close are neighbours
+  RandomWalkOptions walks;  ///< the descriptor: m walks of n steps
+  double least_similarity = 0.2;
+  int candidates = 10;  ///< k: the most similar global objects of each local one take part
+  ConsensusOptions consensus{5000, 1, 3};
+  double accept_score = 0;  ///< 0, the published rule: every pose
+  int seed = 1;
+};
+void DescribeFields(FieldVisitor& visitor, XViewOptions& options);
+
+/// Objects of equal labels are as similar as the share of identical random walks. The k best of each, checked for
+/// geometric consistency, give the pose. Score: the mean similarity of the matches times the share of the local objects
+/// that are matched, in [0, 1]. Taken from `accept_score` on.
+std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
+                                 const XViewOptions& options);
+PlaceMatcher XViewMatcher(const XViewOptions& options);
+
+}  // namespace sslcd::baselines

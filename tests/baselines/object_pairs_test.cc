@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The baselines on the shared map pairs. docs/baselines.md has the figures; here only that they do not get worse.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "sslcd/baselines/options.h"
+#include "sslcd/io/pairs_reader.h"
+#include "sslcd/loop/layout_likelihood.h"
+
+namespace sslcd::baselines {
+namespace {
+
+struct Count {
+  int right = 0, wrong = 0;
+};
+
+// Right: within a metre at the centre of the local objects, and 5 degrees.
+Count Judge(const std::vector<LayoutPair>& pairs, const std::string& scene, const LayoutMatcher& match) {
+  Count count;
+  for (const LayoutPair& pair : pairs) {
+    if (pair.scene.rfind(scene, 0) != 0) continue;
+    const auto answer = match(pair.local, pair.global);
+    if (!answer || !answer->accepted) continue;
+    Vec3 centre = Vec3::Zero();
+    for (const LayoutObject& object : pair.local) centre += object.position / static_cast<double>(pair.local.size());
+    const bool right = (Apply(answer->pose, centre) - Apply(pair.truth, centre)).head<2>().norm() < 1 &&
+                       std::abs(WrapAngle(answer->pose.yaw - pair.truth.yaw)) < 5 * M_PI / 180;
+    ++(right ? count.right : count.wrong);
+  }
+  return count;
+}
+
+TEST(ObjectPairs, AsManyRightAsMeasured) {
+  const char* root = std::getenv("SSLCD_DATA_DIR");
+  const auto beside = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+  const auto file = (root != nullptr ? std::filesystem::path(root) : beside) / "object-pairs" / "pairs_seed7.txt";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
+  const std::vector<LayoutPair> pairs = ReadLayoutPairs(file.string());
+  const BaselineOptions o;
+  struct Case {
+    std::string name;
+    LayoutMatcher match;
+    int street, lot;  // at least so many of 180 right
+  };
+  const std::vector<Case> cases{
+      {"lin", [&](const auto& l, const auto& g) { return MatchLin(l, g, o.lin); }, 100, 3},
+      {"x_view", [&](const auto& l, const auto& g) { return MatchXView(l, g, o.x_view); }, 115, 50},
+      {"semantic_histogram",
+       [&](const auto& l, const auto& g) { return MatchSemanticHistogram(l, g, o.semantic_histogram); }, 15, 3}};
+  for (const Case& c : cases) {
+    const Count street = Judge(pairs, "street", c.match), lot = Judge(pairs, "lot", c.match);
+    std::printf("%-20s street %d right, %d wrong; lot %d right, %d wrong\n", c.name.c_str(), street.right, street.wrong,
+                lot.right, lot.wrong);
+    EXPECT_GE(street.right, c.street) << c.name;
+    EXPECT_GE(lot.right, c.lot) << c.name;
+  }
+}
+
+}  // namespace
+}  // namespace sslcd::baselines
