@@ -29,7 +29,7 @@ using benchmark::Trial;
 using benchmark::TrialResult;
 
 struct BenchArguments {
-  std::string name, out = "runs/bench", layout, kitti, docs, baselines, matches;
+  std::string name, out = "runs/bench", layout, kitti, docs, baselines, images, matches;
   int seeds = 10, threads = 0;
   std::vector<int> cases = {1, 2, 3, 4};
   std::vector<std::string> methods, trajectories, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
@@ -144,7 +144,12 @@ class Bench {
 
   void Ablation() { Write(AblationTable(Results(Places()[0], benchmark::Ablations(), false))); }
 
-  std::vector<Method> Chosen() const { return benchmark::Select(benchmark::Methods(baselines_), arguments_.methods); }
+  std::vector<Method> Chosen() const {
+    std::vector<Method> methods = benchmark::Methods(baselines_);
+    if (!arguments_.images.empty())
+      methods.push_back(benchmark::AppearanceMethod(arguments_.images, baselines_.appearance));
+    return benchmark::Select(methods, arguments_.methods);
+  }
 
   // The car park, the same with other cars on the way back, and a real one where it is given.
   std::vector<Place> Places() const {
@@ -271,6 +276,11 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
   command->add_option("--cases", a->cases, "cases of HALV-sim")->check(CLI::Range(1, 4))->delimiter(',');
   command->add_option("--methods", a->methods, "methods of table2 and pr; default: all")->delimiter(',');
   command->add_option("--baselines", a->baselines, "parameters of the other methods, see config/baselines.yaml");
+  command
+      ->add_option("--images", a->images,
+                   "folder of rendered sequences, lot-c1-s1 for case 1, seed 1, and so on (sslcd_sim halv --render); "
+                   "the appearance baseline, a row of table2 and pr")
+      ->check(CLI::ExistingDirectory);
   command
       ->add_option("--matches", a->matches,
                    "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, and so on: "

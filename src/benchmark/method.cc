@@ -74,6 +74,16 @@ std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
   };
 }
 
+Method AppearanceMethod(const std::string& folder, const baselines::AppearanceOptions& options) {
+  Method method = Changed("appearance", "appearance of images (DBoW2, VINS-Fusion)",
+                          {"refine.enabled=false", "loop.adjust_keyframes=0"});
+  method.from_files = true;
+  method.matcher = [folder, options](const std::string& world) {
+    return baselines::AppearanceMatcher(folder + "/" + world, options);
+  };
+  return method;
+}
+
 Method PointMatchMethod(const std::string& folder, const baselines::PointMatchOptions& options) {
   Method method{"point_matches", "point matches, mean confidence", {}};
   method.from_files = true;

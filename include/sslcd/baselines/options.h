@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/baselines/appearance.h"
 #include "sslcd/baselines/lin.h"
 #include "sslcd/baselines/point_matches.h"
 #include "sslcd/baselines/semantic_histogram.h"
@@ -14,6 +15,7 @@ struct BaselineOptions {
   XViewOptions x_view;
   SemanticHistogramOptions semantic_histogram;
   PointMatchOptions point_matches;
+  AppearanceOptions appearance;
 };
 void DescribeFields(FieldVisitor& visitor, BaselineOptions& options);
 

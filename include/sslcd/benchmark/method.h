@@ -26,6 +26,10 @@ struct Method {
 /// of the drift, pose graph, bundle adjustment.
 std::vector<Method> Methods(const baselines::BaselineOptions& baselines = {});
 
+/// Images of the sequences, as `sslcd_sim halv --render` writes them to `folder`/WORLD. Nothing but the pose graph: two
+/// images tie no objects, so bundle adjustment would undo it.
+Method AppearanceMethod(const std::string& folder, const baselines::AppearanceOptions& options);
+
 /// Point matches from files, `folder`/WORLD.txt. For precision and recall only: they measure no pose.
 Method PointMatchMethod(const std::string& folder, const baselines::PointMatchOptions& options);
 

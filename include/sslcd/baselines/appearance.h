@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/pipeline/place_matcher.h"
+
+namespace sslcd::baselines {
+
+/// Appearance of whole images: a bag of binary words with tf-idf, and a check of the geometry by PnP, in the manner of
+/// DBoW2 (D. Galvez-Lopez, J. D. Tardos, "Bags of Binary Words for Fast Place Recognition in Image Sequences", T-RO
+/// 2012) and of the loop closure of VINS-Fusion and ORB-SLAM3. The code is ours; docs/baselines.md says where it
+/// differs.
+struct AppearanceOptions {
+  int features = 1000;              ///< ORB features of an image
+  int every = 2;                    ///< old images are kept from every so many frames
+  int branching = 10, levels = 4;   ///< of the tree of words
+  int training_images = 40;         ///< of the sequence itself, evenly over it, from which the words are learnt
+  double least_similarity = 0.015;  ///< of the words of two images
+  int candidates = 4;               ///< the most similar old images have their geometry checked
+  int max_distance = 64;            ///< of two descriptors that match, in bits of 256
+  double ratio = 0.8;               ///< ... and of the best to the second best
+  double reprojection_px = 3;
+  int least_inliers = 25;
+  double max_turn_deg = 30;  ///< a loop turns the camera by no more than this, and ...
+  double max_apart_m = 20;   ///< ... lies no further off
+};
+void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
+
+/// On a sequence folder with image_2, image_3 and calib.txt. Score: inliers of the PnP check; taken from
+/// `least_inliers` on, within the limits of turn and distance. The frames of the queries are those of the folder.
+/// Images are read as they are asked for. Throws Error (kBadInput): no calibration of two cameras, an image that cannot
+/// be read.
+PlaceMatcher AppearanceMatcher(const std::string& folder, const AppearanceOptions& options);
+
+}  // namespace sslcd::baselines

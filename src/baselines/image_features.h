@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "baselines/bag_of_words.h"
+#include "sslcd/baselines/appearance.h"
+#include "sslcd/core/camera.h"
+
+namespace sslcd::baselines {
+
+/// ORB features of a rectified stereo pair.
+struct ImageFeatures {
+  std::vector<Vec2> pixels;                   ///< in the left image
+  std::vector<BinaryDescriptor> descriptors;  ///< in step
+  std::vector<std::optional<Vec3>> points;    ///< in the left camera, where the right image has the feature, too [m]
+};
+
+/// Throws Error(kBadInput) on an image that cannot be read.
+ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const Camera& camera,
+                              double baseline_m, const AppearanceOptions& options);
+
+/// Where the camera of `query` stands in that of `old`, and how many points agree. None: too few matches, or no pose.
+struct ImagePose {
+  Pose T_old_query;
+  int inliers = 0;
+};
+std::optional<ImagePose> PoseFromImages(const ImageFeatures& query, const ImageFeatures& old, const Camera& camera,
+                                        const AppearanceOptions& options);
+
+}  // namespace sslcd::baselines
