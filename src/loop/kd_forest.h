@@ -64,7 +64,7 @@ class KdForest {
   struct Tree {
     std::vector<Scalar> coordinates;  // x y z of each row
     std::vector<Value> values;
-    std::vector<char> alive;
+    std::vector<bool> alive;
     std::size_t dead = 0;
     std::unique_ptr<Index> index;  // over `coordinates`; none while rows are still being added
 

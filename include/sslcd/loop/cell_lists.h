@@ -12,7 +12,7 @@ namespace sslcd {
 /// come to a cell's list is O(1), however large the map is and however much of it is empty.
 class CellLists {
  public:
-  explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(64, -1) {}
+  explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(256, -1) {}
 
   /// The column or row of a finite coordinate. Far out (2^29 cells) all share the last one.
   int Cell(double coordinate) const {
@@ -21,7 +21,7 @@ class CellLists {
   }
 
   void Add(int column, int row, int number) {
-    if (entries_.size() == heads_.size() && free_ < 0) Widen();
+    if (kRoom * entries_.size() == heads_.size() && free_ < 0) Widen();
     int entry = free_;
     if (entry < 0) {
       entry = static_cast<int>(entries_.size());
@@ -83,9 +83,13 @@ class CellLists {
   struct Entry {
     int column = 0, row = 0, number = 0, next = -1;
   };
+  static constexpr std::size_t kRoom = 4;  // chains for each entry: a cell that lists nothing is mostly seen at once
+  static constexpr int kTile = 8;          // cells of a square of so many by so many lie together in memory
+
   std::size_t Slot(int column, int row) const {
-    const std::uint64_t key = static_cast<std::uint64_t>(column) << 32 | static_cast<std::uint32_t>(row);
-    return (key * 0x9E3779B97F4A7C15u >> 32) & (heads_.size() - 1);
+    const std::uint64_t tile = static_cast<std::uint64_t>(column / kTile) << 32 | static_cast<unsigned>(row / kTile);
+    const std::uint64_t first = (tile * 0x9E3779B97F4A7C15u >> 32) * (kTile * kTile);
+    return (first + static_cast<unsigned>(column % kTile * kTile + row % kTile)) & (heads_.size() - 1);
   }
   void Widen() {  // called when all entries are in use
     heads_.assign(2 * heads_.size(), -1);
@@ -97,7 +101,7 @@ class CellLists {
   }
 
   double per_cell_;
-  std::vector<int> heads_;  // of the chains, a power of two
+  std::vector<int> heads_;  // of the chains, kRoom times a power of two
   std::vector<Entry> entries_;
   int free_ = -1;
 };
