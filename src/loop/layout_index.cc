@@ -16,7 +16,7 @@ constexpr double kBlock = 10.;            // [m]
 constexpr double kHeightUnit = 1e-9;      // in which squared differences of heights are added up [m^2]
 constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
 constexpr int kMaxLabels = 256;           // with lists of their own
-constexpr std::size_t kFewOf = 32;        // an update of more than one object in so many is a rebuild
+constexpr std::size_t kFewOf = 32;        // where more than one object in so many changes, all are built anew
 
 bool SamePoint(const LayoutObject& a, const LayoutObject& b) { return a.position == b.position && a.label == b.label; }
 

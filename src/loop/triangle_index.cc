@@ -151,8 +151,8 @@ std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& p
 
 struct TriangleIndex::State {
   using Forest = KdForest<float, ObjectTriangle>;
-  std::vector<LayoutPoint> points;  // as they were at the last update
-  std::vector<Neighbours> near;
+  std::vector<LayoutPoint> points;               // as they were at the last update
+  std::vector<Neighbours> near;                  // ... and whose triangles there are
   std::map<std::array<int, 3>, Forest> forests;  // by labels
 
   // Those whose neighbours may have changed, apart from the changed ones themselves: they are near where these were or

@@ -10,6 +10,7 @@
 #include "pipeline/pass_map.h"
 #include "pipeline/path_graph.h"
 #include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/layout_index.h"
 #include "sslcd/loop/pose_tracks.h"
 #include "sslcd/pipeline/mapper.h"
 

@@ -7,6 +7,7 @@
 
 #include "pipeline/pass_map.h"
 #include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/layout_index.h"
 
 namespace sslcd {
 

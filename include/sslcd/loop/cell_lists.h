@@ -9,7 +9,7 @@
 namespace sslcd {
 
 /// Numbers listed by the cells of a grid that has no bounds: chains in a hash table. To add one, to take one out and to
-/// come to a cell's list is O(1), however large the map is and however much of it is empty.
+/// come to a cell's list is O(1) on average, however large the map is and however much of it is empty.
 class CellLists {
  public:
   explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(256, -1) {}

@@ -42,11 +42,11 @@ class LayoutIndex {
   LayoutIndex(LayoutIndex&&) noexcept;
   LayoutIndex& operator=(LayoutIndex&&) noexcept;
 
-  /// Objects have come, have changed, or (`removed`, ids) are gone. Ids have to be different ones from the start; one
-  /// that is not known is ignored in `removed`. Then answers what an index of the objects as they are now would, but in
-  /// another order, and indices of objects may be others than before. A large map takes about 0.1 ms for each object
-  /// that has come, moved or gone, whatever its size; a small one, or one of which more than one object in 32 changes,
-  /// is built anew, ordered by id. A map that has become large counts as large until then.
+  /// Objects have come, have changed, or (`removed`, ids) are gone. No two objects may have one id; one that is not
+  /// known is ignored in `removed`. Then answers as an index built of the objects as they are now, in another order;
+  /// indices may be others than before, and of neighbours equally far either may count. In a large map this costs
+  /// O(log^2 n) on average for each object that has come, moved or gone. A small one, or one of which more than one
+  /// object in 32 has changed, is built anew, ordered by id; until then, a map that was large counts as large.
   void Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed);
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
