@@ -54,7 +54,9 @@ void LayoutIndex::Build() {
 void LayoutIndex::Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed) {
   if (index_of_.empty())
     for (std::size_t i = 0; i < objects_.size(); ++i) index_of_[objects_[i].id] = static_cast<int>(i);
-  const bool anew = triangles_ == nullptr || kFewOf * (changed.size() + removed.size()) > objects_.size();
+  const auto gone = std::count_if(removed.begin(), removed.end(), [&](int id) { return index_of_.count(id) > 0; });
+  const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
+  const bool anew = triangles_ == nullptr || kFewOf * changes > objects_.size();
   std::vector<int> touched;
   const auto leave = [&](int i) {
     touched.push_back(i);
@@ -67,15 +69,15 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed, const std::ve
   const auto remove = [&](int id) {  // the last one takes its place
     const auto known = index_of_.find(id);
     if (known == index_of_.end()) return;
-    const int gone = known->second, last = static_cast<int>(objects_.size()) - 1;
+    const int place = known->second, last = static_cast<int>(objects_.size()) - 1;
     index_of_.erase(known);
-    if (!anew) Count(gone, -1);
-    leave(gone);
-    if (gone != last) {
+    if (!anew) Count(place, -1);
+    leave(place);
+    if (place != last) {
       leave(last);
-      index_of_[objects_[last].id] = gone;
-      objects_[gone] = std::move(objects_[last]);
-      enter(gone);
+      index_of_[objects_[last].id] = place;
+      objects_[place] = std::move(objects_[last]);
+      enter(place);
     }
     objects_.pop_back();
     points_.pop_back();
