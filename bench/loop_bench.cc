@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loop detection against the size of the map: how long its index takes to build, how long a search as in a run takes
 // (SearchPoses) and one that decides by itself (MatchLayouts, mirror image and all), and how often the answer is right.
-// usage: loop_bench [OBJECTS...]
+// Then whole attempts of a run whose map has that many objects: the layouts, what has changed in them, the index that
+// follows, the search. usage: loop_bench [OBJECTS...]
 // Maps of constant density, three labels; local maps of 15 mapped objects and 3 others, noise 0.3 m per axis, one
 // object of five missed, any heading. Prints one row for each map.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <vector>
 
+#include "pipeline/pass_map.h"
 #include "sslcd/loop/decision.h"
 #include "sslcd/loop/pose_tracks.h"
 #include "sslcd/sim/random.h"
@@ -22,10 +24,8 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kQueries = 200;
 
-using Clock = std::chrono::steady_clock;
-double MsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
+// Of CPU: what other programs take does not count.
+double MsSince(std::clock_t start) { return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; }
 
 LayoutObject ObjectAt(double x, double y, sim::Random& random) {
   LayoutObject object;
@@ -87,7 +87,7 @@ void Measure(int count, bool streets) {
   PoseSearchOptions search = options.search;
   search.refine = PoseTrackOptions().max_tracks;
   for (int i = 0; i < (count > 5000 ? 3 : 50); ++i) {
-    const auto start = Clock::now();
+    const auto start = std::clock();
     const LayoutIndex again(map, options.max_pair_m, options.reach_m);
     build_ms.push_back(MsSince(start));
   }
@@ -96,10 +96,10 @@ void Measure(int count, bool streets) {
   for (int query = 0; query < kQueries; ++query) {
     YawShift pose{random.Uniform(-kPi, kPi), Vec3(random.Uniform(-500, 500), random.Uniform(-500, 500), 2)};
     const std::vector<LayoutObject> local = LocalMap(map, pose, random);
-    auto start = Clock::now();
+    auto start = std::clock();
     SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
     search_ms.push_back(MsSince(start));
-    start = Clock::now();
+    start = std::clock();
     const LayoutAnswer answer = MatchLayouts(local, index, options);
     match_ms.push_back(MsSince(start));
     const Vec3 middle = local[0].position;
@@ -118,6 +118,92 @@ void Measure(int count, bool streets) {
   std::fflush(stdout);
 }
 
+/// A run through a map, row by row: ten new objects and two old ones every 5 m, each seen by two frames.
+class Run {
+ public:
+  Run(std::vector<LayoutObject> objects, sim::Random& random) : random_(random), objects_(std::move(objects)) {
+    constexpr double kRow = 30.;  // [m]
+    std::sort(objects_.begin(), objects_.end(), [](const LayoutObject& a, const LayoutObject& b) {
+      const double row_a = std::floor(a.position.y() / kRow), row_b = std::floor(b.position.y() / kRow);
+      return row_a != row_b ? row_a < row_b : a.position.x() < b.position.x();
+    });
+  }
+
+  const std::vector<LayoutObject>& objects() const { return objects_; }
+  PassMap& passes() { return passes_; }
+  double travelled() const { return frames_.back().travelled; }
+
+  void Drive() {
+    constexpr int kNew = 10, kOld = 2;
+    std::vector<LandmarkId> seen;
+    for (int i = 0; i < kOld && next_ > 500; ++i)
+      seen.push_back(ids_[static_cast<std::size_t>(random_.Uniform(0, static_cast<double>(next_ - 400)))]);
+    for (int i = 0; i < kNew && next_ < objects_.size(); ++i, ++next_) {
+      MapLandmark landmark;
+      landmark.label = std::to_string(objects_[next_].label);
+      landmark.symmetry = Symmetry::kFull;
+      landmark.state = LandmarkState::kConfirmed;
+      landmark.pose.position = map_.gravity().Basis() * objects_[next_].position;
+      ids_.push_back(map_.Insert(landmark));
+      seen.push_back(ids_.back());
+    }
+    for (int i = 0; i < 2; ++i) {
+      FrameRecord frame;
+      frame.frame = static_cast<int>(frames_.size());
+      frame.travelled = 2.5 * frame.frame;
+      frame.matched = seen;
+      for (const LandmarkId id : seen)
+        frame.detections.emplace_back().T_cam_object = ToPose(map_.at(id).pose, map_.gravity());
+      frames_.push_back(std::move(frame));
+      passes_.Update();
+    }
+    passes_.MovedFrom(std::max(0, static_cast<int>(frames_.size()) - 4));  // the sliding window
+  }
+
+ private:
+  sim::Random& random_;
+  std::vector<LayoutObject> objects_;
+  std::vector<LandmarkId> ids_;
+  std::size_t next_ = 0;
+  std::vector<FrameRecord> frames_;
+  ObjectMap map_{GravityFrame(), LabelTable(), {}, {}, {}};
+  PassMap passes_{map_, frames_, {}, 30.};
+};
+
+void MeasureAttempts(int count, bool streets) {
+  constexpr int kAttempts = 60;
+  constexpr double kLocal = 75., kOld = 85.;  // how far back the two layouts end [m]
+  const LayoutMatchOptions options;
+  PoseSearchOptions search = options.search;
+  search.refine = PoseTrackOptions().max_tracks;
+  sim::Random random(8, static_cast<std::uint64_t>(count));
+  Run run(Map(count + 10 * kAttempts, streets, random), random);
+  for (int driven = 0; driven < count; driven += 10) run.Drive();
+  LayoutIndex index(run.passes().ChangesBefore(run.travelled() - kOld, 2).objects, options.max_pair_m, options.reach_m);
+  std::vector<double> layouts_ms, follow_ms, search_ms, whole_ms;
+  double changed = 0;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    run.Drive();
+    const std::vector<LayoutObject> local = LocalMap(index.objects(), {1, Vec3(3, 4, 0)}, random);
+    const auto start = std::clock();
+    run.passes().Recent(run.travelled() - kLocal, 2);
+    const LayoutChanges changes = run.passes().ChangesBefore(run.travelled() - kOld, 2);
+    layouts_ms.push_back(MsSince(start));
+    index.Update(changes.objects, changes.gone);
+    follow_ms.push_back(MsSince(start) - layouts_ms.back());
+    SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
+    whole_ms.push_back(MsSince(start));
+    search_ms.push_back(whole_ms.back() - follow_ms.back() - layouts_ms.back());
+    changed += static_cast<double>(changes.objects.size()) / kAttempts;
+  }
+  std::printf(
+      "%-7s %7d  attempt: %4.1f objects change  layouts p50 %6.2f  index p50 %6.2f  p95 %6.2f  search p50 %6.2f  "
+      "whole p50 %6.2f  p95 %6.2f ms\n",
+      streets ? "streets" : "strewn", count, changed, Quantile(layouts_ms, 0.5), Quantile(follow_ms, 0.5),
+      Quantile(follow_ms, 0.95), Quantile(search_ms, 0.5), Quantile(whole_ms, 0.5), Quantile(whole_ms, 0.95));
+  std::fflush(stdout);
+}
+
 }  // namespace
 }  // namespace sslcd
 
@@ -126,5 +212,5 @@ int main(int argc, char** argv) {
   if (argc > 1) counts.clear();
   for (int i = 1; i < argc; ++i) counts.push_back(std::max(30, std::atoi(argv[i])));
   for (const bool streets : {false, true})
-    for (const int count : counts) sslcd::Measure(count, streets);
+    for (const int count : counts) sslcd::Measure(count, streets), sslcd::MeasureAttempts(count, streets);
 }

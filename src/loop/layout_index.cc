@@ -13,112 +13,163 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kBin = 0.25;             // of pair distances [m]
 constexpr double kSurroundings = 15.;     // radius in which density and heights are judged [m]
 constexpr double kBlock = 10.;            // [m]
+constexpr double kHeightUnit = 1e-9;      // in which squared differences of heights are added up [m^2]
 constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
 constexpr int kMaxLabels = 256;           // with lists of their own
+constexpr std::size_t kFewOf = 32;        // where more than one object in so many changes, all are built anew
 
-// Cells of the grid, at most: enough for those that have an object, and no memory for what lies between far ones.
-double MaxCells(std::size_t objects) { return 4096. + 32. * static_cast<double>(objects); }
+bool SamePoint(const LayoutObject& a, const LayoutObject& b) { return a.position == b.position && a.label == b.label; }
 
 }  // namespace
 
 LayoutIndex::LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m)
-    : objects_(std::move(objects)), max_pair_(max_pair_m), reach_(reach_m) {
+    : objects_(std::move(objects)), max_pair_(max_pair_m), reach_(reach_m), blocks_(kBlock), near_(reach_m) {
   objects_.erase(std::remove_if(objects_.begin(), objects_.end(),
                                 [](const LayoutObject& object) { return !object.position.allFinite(); }),
                  objects_.end());
-  CountProperties();
-  BuildBlocks();
-  BuildGrid();
+  Build();
+}
+
+LayoutIndex::~LayoutIndex() = default;
+LayoutIndex::LayoutIndex(LayoutIndex&&) noexcept = default;
+LayoutIndex& LayoutIndex::operator=(LayoutIndex&&) noexcept = default;
+
+void LayoutIndex::Build() {
+  blocks_ = CellLists(kBlock);
+  near_ = CellLists(reach_);
+  triangles_.reset();
+  index_of_.clear();
+  label_counts_.clear();
+  headings_ = {};
+  neighbours_ = height_sum_ = 0;
+  points_.resize(objects_.size());
+  for (int i = static_cast<int>(objects_.size()) - 1; i >= 0; --i) {  // cells list the last one first
+    Count(i, 1);
+    Enter(i);
+  }
+  Judge();
   BuildPairs();
 }
 
-void LayoutIndex::CountProperties() {
-  points_.reserve(objects_.size());
-  for (const LayoutObject& object : objects_) {
-    const Eigen::Vector3f p = object.position.cast<float>();
-    points_.push_back({p.x(), p.y(), p.z(), object.label});
-    ++label_counts_[object.label];
-    if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) continue;
-    const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * 360 + 0.5)) % 360;
-    ++headings_[object.symmetry == Symmetry::kPi][degree];
+void LayoutIndex::Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed) {
+  if (index_of_.empty())
+    for (std::size_t i = 0; i < objects_.size(); ++i) index_of_[objects_[i].id] = static_cast<int>(i);
+  const auto gone = std::count_if(removed.begin(), removed.end(), [&](int id) { return index_of_.count(id) > 0; });
+  const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
+  const bool anew = triangles_ == nullptr || kFewOf * changes > objects_.size();
+  std::vector<int> touched;
+  const auto leave = [&](int i) {
+    touched.push_back(i);
+    if (!anew) Leave(i);
+  };
+  const auto enter = [&](int i) {
+    touched.push_back(i);
+    if (!anew) Enter(i);
+  };
+  const auto remove = [&](int id) {  // the last one takes its place
+    const auto known = index_of_.find(id);
+    if (known == index_of_.end()) return;
+    const int place = known->second, last = static_cast<int>(objects_.size()) - 1;
+    index_of_.erase(known);
+    if (!anew) Count(place, -1);
+    leave(place);
+    if (place != last) {
+      leave(last);
+      index_of_[objects_[last].id] = place;
+      objects_[place] = std::move(objects_[last]);
+      enter(place);
+    }
+    objects_.pop_back();
+    points_.pop_back();
+  };
+  for (const int id : removed) remove(id);
+  for (const LayoutObject& object : changed) {
+    if (!object.position.allFinite()) {
+      remove(object.id);
+      continue;
+    }
+    const auto [place, is_new] = index_of_.insert({object.id, static_cast<int>(objects_.size())});
+    const int i = place->second;
+    const bool stays = !is_new && SamePoint(objects_[i], object);
+    if (is_new) {
+      objects_.emplace_back();
+      points_.emplace_back();
+    } else {
+      if (!anew) Count(i, -1);
+      if (!stays) leave(i);
+    }
+    objects_[i] = object;
+    if (!anew) Count(i, 1);
+    if (!stays) enter(i);
   }
-  for (const auto& [label, count] : label_counts_) labels_.push_back(label);
-}
-
-int LayoutIndex::Block(double coordinate) {
-  constexpr double kMiddle = 1 << 29;  // keeps numbers positive, so that cutting off rounds down
-  return static_cast<int>(std::clamp(coordinate / kBlock + kMiddle, 2., 2 * kMiddle - 2));
-}
-
-std::vector<LayoutIndex::InBlock>::const_iterator LayoutIndex::FirstInBlock(int column, int row) const {
-  if (block_start_.empty()) return std::lower_bound(blocks_.begin(), blocks_.end(), InBlock{column, row, -1});
-  if (column < first_column_) return blocks_.begin();
-  if (column > last_column_) return blocks_.end();
-  const int in_column = std::clamp(row - first_row_, 0, block_rows_);
-  return blocks_.begin() + block_start_[static_cast<std::size_t>(column - first_column_) * block_rows_ + in_column];
-}
-
-void LayoutIndex::BuildBlocks() {
-  if (objects_.empty()) return;
-  blocks_.reserve(objects_.size());
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    const Vec3& p = objects_[i].position;
-    blocks_.push_back({Block(p.x()), Block(p.y()), static_cast<int>(i)});
+  if (anew) {
+    std::stable_sort(objects_.begin(), objects_.end(),
+                     [](const LayoutObject& a, const LayoutObject& b) { return a.id < b.id; });
+    Build();
+  } else {
+    Judge();
+    triangles_->Update(*this, std::move(touched));
   }
-  std::sort(blocks_.begin(), blocks_.end());
-  const auto [low, high] =
-      std::minmax_element(blocks_.begin(), blocks_.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
-  first_column_ = blocks_.front().column;
-  last_column_ = blocks_.back().column;
-  first_row_ = low->row;
-  block_rows_ = high->row - low->row + 1;
-  const double columns = last_column_ - first_column_ + 1.;
-  if (columns * block_rows_ > MaxCells(objects_.size())) return;
-  block_start_.assign(static_cast<std::size_t>(columns) * block_rows_ + 1, 0);
-  for (const InBlock& entry : blocks_)
-    ++block_start_[static_cast<std::size_t>(entry.column - first_column_) * block_rows_ + entry.row - first_row_ + 1];
-  for (std::size_t i = 1; i < block_start_.size(); ++i) block_start_[i] += block_start_[i - 1];
+}
+
+// What does not depend on where an object is.
+void LayoutIndex::Count(int i, int by) {
+  const LayoutObject& object = objects_[i];
+  const auto label = label_counts_.insert({object.label, 0}).first;
+  if ((label->second += by) == 0) label_counts_.erase(label);
+  if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) return;
+  const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * 360 + 0.5)) % 360;
+  headings_[object.symmetry == Symmetry::kPi][degree] += by;
+}
+
+// Puts an object where it can be found.
+void LayoutIndex::Enter(int i) {
+  const Vec3& p = objects_[i].position;
+  points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), objects_[i].label};
+  CountNeighbours(i, 1);
+  blocks_.Add(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
+  for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
+    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row) near_.Add(column, row, i);
+}
+
+void LayoutIndex::Leave(int i) {
+  const Vec3& p = objects_[i].position;
+  blocks_.Remove(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
+  for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
+    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row) near_.Remove(column, row, i);
+  CountNeighbours(i, -1);
+}
+
+// An object's share in density and height spread, while it is in no list itself.
+void LayoutIndex::CountNeighbours(int i, int by) {
+  const Vec3& p = objects_[i].position;
+  const int right = blocks_.Cell(p.x() + kSurroundings), top = blocks_.Cell(p.y() + kSurroundings);
+  for (int column = blocks_.Cell(p.x() - kSurroundings); column <= right; ++column) {
+    for (int row = blocks_.Cell(p.y() - kSurroundings); row <= top; ++row) {
+      for (const int j : blocks_.At(column, row)) {
+        const Vec3 step = objects_[j].position - p;
+        const double d2 = step.head<2>().squaredNorm();
+        if (d2 < 1e-12 || !(std::sqrt(d2) < kSurroundings)) continue;
+        neighbours_ += by;
+        height_sum_ += by * std::llround(std::min(1., step.z() * step.z()) / kHeightUnit);
+      }
+    }
+  }
+}
+
+void LayoutIndex::Judge() {
+  const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
+  const double near = static_cast<double>(neighbours_), heights = static_cast<double>(height_sum_) * kHeightUnit;
+  density_ = (1 + 2 * near / n) / (kPi * kSurroundings * kSurroundings);
+  height_spread_ = near > 0 ? std::sqrt(heights / near / 2) : 0.;
 }
 
 bool LayoutIndex::Known(double x, double y) const {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
-  const int row = Block(y), middle = Block(x);
-  for (int column = std::max(middle - 1, first_column_); column <= std::min(middle + 1, last_column_); ++column)
-    if (FirstInBlock(column, row - 1) != FirstInBlock(column, row + 2)) return true;
+  const int middle = blocks_.Cell(x), row = blocks_.Cell(y);
+  for (int i = 0; i < 9; ++i)
+    if (!blocks_.At(middle + i / 3 - 1, row + i % 3 - 1).empty()) return true;
   return false;
-}
-
-// Every object is listed in each cell that its reach touches, so a point has to look into one cell only.
-void LayoutIndex::BuildGrid() {
-  if (objects_.empty()) return;
-  Vec2 low = objects_[0].position.head<2>(), high = low;
-  for (const LayoutObject& object : objects_) {
-    low = low.cwiseMin(object.position.head<2>());
-    high = high.cwiseMax(object.position.head<2>());
-  }
-  const double max_cells = MaxCells(objects_.size());
-  const Vec2 size = high - low + Vec2(2 * reach_, 2 * reach_);
-  per_cell_ = 1 / std::max({reach_, std::sqrt(size.x() * size.y() / max_cells), size.maxCoeff() / max_cells});
-  min_x_ = low.x() - reach_;
-  min_y_ = low.y() - reach_;
-  columns_ = static_cast<int>(size.x() * per_cell_) + 1;
-  rows_ = static_cast<int>(size.y() * per_cell_) + 1;
-
-  const auto for_cells = [&](const LayoutObject& object, auto&& visit) {
-    const int x0 = static_cast<int>((object.position.x() - reach_ - min_x_) * per_cell_);
-    const int x1 = static_cast<int>((object.position.x() + reach_ - min_x_) * per_cell_);
-    const int y0 = static_cast<int>((object.position.y() - reach_ - min_y_) * per_cell_);
-    const int y1 = static_cast<int>((object.position.y() + reach_ - min_y_) * per_cell_);
-    for (int y = std::max(0, y0); y <= std::min(rows_ - 1, y1); ++y)
-      for (int x = std::max(0, x0); x <= std::min(columns_ - 1, x1); ++x) visit(y * columns_ + x);
-  };
-  cell_start_.assign(static_cast<std::size_t>(rows_) * columns_ + 1, 0);
-  for (const LayoutObject& object : objects_) for_cells(object, [&](int cell) { ++cell_start_[cell + 1]; });
-  for (std::size_t i = 1; i < cell_start_.size(); ++i) cell_start_[i] += cell_start_[i - 1];
-  cell_objects_.resize(cell_start_.back());
-  std::vector<int> fill(cell_start_.begin(), cell_start_.end() - 1);
-  for (std::size_t i = 0; i < objects_.size(); ++i)
-    for_cells(objects_[i], [&](int cell) { cell_objects_[fill[cell]++] = static_cast<int>(i); });
 }
 
 // Neighbours by a sweep along the longer side of the map.
@@ -141,34 +192,22 @@ void LayoutIndex::BuildPairs() {
   });
 
   std::vector<ObjectPair> found;
-  double near_count = 0, height_sum = 0, radius = max_pair_;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= radius; ++j) {
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= max_pair_; ++j) {
       const Sorted *a = &sorted[i], *b = &sorted[j];
       if (a->label > b->label || (a->label == b->label && a->object > b->object)) std::swap(a, b);
       const double dx = b->x - a->x, dy = b->y - a->y, dz = b->z - a->z, d2 = dx * dx + dy * dy;
-      if (d2 > radius * radius || d2 < 1e-12) continue;
+      if (d2 > max_pair_ * max_pair_ || d2 < 1e-12) continue;
       const double distance = std::sqrt(d2);
-      if (distance < kSurroundings) {
-        ++near_count;
-        height_sum += std::min(1., dz * dz);
-      }
-      if (radius < max_pair_) continue;
       found.push_back({a->object, b->object, static_cast<float>(distance), static_cast<float>(dx / distance),
                        static_cast<float>(dy / distance), static_cast<float>(dz)});
     }
-    if (found.size() > kMaxPairs) {  // a large map: from here on, only the surroundings are looked at
-      found = {};
-      radius = std::min(max_pair_ * (1 - 1e-9), kSurroundings);
-    }
+    if (found.size() <= kMaxPairs) continue;
+    triangles_ = std::make_unique<TriangleIndex>(*this);
+    found.clear();
+    break;
   }
-  const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
-  density_ = (1 + 2 * near_count / n) / (kPi * kSurroundings * kSurroundings);
-  height_spread_ = near_count > 0 ? std::sqrt(height_sum / near_count / 2) : 0.;
-  if (radius < max_pair_)
-    triangles_ = std::make_shared<TriangleIndex>(*this);
-  else
-    SortPairs(found);
+  SortPairs(found);
 }
 
 int LayoutIndex::LabelRank(int label) const {
@@ -183,6 +222,8 @@ int LayoutIndex::PairSlot(int rank_a, int rank_b, double distance_m) const {
 }
 
 void LayoutIndex::SortPairs(const std::vector<ObjectPair>& found) {
+  labels_.clear();
+  for (const auto& [label, count] : label_counts_) labels_.push_back(label);
   const int ranks = std::min(static_cast<int>(labels_.size()), kMaxLabels);
   bins_ = static_cast<int>(max_pair_ / kBin) + 2;
   pair_start_.assign(static_cast<std::size_t>(ranks * (ranks + 1) / 2) * bins_ + 1, 0);

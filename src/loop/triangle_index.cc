@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop/triangle_index.h"
 
-#include <flann/algorithms/dist.h>
-#include <flann/algorithms/kdtree_single_index.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <map>
-#include <numeric>
 
+#include "loop/kd_forest.h"
 #include "sslcd/loop/layout_index.h"
 
 namespace sslcd {
 namespace {
 
-using Tree = flann::KDTreeSingleIndex<flann::L2_3D<float>>;
 constexpr int kNeighbours = 6;    // enough for triangles that are left when one neighbour of five is missed
 constexpr float kShortest = 4.f;  // the longest side at least, for the sake of the yaw [m]
 
@@ -38,6 +34,12 @@ Neighbours Nearest(std::vector<Near>& all) {
   nearest.fill(-1);
   for (std::size_t i = 0; i < n; ++i) nearest[i] = all[i].object;
   return nearest;
+}
+
+template <class T>
+void MakeUnique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 bool Contains(const Neighbours& neighbours, int object) {
@@ -66,6 +68,10 @@ ObjectTriangle MakeTriangle(const std::vector<LayoutPoint>& points, int a, int b
   return triangle;
 }
 
+bool FixesYaw(const ObjectTriangle& triangle) {
+  return *std::max_element(triangle.side.begin(), triangle.side.end()) >= kShortest;
+}
+
 std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points, const std::vector<Neighbours>& near) {
   std::vector<ObjectTriangle> triangles;
   for (int a = 0; a < static_cast<int>(points.size()); ++a) {
@@ -76,49 +82,59 @@ std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points, co
         if (b < a && Contains(near[b], a) && Contains(near[b], c)) continue;
         if (c < a && Contains(near[c], a) && Contains(near[c], b)) continue;
         const ObjectTriangle triangle = MakeTriangle(points, a, b, c);
-        if (*std::max_element(triangle.side.begin(), triangle.side.end()) >= kShortest) triangles.push_back(triangle);
+        if (FixesYaw(triangle)) triangles.push_back(triangle);
       }
     }
   }
   return triangles;
 }
 
-/// What lies within a radius, unless it is too much.
-class Within : public flann::ResultSet<float> {
- public:
-  Within(float radius, std::size_t limit) : squared_(radius * radius), limit_(limit) {}
-  bool full() const override { return true; }
-  float worstDist() const override { return rows.size() > limit_ ? -1.f : squared_; }
-  void addPoint(float squared_distance, std::size_t row) override {
-    if (squared_distance < squared_ && rows.size() <= limit_) rows.push_back(row);
-  }
-  std::vector<std::size_t> rows;
+using Vertices = std::array<int, 3>;  // ascending
 
- private:
-  float squared_;
-  std::size_t limit_;
+void Propose(int a, const Neighbours& near, std::vector<Vertices>& proposed) {
+  for (int i = 0; i < kNeighbours && near[i] >= 0; ++i) {
+    for (int j = i + 1; j < kNeighbours && near[j] >= 0; ++j) {
+      proposed.push_back({a, near[i], near[j]});
+      std::sort(proposed.back().begin(), proposed.back().end());
+    }
+  }
+}
+
+Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) {
+  const std::vector<LayoutPoint>& points = index.points();
+  const double start = std::sqrt(kNeighbours / (3. * index.density()));  // about twice as many
+  for (double radius = std::min(start, index.max_pair());; radius = std::min(2 * radius, index.max_pair())) {
+    found.clear();
+    const Vec2 centre(points[i].x, points[i].y), reach(radius, radius);
+    index.VisitBox(centre - reach, centre + reach, [&](int j) {
+      const float d2 = SquaredDistance(points[i], points[j]);
+      if (j != i && d2 <= radius * radius) found.push_back({d2, j});
+    });
+    if (found.size() >= kNeighbours || radius >= index.max_pair()) return Nearest(found);
+  }
+}
+
+std::vector<Neighbours> NearestOfAll(const LayoutIndex& index) {
+  std::vector<Neighbours> near;
+  std::vector<Near> found;
+  for (int i = 0; i < static_cast<int>(index.points().size()); ++i) near.push_back(NearestOf(index, i, found));
+  return near;
+}
+
+/// What lies within a radius, unless it is too much.
+struct Within {
+  float squared_radius;
+  std::size_t limit;
+  std::vector<const ObjectTriangle*> triangles;
+
+  float Reach2() const { return triangles.size() > limit ? -1.f : squared_radius; }
+  void Visit(float, const ObjectTriangle& triangle, std::size_t) { triangles.push_back(&triangle); }
 };
 
 }  // namespace
 
 std::vector<ObjectTriangle> NeighbourTriangles(const LayoutIndex& index) {
-  const std::vector<LayoutPoint>& points = index.points();
-  std::vector<Neighbours> near(points.size());
-  const double start = std::sqrt(kNeighbours / (3. * index.density()));  // about twice as many
-  std::vector<Near> found;
-  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
-    for (double radius = std::min(start, index.max_pair());; radius = std::min(2 * radius, index.max_pair())) {
-      found.clear();
-      const Vec2 centre(points[i].x, points[i].y), reach(radius, radius);
-      index.VisitBox(centre - reach, centre + reach, [&](int j) {
-        const float d2 = SquaredDistance(points[i], points[j]);
-        if (j != i && d2 <= radius * radius) found.push_back({d2, j});
-      });
-      if (found.size() >= kNeighbours || radius >= index.max_pair()) break;
-    }
-    near[i] = Nearest(found);
-  }
-  return Triangles(points, near);
+  return Triangles(index.points(), NearestOfAll(index));
 }
 
 std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& points) {
@@ -133,37 +149,98 @@ std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& p
   return Triangles(points, near);
 }
 
-struct TriangleIndex::Trees {
-  struct Group {
+struct TriangleIndex::State {
+  using Forest = KdForest<float, ObjectTriangle>;
+  std::vector<LayoutPoint> points;               // as they were at the last update
+  std::vector<Neighbours> near;                  // ... and whose triangles there are
+  std::map<std::array<int, 3>, Forest> forests;  // by labels
+
+  // Those whose neighbours may have changed, apart from the changed ones themselves: they are near where these were or
+  // near where they are.
+  template <class Visitor>
+  void VisitAffected(const LayoutIndex& index, int changed, const LayoutPoint& place, Visitor&& visit) const {
+    const Vec2 centre(place.x, place.y), reach(index.max_pair(), index.max_pair());
+    index.VisitBox(centre - reach, centre + reach, [&](int i) {
+      if (i >= static_cast<int>(near.size())) return;
+      const int last = near[i].back();
+      if (last < 0 || Contains(near[i], changed) ||
+          SquaredDistance(points[i], place) <= SquaredDistance(points[i], points[last]))
+        visit(i);
+    });
+  }
+
+  // Of the proposed ones those that there are.
+  std::vector<ObjectTriangle> Existing(const std::vector<Vertices>& proposed) const {
     std::vector<ObjectTriangle> triangles;
-    std::vector<float> sides;  // of each triangle, what the tree is over
-    std::unique_ptr<Tree> tree;
-  };
-  std::map<std::array<int, 3>, Group> groups;  // by labels
+    for (const Vertices& v : proposed) {
+      if (v[2] >= static_cast<int>(near.size())) continue;
+      const auto proposes = [&](int a, int b, int c) { return Contains(near[a], b) && Contains(near[a], c); };
+      if (!proposes(v[0], v[1], v[2]) && !proposes(v[1], v[0], v[2]) && !proposes(v[2], v[0], v[1])) continue;
+      const ObjectTriangle triangle = MakeTriangle(points, v[0], v[1], v[2]);
+      if (FixesYaw(triangle)) triangles.push_back(triangle);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  }
 };
 
-TriangleIndex::TriangleIndex(const LayoutIndex& index) : trees_(std::make_unique<Trees>()) {
-  for (const ObjectTriangle& triangle : NeighbourTriangles(index)) {
-    Trees::Group& group = trees_->groups[triangle.label];
-    group.triangles.push_back(triangle);
-    group.sides.insert(group.sides.end(), triangle.side.begin(), triangle.side.end());
-  }
-  for (auto& [labels, group] : trees_->groups) {
-    group.tree = std::make_unique<Tree>(flann::Matrix<float>(group.sides.data(), group.triangles.size(), 3));
-    group.tree->buildIndex();
-  }
+TriangleIndex::TriangleIndex(const LayoutIndex& index) : state_(std::make_unique<State>()) {
+  state_->points = index.points();
+  state_->near = NearestOfAll(index);
+  std::map<std::array<int, 3>, std::vector<std::pair<State::Forest::Point, ObjectTriangle>>> groups;
+  for (const ObjectTriangle& triangle : Triangles(state_->points, state_->near))
+    groups[triangle.label].push_back({triangle.side, triangle});
+  for (const auto& [labels, triangles] : groups) state_->forests[labels].Build(triangles);
 }
 
 TriangleIndex::~TriangleIndex() = default;
 
+void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {
+  State& s = *state_;
+  std::vector<int> affected = changed;
+  const auto add = [&](int i) { affected.push_back(i); };
+  for (const int i : changed) {
+    if (i < static_cast<int>(s.points.size())) s.VisitAffected(index, i, s.points[i], add);
+    if (i < static_cast<int>(index.points().size())) s.VisitAffected(index, i, index.points()[i], add);
+  }
+  MakeUnique(affected);
+
+  const std::size_t size = index.points().size();
+  std::vector<std::pair<int, Neighbours>> now;
+  std::vector<Vertices> proposed;
+  std::vector<Near> found;
+  for (const int i : affected) {
+    if (i < static_cast<int>(s.near.size())) Propose(i, s.near[i], proposed);
+    if (i >= static_cast<int>(size)) continue;
+    now.push_back({i, NearestOf(index, i, found)});
+    Propose(i, now.back().second, proposed);
+  }
+  MakeUnique(proposed);
+
+  const std::vector<ObjectTriangle> before = s.Existing(proposed);
+  s.points.resize(size);
+  s.near.resize(size);
+  for (const int i : affected)
+    if (i < static_cast<int>(size)) s.points[i] = index.points()[i];
+  for (const auto& [i, neighbours] : now) s.near[i] = neighbours;
+  const std::vector<ObjectTriangle> after = s.Existing(proposed);
+
+  std::vector<ObjectTriangle> gone, come;
+  std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(gone));
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(come));
+  for (const ObjectTriangle& triangle : gone) s.forests[triangle.label].Remove(triangle.side, triangle);
+  for (const ObjectTriangle& triangle : come) s.forests[triangle.label].Add(triangle.side, triangle);
+}
+
 void TriangleIndex::Find(const ObjectTriangle& triangle, double radius_m, std::size_t limit,
                          std::vector<const ObjectTriangle*>& found) const {
-  const auto group = trees_->groups.find(triangle.label);
-  if (group == trees_->groups.end()) return;
-  Within within(static_cast<float>(radius_m), limit);
-  group->second.tree->findNeighbors(within, triangle.side.data(), flann::SearchParams());
-  if (within.rows.size() > limit) return;
-  for (const std::size_t row : within.rows) found.push_back(&group->second.triangles[row]);
+  const auto forest = state_->forests.find(triangle.label);
+  if (forest == state_->forests.end()) return;
+  const float radius = static_cast<float>(radius_m);
+  Within within{radius * radius, limit, {}};
+  forest->second.Search(triangle.side, within);
+  if (within.triangles.size() > limit) return;
+  found.insert(found.end(), within.triangles.begin(), within.triangles.end());
 }
 
 }  // namespace sslcd

@@ -75,6 +75,7 @@ bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timin
   if (moved && options_.mode != Options::Mode::kPaper) {
     const Pose before = frames_.back().T_world_cam;
     OptimiseAfterLoop(map_, frames_, scale, options_);
+    passes_.MovedFrom(0);
     tracks_.Move(LayoutChange(before, frames_.back().T_world_cam, map_.gravity()));
   }
   return moved || fused;
@@ -90,11 +91,15 @@ bool LoopCloser::Detect(double lag_m) {
   const LoopOptions& o = options_.loop;
   const double here = frames_.back().travelled;
   const PassLayout local = passes_.Recent(here - o.layout.local_m, o.layout.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(), o.layout.min_sightings);
+  LayoutChanges changes = passes_.ChangesBefore(OldUntil(), o.layout.min_sightings);
+  if (!old_ || changes.anew)
+    old_.emplace(std::move(changes.objects), o.match.max_pair_m, o.match.reach_m);
+  else
+    old_->Update(changes.objects, changes.gone);
+  const LayoutIndex& index = *old_;
   const int few = o.match.search.min_matches;
-  if (static_cast<int>(std::min(local.objects.size(), global.objects.size())) < few) return false;
+  if (static_cast<int>(std::min(local.objects.size(), index.objects().size())) < few) return false;
 
-  const LayoutIndex index(global.objects, o.match.max_pair_m, o.match.reach_m);
   const LayoutLikelihood likelihood(local.objects, index, o.match.likelihood);
   PoseSearchOptions search = o.match.search;  // the tracks of earlier attempts need not be found again
   search.refine = std::min(search.refine, o.tracks.max_tracks);
@@ -102,13 +107,12 @@ bool LoopCloser::Detect(double lag_m) {
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
-  tracks_.Update(likelihood, found, search, here,
-                 OdometryPrior(passes_, path_.From(here), local, global, index, o.prior));
+  tracks_.Update(likelihood, found, search, here, OdometryPrior(passes_, path_.From(here), local, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
   const LoopMeter meter(map_.gravity(), frames_, passes_, o);
-  auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, lag_m, OldUntil());
+  auto loop = meter.Measure(local, index, best.fit.matches, best.fit.sigma, lag_m, OldUntil());
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.track = best.id;
@@ -292,6 +296,7 @@ void LoopCloser::Correct(double scale) {
   const std::vector<Pose> before = PosesOf(frames_);
   MoveKeyframes(frames_, graph.keyframes, PosesOf(graph.graph));
   MoveObjects(map_, frames_, before, options_.noise);
+  passes_.MovedFrom(0);
   tracks_.Move(LayoutChange(before.back(), frames_.back().T_world_cam, map_.gravity()));
 }
 

@@ -10,6 +10,7 @@
 #include "pipeline/pass_map.h"
 #include "pipeline/path_graph.h"
 #include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/layout_index.h"
 #include "sslcd/loop/pose_tracks.h"
 #include "sslcd/pipeline/mapper.h"
 
@@ -24,6 +25,9 @@ class LoopCloser {
 
   /// The newest frame, while it still knows how its detections look. To be called with each frame.
   void AddFrame() { passes_.Update(); }
+
+  /// Frames from this one on are about to move, as those of the sliding window do.
+  void MovedFrom(int frame) { passes_.MovedFrom(frame); }
 
   /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or map have changed.
   bool AddKeyframe(double scale, TimingTable& timing);
@@ -68,6 +72,7 @@ class LoopCloser {
   std::vector<FrameRecord>& frames_;
   PlaceMatcher matcher_;
   PassMap passes_;
+  std::optional<LayoutIndex> old_;  // objects of old passes, as the last attempt had them
   PoseTracks tracks_;
   PathGraph path_;
   double last_attempt_m_ = 0;

@@ -14,7 +14,7 @@ constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's headin
 
 }  // namespace
 
-std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const PassLayout& global,
+std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const LayoutIndex& global,
                                                   const std::vector<std::pair<int, int>>& matches, double sigma_m,
                                                   double lag_m, double old_until_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
@@ -27,7 +27,7 @@ std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const
   return best;
 }
 
-std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
+std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayout& local, const LayoutIndex& global,
                                                     const std::vector<std::pair<int, int>>& matches, double sigma_m,
                                                     double old_until_m) const {
   if (matches.empty()) return std::nullopt;
@@ -36,14 +36,16 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayo
   std::vector<DriftPair> pairs;
   std::vector<double> seen;  // where on the path
   for (const auto& [i, j] : matches) {
+    const LandmarkId old{global.objects()[j].id};
     DriftPair pair;
     pair.T_world_local = ToPose(local.places[i], gravity_);
-    pair.T_world_global = ToPose(global.places[j], gravity_);
+    pair.T_world_global =
+        ToPose(passes_.PlaceBefore(old, old_until_m, options_.layout.min_sightings).value(), gravity_);
     pair.symmetry = local.objects[i].symmetry;
     pair.sigma_horizontal_m = pair.sigma_vertical_m = sigma_m;
     pair.sigma_yaw_rad = kYawSigma;
     pairs.push_back(pair);
-    row.pairs.push_back({{local.objects[i].id}, {global.objects[j].id}});
+    row.pairs.push_back({{local.objects[i].id}, old});
     seen.push_back(local.seen_m[i]);
   }
   DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
@@ -93,11 +95,14 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, 
   for (const auto& pair : row.pairs) ids.insert(pair.second);
   int best = -1;
   double nearest = std::numeric_limits<double>::infinity();
-  for (const PassObject& pass : passes_.passes()) {
-    if (ids.count(pass.id) == 0 || pass.last_m >= old_until_m) continue;
-    for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
-      const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
-      if (distance < nearest) nearest = distance, best = f;
+  for (const LandmarkId id : ids) {
+    for (const int i : passes_.PassesOf(id)) {
+      const PassObject& pass = passes_.passes()[i];
+      if (pass.last_m >= old_until_m) continue;
+      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
+        const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
+        if (distance < nearest) nearest = distance, best = f;
+      }
     }
   }
   return best;

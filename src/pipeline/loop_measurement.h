@@ -7,6 +7,7 @@
 
 #include "pipeline/pass_map.h"
 #include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/layout_index.h"
 
 namespace sslcd {
 
@@ -33,7 +34,7 @@ class LoopMeter {
   /// `matches`: index of local, of global; `sigma_m`: how well their positions agree; `old_until_m`: where the path of
   /// the global map ends. Tries `lag_m` and, while the heading remains too uncertain, cameras further back. None where
   /// the matches fix no pose.
-  std::optional<LoopMeasurement> Measure(const PassLayout& local, const PassLayout& global,
+  std::optional<LoopMeasurement> Measure(const PassLayout& local, const LayoutIndex& global,
                                          const std::vector<std::pair<int, int>>& matches, double sigma_m, double lag_m,
                                          double old_until_m) const;
 
@@ -41,7 +42,7 @@ class LoopMeter {
   double Heading(const Pose& T_world_cam) const;
 
  private:
-  std::optional<LoopMeasurement> MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
+  std::optional<LoopMeasurement> MeasureAt(double lag_m, const PassLayout& local, const LayoutIndex& global,
                                            const std::vector<std::pair<int, int>>& matches, double sigma_m,
                                            double old_until_m) const;
   int FrameAt(double path_m) const;

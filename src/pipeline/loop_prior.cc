@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace sslcd {
 namespace {
@@ -14,16 +13,15 @@ constexpr double kStartMetres = 1., kStartRad = 0.02;
 }  // namespace
 
 PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances, const PassLayout& local,
-                                const PassLayout& global, const LayoutIndex& index, const LoopPriorOptions& options) {
-  std::map<int, double> seen_at;
-  for (const PassObject& pass : passes.passes()) seen_at.insert({pass.id.value, pass.last_m});
+                                const LayoutIndex& index, const LoopPriorOptions& options) {
   const double searched = 2 * M_PI * static_cast<double>(index.objects().size()) / index.density();  // [m^2 rad]
-  return [=, &local, &global](const YawShift& pose, const LayoutFit& fit) {
+  return [=, &passes, &local, &index](const YawShift& pose, const LayoutFit& fit) {
     if (fit.matches.empty()) return 0.;
     std::vector<double> paths;
     Vec3 centre = Vec3::Zero();
     for (const auto& [i, j] : fit.matches) {
-      paths.push_back(distances.To(seen_at.at(global.objects[j].id)));
+      const int first_pass = passes.PassesOf({index.objects()[j].id}).front();
+      paths.push_back(distances.To(passes.passes()[first_pass].last_m));
       centre += local.objects[i].position / static_cast<double>(fit.matches.size());
     }
     std::nth_element(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(paths.size() / 2), paths.end());

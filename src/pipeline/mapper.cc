@@ -67,6 +67,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     window_.push_back(static_cast<int>(frames_.size()) - 1);
     if (options_.window.enabled) {
       const ScopedTimer timer(timing_, "object optimisation");
+      loops_->MovedFrom(window_.front());
       report.window = OptimiseWindow();
     }
     if (options_.loop.enabled && loops_->AddKeyframe(scale(), timing_)) ResetWindow();

@@ -58,6 +58,7 @@ bool Usable(const ObjectMap& map, LandmarkId id) {
 }  // namespace
 
 void PassMap::Update() {
+  moved_from_ = std::min(moved_from_, next_frame_);
   for (; next_frame_ < frames_.size(); ++next_frame_) {
     const FrameRecord& frame = frames_[next_frame_];
     for (std::size_t d = 0; d < frame.matched.size(); ++d) {
@@ -67,6 +68,7 @@ void PassMap::Update() {
       if (known == open_.end() || frame.travelled - passes_[known->second].last_m > split_m_) {
         if (known != open_.end()) Finish(passes_[known->second]);
         open_[id.value] = static_cast<int>(passes_.size());
+        passes_of_[id.value].push_back(static_cast<int>(passes_.size()));
         passes_.push_back(
             {id, frame.travelled, frame.travelled, {}, -1, {}, 0, Gallery(galleries_), Gallery(galleries_)});
       }
@@ -91,8 +93,9 @@ void PassMap::Update() {
 void PassMap::Rebuild() {
   const std::vector<PassObject> before = std::move(passes_);
   passes_.clear();
+  passes_of_.clear();
   open_.clear();
-  next_frame_ = 0;
+  next_frame_ = moved_from_ = 0;
   if (!frames_.empty()) Update();
   std::map<std::pair<int, int>, std::size_t> now;
   for (std::size_t i = 0; i < passes_.size(); ++i)
@@ -109,7 +112,8 @@ void PassMap::Rebuild() {
   }
 }
 
-void PassMap::Finish(PassObject& pass) const {
+void PassMap::Finish(PassObject& pass) {
+  touched_.insert(pass.id.value);
   pass.anchor = pass.sightings[pass.sightings.size() / 2].first;
   const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., 1);
   pass.T_anchor_object = frames_[pass.anchor].T_world_cam.inverse() * ToPose(place->pose, map_.gravity());
@@ -117,9 +121,18 @@ void PassMap::Finish(PassObject& pass) const {
 }
 
 void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
-  for (PassObject& pass : passes_)
-    for (auto heir = heirs.find(pass.id.value); heir != heirs.end(); heir = heirs.find(pass.id.value))
-      pass.id = heir->second;
+  for (const auto& [gone, first] : heirs) {
+    LandmarkId id = first;
+    for (auto heir = heirs.find(id.value); heir != heirs.end(); heir = heirs.find(id.value)) id = heir->second;
+    touched_.insert({gone, id.value});
+    const auto known = passes_of_.find(gone);
+    if (known == passes_of_.end()) continue;
+    for (const int pass : known->second) passes_[pass].id = id;
+    std::vector<int>& all = passes_of_[id.value];
+    all.insert(all.end(), known->second.begin(), known->second.end());
+    std::sort(all.begin(), all.end());
+    passes_of_.erase(known);
+  }
   std::map<int, int> open;
   for (const auto& [id, index] : open_) {
     const auto [other, is_new] = open.insert({passes_[index].id.value, index});
@@ -148,53 +161,118 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, d
 }
 
 PassLayout PassMap::Recent(double from_m, int min_sightings) const {
-  std::map<int, const PassObject*> latest;
-  for (const PassObject& pass : passes_)
-    if (pass.last_m >= from_m && Usable(map_, pass.id)) latest[pass.id.value] = &pass;
+  std::set<int> ids;
+  SeenIn(FrameFrom(from_m), frames_.size(), ids);
   PassLayout layout;
-  for (const auto& [id, pass] : latest) {
-    const auto place = MeanPlace(*pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
-    if (place) Append({id}, place->pose, place->height_m, place->seen_m, pass->colour, pass->embedding, layout);
+  for (const int id : ids) {
+    if (!Usable(map_, {id})) continue;
+    const std::vector<int>& all = PassesOf({id});
+    const auto latest =
+        std::find_if(all.rbegin(), all.rend(), [&](int pass) { return passes_[pass].last_m >= from_m; });
+    if (latest == all.rend()) continue;
+    const PassObject& pass = passes_[*latest];
+    const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
+    if (place) Append({id}, place->pose, place->height_m, place->seen_m, pass.colour, pass.embedding, layout);
   }
   return layout;
 }
 
-PassLayout PassMap::Before(double to_m, int min_sightings) const {
-  struct Sum {
-    Vec3 position{0, 0, 0};
-    double weight = 0, yaw = 0, height = 0, seen_m = 0;
-    Gallery colour, embedding;
-  };
-  std::map<int, Sum> sums;
-  for (const PassObject& pass : passes_) {
-    if (pass.anchor < 0 || pass.last_m >= to_m || static_cast<int>(pass.sightings.size()) < min_sightings ||
-        !Usable(map_, pass.id))
-      continue;
+std::size_t PassMap::FrameFrom(double path_m) const {
+  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  return static_cast<std::size_t>(at - frames_.begin());
+}
+
+void PassMap::SeenIn(std::size_t from, std::size_t to, std::set<int>& ids) const {
+  for (std::size_t f = from; f < to; ++f)
+    for (const LandmarkId id : frames_[f].matched)
+      if (id.value >= 0) ids.insert(id.value);
+}
+
+struct PassMap::Sum {
+  Vec3 position{0, 0, 0};
+  double weight = 0, yaw = 0, height = 0, seen_m = 0;
+  std::vector<const PassObject*> passes;
+};
+
+std::optional<PassMap::Sum> PassMap::SumBefore(int id, double to_m, int min_sightings) const {
+  if (!Usable(map_, {id})) return std::nullopt;
+  Sum sum;
+  for (const int i : PassesOf({id})) {
+    const PassObject& pass = passes_[i];
+    if (pass.anchor < 0 || pass.last_m >= to_m || static_cast<int>(pass.sightings.size()) < min_sightings) continue;
     const UprightPose place = ToUpright(frames_[pass.anchor].T_world_cam * pass.T_anchor_object, map_.gravity());
     const double weight = static_cast<double>(pass.sightings.size());
-    const auto [known, is_new] = sums.try_emplace(pass.id.value);
-    Sum& sum = known->second;
-    if (is_new) sum.colour = sum.embedding = Gallery(galleries_);
-    sum.colour.Merge(pass.colour);
-    sum.embedding.Merge(pass.embedding);
     sum.position += weight * place.position;
     sum.height += weight * pass.height_m;
     sum.weight += weight;
     sum.yaw = place.yaw;
     sum.seen_m = frames_[pass.anchor].travelled;
+    sum.passes.push_back(&pass);
   }
+  if (sum.passes.empty()) return std::nullopt;
+  return sum;
+}
+
+void PassMap::AppendBefore(int id, double to_m, int min_sightings, PassLayout& layout) const {
+  const auto sum = SumBefore(id, to_m, min_sightings);
+  if (!sum) return;
+  Gallery colour(galleries_), embedding(galleries_);
+  for (const PassObject* pass : sum->passes) {
+    colour.Merge(pass->colour);
+    embedding.Merge(pass->embedding);
+  }
+  Append({id}, {sum->position / sum->weight, sum->yaw}, sum->height / sum->weight, sum->seen_m, colour, embedding,
+         layout);
+}
+
+PassLayout PassMap::Before(double to_m, int min_sightings) const {
   PassLayout layout;
-  for (const auto& [id, sum] : sums)
-    Append({id}, {sum.position / sum.weight, sum.yaw}, sum.height / sum.weight, sum.seen_m, sum.colour, sum.embedding,
-           layout);
+  for (const auto& [id, passes] : passes_of_) AppendBefore(id, to_m, min_sightings, layout);
   return layout;
+}
+
+LayoutChanges PassMap::ChangesBefore(double to_m, int min_sightings) {
+  LayoutChanges changes;
+  changes.anew = moved_from_ == 0 || to_m < changes_to_m_ || min_sightings != changes_min_sightings_;
+  if (changes.anew) {
+    changes.objects = Before(to_m, min_sightings).objects;
+  } else {
+    // A pass that moves with its anchor, or has just become old, was seen by the frame in question.
+    SeenIn(moved_from_, frames_.size(), touched_);
+    SeenIn(FrameFrom(changes_to_m_), FrameFrom(to_m), touched_);
+    PassLayout layout;
+    for (const int id : touched_) {
+      const std::size_t before = layout.objects.size();
+      AppendBefore(id, to_m, min_sightings, layout);
+      if (layout.objects.size() == before) changes.gone.push_back(id);
+    }
+    changes.objects = std::move(layout.objects);
+  }
+  changes_to_m_ = to_m;
+  changes_min_sightings_ = min_sightings;
+  moved_from_ = frames_.size();
+  touched_.clear();
+  return changes;
+}
+
+std::optional<UprightPose> PassMap::PlaceBefore(LandmarkId id, double to_m, int min_sightings) const {
+  const auto sum = SumBefore(id.value, to_m, min_sightings);
+  if (!sum) return std::nullopt;
+  return UprightPose{sum->position / sum->weight, sum->yaw};
+}
+
+const std::vector<int>& PassMap::PassesOf(LandmarkId id) const {
+  static const std::vector<int> kNone;
+  const auto known = passes_of_.find(id.value);
+  return known == passes_of_.end() ? kNone : known->second;
 }
 
 double PassMap::NearestPass(LandmarkId id, double path_m) const {
   double best = path_m, least = std::numeric_limits<double>::infinity();
-  for (const PassObject& pass : passes_) {
-    if (!(pass.id == id) || pass.anchor < 0) continue;
-    const double seen_m = frames_[pass.anchor].travelled, away = std::abs(seen_m - path_m);
+  for (const int i : PassesOf(id)) {
+    if (passes_[i].anchor < 0) continue;
+    const double seen_m = frames_[passes_[i].anchor].travelled, away = std::abs(seen_m - path_m);
     if (away < least) least = away, best = seen_m;
   }
   return best;

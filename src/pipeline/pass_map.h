@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +36,13 @@ struct PassLayout {
   std::vector<double> seen_m;  ///< where on the path, on average; of the last pass
 };
 
+/// What has happened to the objects that PassMap::Before lists.
+struct LayoutChanges {
+  bool anew = false;                  ///< anything may have: `objects` are all there are
+  std::vector<LayoutObject> objects;  ///< as they are now, by id
+  std::vector<int> gone;              ///< ids that may have been listed before and are not any more
+};
+
 /// The passes of a run and the layouts they make. Refers to the mapper's own map and frames.
 class PassMap {
  public:
@@ -51,11 +61,24 @@ class PassMap {
   /// Landmarks were fused: those that are gone -> those that took them over.
   void Rename(const std::map<int, LandmarkId>& heirs);
 
+  /// Trajectory or detections of the frames from this one on are not what they were; 0: of all.
+  void MovedFrom(int frame) { moved_from_ = std::min(moved_from_, static_cast<std::size_t>(frame)); }
+
   /// Objects seen since `from_m` of path at least `min_sightings` times, where those sightings put them.
   PassLayout Recent(double from_m, int min_sightings) const;
 
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;
+
+  /// What has changed in Before(to_m, min_sightings) since the last call of this. O(what was seen since then, and what
+  /// has become old); O(passes) if everything has moved.
+  LayoutChanges ChangesBefore(double to_m, int min_sightings);
+
+  /// Where the passes that ended before `to_m` put a landmark; none if there is no such pass.
+  std::optional<UprightPose> PlaceBefore(LandmarkId id, double to_m, int min_sightings) const;
+
+  /// Indices of the passes of a landmark, ascending.
+  const std::vector<int>& PassesOf(LandmarkId id) const;
 
   /// Where on the path a landmark was seen on that one of its finished passes that is nearest to `path_m`. [m]
   double NearestPass(LandmarkId id, double path_m) const;
@@ -63,9 +86,14 @@ class PassMap {
   const std::vector<PassObject>& passes() const { return passes_; }
 
  private:
-  void Finish(PassObject& pass) const;
+  struct Sum;
+  void Finish(PassObject& pass);
+  std::optional<Sum> SumBefore(int id, double to_m, int min_sightings) const;
+  void AppendBefore(int id, double to_m, int min_sightings, PassLayout& layout) const;
   void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, const Gallery& colour,
               const Gallery& embedding, PassLayout& layout) const;
+  std::size_t FrameFrom(double path_m) const;
+  void SeenIn(std::size_t from, std::size_t to, std::set<int>& ids) const;
 
   const ObjectMap& map_;
   const std::vector<FrameRecord>& frames_;
@@ -74,8 +102,14 @@ class PassMap {
   Gallery::Mode galleries_;
   std::size_t next_frame_ = 0;
   std::vector<PassObject> passes_;
-  std::map<int, int> open_;  // landmark -> its present pass
+  std::map<int, std::vector<int>> passes_of_;  // landmark -> indices of its passes
+  std::map<int, int> open_;                    // landmark -> its present pass
   mutable std::map<std::string, int> labels_;
+  // Since the last ChangesBefore:
+  double changes_to_m_ = 0;  // its to_m
+  int changes_min_sightings_ = 0;
+  std::size_t moved_from_ = 0;  // the first frame that may have moved, or come
+  std::set<int> touched_;       // landmarks that have changed otherwise
 };
 
 }  // namespace sslcd

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <random>
 #include <set>
 
 #include "layout_cases.h"
+#include "loop/triangle_index.h"
 
 namespace sslcd {
 namespace {
@@ -101,6 +104,124 @@ TEST(LayoutIndex, LargeMapsHaveTrianglesInsteadOfPairs) {
   EXPECT_NE(large.triangles(), nullptr);
   EXPECT_GE(large.PairsBegin(0, 0, 10), large.PairsEnd(0, 0, 20));
   EXPECT_NEAR(small.density(), large.density(), 0.15 * large.density());
+}
+
+// Indices may differ: objects are told apart by their ids.
+std::set<int> Ids(const LayoutIndex& index, const std::vector<int>& found) {
+  std::set<int> ids;
+  for (const int i : found) EXPECT_TRUE(ids.insert(index.objects()[i].id).second) << "listed twice";
+  return ids;
+}
+
+std::set<std::pair<std::set<int>, std::array<float, 3>>> Found(const LayoutIndex& index,
+                                                               const ObjectTriangle& triangle) {
+  std::vector<const ObjectTriangle*> found;
+  index.triangles()->Find(triangle, 1., 100000, found);
+  std::set<std::pair<std::set<int>, std::array<float, 3>>> result;
+  for (const ObjectTriangle* other : found)
+    EXPECT_TRUE(result.insert({Ids(index, {other->vertex.begin(), other->vertex.end()}), other->side}).second);
+  return result;
+}
+
+void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double half_side_m) {
+  ASSERT_EQ(kept.objects().size(), fresh.objects().size());
+  ASSERT_EQ(kept.triangles() == nullptr, fresh.triangles() == nullptr);
+  EXPECT_EQ(kept.density(), fresh.density());
+  EXPECT_EQ(kept.height_spread(), fresh.height_spread());
+  EXPECT_EQ(kept.label_counts(), fresh.label_counts());
+  EXPECT_EQ(kept.headings(), fresh.headings());
+  const double step = half_side_m / 12;
+  for (double x = -half_side_m; x < half_side_m; x += step) {
+    for (double y = -half_side_m; y < half_side_m; y += step) {
+      std::vector<int> near[2], box[2];
+      for (const int side : {0, 1}) {
+        const LayoutIndex& index = side == 0 ? kept : fresh;
+        for (const int i : index.Near(x, y)) near[side].push_back(i);
+        index.VisitBox({x, y}, {x + step, y + 2 * step}, [&](int i) { box[side].push_back(i); });
+      }
+      EXPECT_EQ(Ids(kept, near[0]), Ids(fresh, near[1]));
+      EXPECT_EQ(Ids(kept, box[0]), Ids(fresh, box[1]));
+      EXPECT_EQ(kept.Known(x, y), fresh.Known(x, y));
+    }
+  }
+  if (fresh.triangles() == nullptr) return;
+  for (const ObjectTriangle& triangle : NeighbourTriangles(LayoutIndex(Strewn(12, 50, 9), 50, 2)))
+    EXPECT_EQ(Found(kept, triangle), Found(fresh, triangle));
+}
+
+TEST(LayoutIndex, AnswersAfterUpdatesAsABuiltOneDoes) {
+  for (const int count : {60, 2500}) {
+    const double side = std::sqrt(count / 0.0075);
+    std::mt19937 random(static_cast<unsigned>(count));
+    const auto uniform = [&](double from, double to) { return from + (to - from) * (random() % 1000001) * 1e-6; };
+    const auto somewhere = [&](int id) {
+      LayoutObject object = ObjectAt({uniform(-side / 2, side / 2), uniform(-side / 2, side / 2), uniform(0, 2)},
+                                     static_cast<int>(random() % 3));
+      object.id = id;
+      object.yaw = uniform(-3, 3);
+      object.symmetry = random() % 2 == 0 ? Symmetry::kPi : Symmetry::kNone;
+      return object;
+    };
+    std::map<int, LayoutObject> now;
+    std::vector<LayoutObject> first;
+    for (int i = 0; i < count; ++i) first.push_back(now[i] = somewhere(i));
+    LayoutIndex kept(first, 50, 2);
+    int next_id = count;
+    for (int round = 0; round < 30; ++round) {
+      std::vector<LayoutObject> changed;
+      std::vector<int> removed = {-7};  // never was there
+      const auto any = [&] {
+        return std::next(now.begin(), static_cast<std::ptrdiff_t>(random() % now.size()))->second;
+      };
+      for (int i = static_cast<int>(random() % 12); i > 0; --i) changed.push_back(somewhere(next_id++));
+      for (int i = 0; i < 3; ++i) {
+        LayoutObject moved = any(), turned = any();
+        moved.position += Vec3(uniform(-3, 3), uniform(-3, 3), uniform(-1, 1));
+        turned.yaw += 1;
+        for (const LayoutObject& object : {moved, turned}) {
+          const auto same = [&](const LayoutObject& other) { return other.id == object.id; };
+          if (std::none_of(changed.begin(), changed.end(), same)) changed.push_back(object);
+        }
+      }
+      for (const LayoutObject& object : changed) now[object.id] = object;
+      for (int i = static_cast<int>(random() % 12); i > 0; --i) {
+        const int id = any().id;
+        const auto same = [&](const LayoutObject& object) { return object.id == id; };
+        if (std::any_of(changed.begin(), changed.end(), same)) continue;
+        removed.push_back(id);
+        now.erase(id);
+      }
+      if (round == 20) {  // a heap, and one that is lost
+        for (int i = 0; i < 9; ++i) changed.push_back(now.at(changed[0].id)), changed.back().id = next_id++;
+        for (int i = 0; i < 9; ++i) now[next_id - 1 - i] = changed[changed.size() - 1 - static_cast<std::size_t>(i)];
+        changed.push_back(any());
+        changed.back().position.x() = NAN;
+        now.erase(changed.back().id);
+      }
+      kept.Update(changed, removed);
+      if (round % 5 != 0) continue;
+      std::vector<LayoutObject> all;
+      for (const auto& [id, object] : now) all.push_back(object);
+      ExpectSameAnswers(kept, LayoutIndex(all, 50, 2), side / 2 + 20);
+    }
+  }
+}
+
+TEST(LayoutIndex, UpdatesOfAllAndOfNothing) {
+  std::vector<LayoutObject> map = Strewn(2500, 570, 4);
+  for (std::size_t i = 0; i < map.size(); ++i) map[i].id = static_cast<int>(i);
+  LayoutIndex index({}, 50, 2);
+  index.Update({}, {});
+  EXPECT_TRUE(index.objects().empty());
+  index.Update(map, {});
+  EXPECT_NE(index.triangles(), nullptr);
+  ExpectSameAnswers(index, LayoutIndex(map, 50, 2), 300);
+  std::vector<int> all;
+  for (const LayoutObject& object : map) all.push_back(object.id);
+  index.Update({}, all);
+  EXPECT_TRUE(index.objects().empty());
+  EXPECT_EQ(index.triangles(), nullptr) << "small again";
+  EXPECT_TRUE(index.Near(0, 0).empty());
 }
 
 TEST(LayoutIndex, TakesOddMaps) {

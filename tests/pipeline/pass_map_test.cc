@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace sslcd {
 namespace {
@@ -213,6 +214,73 @@ TEST(PassMap, AfterFusionBothPassesAreOnes) {
   EXPECT_EQ(world.passes.NearestPass(early, 20), 3);
   EXPECT_EQ(world.passes.NearestPass(early, 250), 301);
   EXPECT_EQ(world.passes.NearestPass(late, 250), 250) << "has none";
+}
+
+// What a caller has who follows the changes.
+void Follow(const LayoutChanges& changes, std::map<int, LayoutObject>& objects) {
+  if (changes.anew) objects.clear();
+  for (const LayoutObject& object : changes.objects) objects[object.id] = object;
+  for (const int id : changes.gone) objects.erase(id);
+}
+
+TEST(PassMap, ChangesAddUpToWhatItLists) {
+  TwoVisits world;
+  std::vector<LandmarkId> trees;
+  for (int i = 0; i < 8; ++i) {
+    trees.push_back(world.Add({4. + i, 1, 12}));
+    world.See(trees.back(), i, i + 2);
+    if (i % 2 == 0) world.See(trees.back(), 300, 303);
+  }
+  const LandmarkId late = world.Add({-4, 1, 12});
+  world.See(late, 300, 304);
+  for (int i = 0; i < 12; ++i) {
+    FrameRecord record;
+    record.frame = 400 + i;
+    record.travelled = 400 + 10. * i;
+    world.frames.push_back(record);
+  }
+  std::map<int, LayoutObject> followed;
+  std::vector<FrameRecord> all;
+  all.swap(world.frames);
+  int updates = 0, listed = 0;
+  for (const FrameRecord& record : all) {
+    world.frames.push_back(record);
+    world.passes.Update();
+    if (record.frame == 302) world.map.SetState(trees[0], LandmarkState::kDynamic);
+    if (record.frame == 305) {  // the sliding window
+      world.passes.MovedFrom(13);
+      for (std::size_t f = 13; f < world.frames.size(); ++f) world.frames[f].T_world_cam = Pose::Trans(.5, 0, 0);
+    }
+    if (record.frame == 309) {  // a loop
+      world.passes.MovedFrom(0);
+      for (FrameRecord& frame : world.frames) frame.T_world_cam = Pose::Trans(0, 0, 3) * frame.T_world_cam;
+    }
+    if (record.frame == 401) {
+      for (FrameRecord& frame : world.frames)
+        for (LandmarkId& id : frame.matched)
+          if (id == late) id = trees[1];
+      world.passes.Rename({{late.value, trees[1]}});
+    }
+    const double old_until = record.travelled - 4;
+    const LayoutChanges changes = world.passes.ChangesBefore(old_until, 2);
+    updates += !changes.anew;
+    Follow(changes, followed);
+    const PassLayout before = world.passes.Before(old_until, 2);
+    ASSERT_EQ(followed.size(), before.objects.size()) << record.frame;
+    for (std::size_t i = 0; i < before.objects.size(); ++i) {
+      const LayoutObject& object = before.objects[i];
+      ASSERT_EQ(followed.count(object.id), 1u);
+      EXPECT_EQ(followed[object.id].position, object.position) << record.frame;
+      EXPECT_EQ(world.passes.PlaceBefore({object.id}, old_until, 2)->position, before.places[i].position);
+      ++listed;
+    }
+  }
+  EXPECT_EQ(updates, 30) << "the first frame and the loop are the others";
+  EXPECT_GT(listed, 100);
+  EXPECT_TRUE(world.passes.ChangesBefore(510 - 4, 2).objects.empty()) << "told already";
+  EXPECT_TRUE(world.passes.ChangesBefore(200, 2).anew) << "back in time";
+  EXPECT_TRUE(world.passes.ChangesBefore(200, 1).anew);
+  EXPECT_EQ(world.passes.PlaceBefore(late, 500, 2), std::nullopt) << "has another name";
 }
 
 TEST(PassMap, AnOpenPassGoesOnUnderItsNewName) {

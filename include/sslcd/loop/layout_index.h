@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "sslcd/core/layout.h"
+#include "sslcd/loop/cell_lists.h"
 
 namespace sslcd {
 
@@ -33,8 +36,18 @@ struct LayoutPoint {
 class LayoutIndex {
  public:
   /// Objects with a position that is not finite are left out. Pairs are kept up to `max_pair_m`; points find what is
-  /// within `reach_m`. O(objects + pairs) for small maps, O(n sqrt(n)) with a tiny factor for large ones.
+  /// within `reach_m`. O(objects + pairs) for small maps, O(n log n) for large ones.
   LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
+  ~LayoutIndex();
+  LayoutIndex(LayoutIndex&&) noexcept;
+  LayoutIndex& operator=(LayoutIndex&&) noexcept;
+
+  /// Objects have come, have changed, or (`removed`, ids) are gone. No two objects may have one id; one that is not
+  /// known is ignored in `removed`. Then answers as an index built of the objects as they are now, in another order;
+  /// indices may be others than before, and of neighbours equally far either may count. In a large map this costs
+  /// O(log^2 n) on average for each object that has come, moved or gone. A small one, or one of which more than one
+  /// object in 32 has changed, is built anew, ordered by id; until then, a map that was large counts as large.
+  void Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed);
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
   const std::vector<LayoutPoint>& points() const { return points_; }
@@ -42,28 +55,29 @@ class LayoutIndex {
   double reach() const { return reach_; }
 
   /// Indices of the objects within `reach_m` of a point, and a few more.
-  struct Range {
-    const int *first = nullptr, *last = nullptr;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-    bool empty() const { return first == last; }
-  };
-  Range Near(double x, double y) const {
-    const double column = (x - min_x_) * per_cell_, row = (y - min_y_) * per_cell_;
-    if (!(column >= 0 && column < columns_ && row >= 0 && row < rows_)) return {};
-    const int cell = static_cast<int>(row) * columns_ + static_cast<int>(column);
-    return {cell_objects_.data() + cell_start_[cell], cell_objects_.data() + cell_start_[cell + 1]};
+  CellLists::Range Near(double x, double y) const {
+    if (!std::isfinite(x) || !std::isfinite(y)) return near_.None();
+    return near_.At(near_.Cell(x), near_.Cell(y));
   }
 
-  /// Calls visit(index) for the objects in a box, and for a few more. O(columns of 10 m + objects visited).
+  /// Calls visit(index) for the objects in a box, and for a few more. O(blocks of 10 m + objects visited), and never
+  /// more than O(objects).
   template <class Visitor>
   void VisitBox(const Vec2& low, const Vec2& high, Visitor&& visit) const {
     if (!low.allFinite() || !high.allFinite()) return;
-    const int bottom = Block(low.y()), top = Block(high.y());
-    const int left = std::max(Block(low.x()), first_column_), right = std::min(Block(high.x()), last_column_);
+    const int left = blocks_.Cell(low.x()), right = blocks_.Cell(high.x());
+    const int bottom = blocks_.Cell(low.y()), top = blocks_.Cell(high.y());
+    if (right < left || top < bottom) return;
+    if ((right - left + 1.) * (top - bottom + 1.) > static_cast<double>(objects_.size())) {
+      for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
+        const int column = blocks_.Cell(objects_[i].position.x()), row = blocks_.Cell(objects_[i].position.y());
+        if (column >= left && column <= right && row >= bottom && row <= top) visit(i);
+      }
+      return;
+    }
     for (int column = left; column <= right; ++column)
-      for (auto it = FirstInBlock(column, bottom), end = FirstInBlock(column, top + 1); it != end; ++it)
-        visit(it->object);
+      for (int row = bottom; row <= top; ++row)
+        for (const int i : blocks_.At(column, row)) visit(i);
   }
 
   /// Is the point among mapped objects, or does it lie beyond the map's rim (no object within 10 to 20 m)?
@@ -90,36 +104,29 @@ class LayoutIndex {
   const Headings& headings() const { return headings_; }
 
  private:
-  struct InBlock {
-    int column, row, object;
-    bool operator<(const InBlock& o) const {
-      return column != o.column ? column < o.column : row != o.row ? row < o.row : object < o.object;
-    }
-  };
-  static int Block(double coordinate);
-  std::vector<InBlock>::const_iterator FirstInBlock(int column, int row) const;  // of this block or a later one
-  void CountProperties();
-  void BuildBlocks();
-  void BuildGrid();
+  void Build();
   void BuildPairs();
   void SortPairs(const std::vector<ObjectPair>& found);
+  void Count(int object, int by);
+  void Enter(int object);
+  void Leave(int object);
+  void CountNeighbours(int object, int by);
+  void Judge();
   int LabelRank(int label) const;
   int PairSlot(int label_a, int label_b, double distance_m) const;
 
   std::vector<LayoutObject> objects_;
   std::vector<LayoutPoint> points_;
+  std::unordered_map<int, int> index_of_;  // id -> index; filled by the first update
   double max_pair_, reach_;
-  std::vector<InBlock> blocks_;  // each object once, by column, then row of blocks
-  int first_column_ = 0, last_column_ = -1, first_row_ = 0, block_rows_ = 0;
-  std::vector<int> block_start_;  // of each block in blocks_; empty where the map has next to nothing but gaps
-  double per_cell_ = 1, min_x_ = 0, min_y_ = 0;
-  int columns_ = 0, rows_ = 0;
-  std::vector<int> cell_start_, cell_objects_;
+  CellLists blocks_, near_;      // each object once; each object in every cell that its reach touches
   std::vector<int> labels_;      // ascending
   int bins_ = 0;                 // of distance
   std::vector<int> pair_start_;  // of each slot (label, label, distance) in pairs_
   std::vector<ObjectPair> pairs_;
-  std::shared_ptr<const TriangleIndex> triangles_;
+  std::unique_ptr<TriangleIndex> triangles_;
+  std::int64_t neighbours_ = 0, height_sum_ = 0;  // pairs of objects in each other's surroundings; whole numbers, so
+                                                  // that any order of updates adds up to the same
   double density_ = 0, height_spread_ = 0;
   std::map<int, int> label_counts_;
   Headings headings_{};

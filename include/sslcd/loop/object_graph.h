@@ -45,8 +45,8 @@ class ObjectGraph {
   int size() const;
 
  private:
-  struct Forest;
-  std::unique_ptr<Forest> forest_;
+  struct Vertices;
+  std::unique_ptr<Vertices> vertices_;
 };
 
 }  // namespace sslcd
