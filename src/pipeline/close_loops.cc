@@ -87,16 +87,22 @@ bool LoopCloser::Find(double lag_m) {
   return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m);
 }
 
-bool LoopCloser::Detect(double lag_m) {
+// The global map, kept from attempt to attempt.
+const LayoutIndex& LoopCloser::OldMap() {
   const LoopOptions& o = options_.loop;
-  const double here = frames_.back().travelled;
-  const PassLayout local = passes_.Recent(here - o.layout.local_m, o.layout.min_sightings);
   LayoutChanges changes = passes_.ChangesBefore(OldUntil(), o.layout.min_sightings);
   if (!old_ || changes.anew)
     old_.emplace(std::move(changes.objects), o.match.max_pair_m, o.match.reach_m);
   else
     old_->Update(changes.objects, changes.gone);
-  const LayoutIndex& index = *old_;
+  return *old_;
+}
+
+bool LoopCloser::Detect(double lag_m) {
+  const LoopOptions& o = options_.loop;
+  const double here = frames_.back().travelled;
+  const PassLayout local = passes_.Recent(here - o.layout.local_m, o.layout.min_sightings);
+  const LayoutIndex& index = OldMap();
   const int few = o.match.search.min_matches;
   if (static_cast<int>(std::min(local.objects.size(), index.objects().size())) < few) return false;
 
@@ -200,18 +206,18 @@ bool LoopCloser::DetectAsPrinted() {
 bool LoopCloser::DetectWithMatcher(double lag_m) {
   const LoopLayoutOptions& o = options_.loop.layout;
   const PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
+  const LayoutIndex& global = OldMap();
   const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(),
                                         [](double m, const FrameRecord& frame) { return m < frame.travelled; });
   if (old_end == frames_.begin()) return false;
-  const auto answer = matcher_({local.objects, global.objects, frames_.back().frame, std::prev(old_end)->frame});
+  const auto answer = matcher_({local.objects, global.objects(), frames_.back().frame, std::prev(old_end)->frame});
   if (!answer) return false;
   std::optional<LoopMeasurement> loop;
   if (answer->matches.empty()) {
     loop = MeasureImages(answer->match_frame, answer->T_match_query);
   } else {
     constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
-    CheckMatches(answer->matches, local.objects.size(), global.objects.size());
+    CheckMatches(answer->matches, local.objects.size(), global.objects().size());
     const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
     loop = meter.Measure(local, global, answer->matches, kSigma, lag_m, OldUntil());
   }

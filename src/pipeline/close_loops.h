@@ -55,6 +55,7 @@ class LoopCloser {
   };
   bool DetectAndCorrect(double lag_m, double scale, TimingTable& timing);
   bool Find(double lag_m);
+  const LayoutIndex& OldMap();
   bool Detect(double lag_m);
   bool DetectWithMatcher(double lag_m);
   LoopMeasurement MeasureImages(int match_frame, const Pose& T_match_query) const;

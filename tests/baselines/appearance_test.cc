@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/baselines/appearance.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
+
+namespace sslcd::baselines {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kFocal = 300, kBaseline = 0.2, kDepth = 6;  // 50 pixels of shift for a metre, 10 of disparity
+constexpr int kWidth = 320, kHeight = 240;
+
+// A camera goes along a painted wall, looking at it: to the right for 8 m, then it starts again at the left.
+class Wall : public testing::Test {
+ protected:
+  Wall() : folder_(testing::TempDir() + "/sslcd_wall") {
+    fs::remove_all(folder_);
+    for (const char* images : {"/image_2", "/image_3"}) fs::create_directories(folder_ + images);
+    cv::RNG random(1);
+    wall_ = cv::Mat(kHeight, 1200, CV_8UC1, cv::Scalar(90));
+    for (int i = 0; i < 1500; ++i) {
+      const cv::Point corner(random.uniform(0, wall_.cols), random.uniform(0, wall_.rows));
+      cv::rectangle(wall_, cv::Rect(corner, cv::Size(random.uniform(3, 25), random.uniform(3, 25))),
+                    cv::Scalar(random.uniform(0, 256)), cv::FILLED);
+    }
+    std::string times, poses, config = "detections: detections.txt\n";
+    for (int i = 0; i < 12; ++i) {
+      WriteImages(i, i % 8);
+      times += std::to_string(0.1 * i) + "\n";
+      poses += std::to_string(0.1 * i) + " " + std::to_string(i) + " 0 0 0 0 0 1\n";
+    }
+    WriteFileAtomically(folder_ + "/times.txt", times);
+    WriteFileAtomically(folder_ + "/odometry.txt", poses);
+    WriteFileAtomically(folder_ + "/detections.txt", "");
+    WriteFileAtomically(folder_ + "/calib.txt", Calib());
+    options_.every = 1;
+    options_.training_images = 12;
+    options_.features = 300;
+  }
+  ~Wall() override { fs::remove_all(folder_); }
+
+  static std::string Calib() {
+    const std::string start = "300 0 160 ", end = " 0 300 120 0 0 0 1 0\n";
+    return "P0: " + start + "0" + end + "P1: " + start + "-60" + end + "P2: " + start + "0" + end + "P3: " + start +
+           "-60" + end;
+  }
+  void WriteImages(int frame, double at_m) const {
+    char name[16];
+    std::snprintf(name, sizeof name, "%06d.png", frame);
+    const int left = static_cast<int>(at_m * kFocal / kDepth),
+              right = left + static_cast<int>(kBaseline * kFocal / kDepth);
+    cv::imwrite(folder_ + "/image_2/" + name, wall_(cv::Rect(left, 0, kWidth, kHeight)));
+    cv::imwrite(folder_ + "/image_3/" + name, wall_(cv::Rect(right, 0, kWidth, kHeight)));
+  }
+  std::optional<PlaceAnswer> Ask(int frame, int old_frame) const {
+    const std::vector<LayoutObject> none;
+    return AppearanceMatcher(folder_, options_)({none, none, frame, old_frame});
+  }
+  void ExpectRefused(const std::string& message) const {
+    try {
+      Ask(9, 4);
+      FAIL() << message;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+    }
+  }
+  std::string folder_;
+  cv::Mat wall_;
+  AppearanceOptions options_;
+};
+
+TEST_F(Wall, KnowsThePlaceAndMeasuresThePose) {
+  const auto answer = Ask(9, 4);  // stands at 1 m
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->accepted);
+  EXPECT_GE(answer->score, 50);
+  const double expected = 1. - answer->match_frame;  // the old camera's x is its number
+  EXPECT_LE(std::abs(expected), 1);
+  EXPECT_NEAR(answer->T_match_query.translation().x(), expected, 0.1);
+  EXPECT_NEAR(answer->T_match_query.translation().z(), 0, 0.2);
+  EXPECT_LT(answer->T_match_query.so3().Log().norm(), 0.03);
+}
+
+TEST_F(Wall, OldImagesOnly) {
+  EXPECT_FALSE(Ask(9, -1)) << "nothing is old";
+  const auto answer = Ask(7, 0);  // at 7 m, frame 0 saw up to 6.4 m from its own place
+  EXPECT_TRUE(!answer || !answer->accepted);
+}
+
+TEST_F(Wall, LimitsOfTurnAndDistance) {
+  options_.max_apart_m = 0;
+  const auto answer = Ask(9, 4);
+  ASSERT_TRUE(answer);
+  EXPECT_FALSE(answer->accepted);
+}
+
+TEST_F(Wall, BadFolders) {
+  fs::remove(folder_ + "/image_3/000009.png");
+  ExpectRefused("image_3/000009.png");
+  WriteFileAtomically(folder_ + "/image_2/000004.png", "no image");
+  ExpectRefused("000004.png");
+  fs::remove_all(folder_ + "/image_2");
+  ExpectRefused("has no images");
+  fs::remove(folder_ + "/calib.txt");
+  ExpectRefused("calib.txt");
+}
+
+}  // namespace
+}  // namespace sslcd::baselines
