@@ -85,6 +85,8 @@ std::optional<Answer> LargestConsensus(const Objects& local, const Objects& glob
     best.matches = std::move(agreeing);
   }
   if (static_cast<int>(best.matches.size()) < options.least_inliers) return std::nullopt;
+  best.score = static_cast<double>(best.matches.size());
+  best.accepted = true;
   return best;
 }
 
