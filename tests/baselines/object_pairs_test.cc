@@ -2,6 +2,8 @@
 // The baselines on the shared map pairs. docs/baselines.md has the figures; here only that they do not get worse.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 

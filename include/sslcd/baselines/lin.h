@@ -23,8 +23,8 @@ void DescribeFields(FieldVisitor& visitor, LinOptions& options);
 
 /// Random walks find, for each local object, global ones of its label that stand in similar surroundings. The edit
 /// distance between their neighbourhoods says how similar, and the assignment that maximises the sum of these
-/// similarities is the match of the graphs, aligned by RANSAC and least squares. Score: GraphSimilarity
-/// of what was matched; taken from `accept_score` on.
+/// similarities is the match of the graphs, aligned by RANSAC and least squares. Score: GraphSimilarity of
+/// what was matched, in [0, 1]; taken from `accept_score` on.
 std::optional<Answer> MatchLin(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
                                const LinOptions& options);
 PlaceMatcher LinMatcher(const LinOptions& options);
