@@ -16,6 +16,7 @@ Command AddRunCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
+Command AddBenchCommand(CLI::App& app, Console& console);
 Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);
 Command AddVersionCommand(CLI::App& app);

@@ -38,9 +38,12 @@ void Console::InstallLog() const {
 }
 
 void Console::Progress(const std::string& what, int done, int total) const {
+  if (done % 10 == 0 || done == total) Status(what + " " + std::to_string(done) + "/" + std::to_string(total));
+}
+
+void Console::Status(const std::string& line) const {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (quiet || !terminal || (done % 10 != 0 && done != total)) return;
-  std::fprintf(stderr, "\r%s %d/%d ", what.c_str(), done, total);
+  if (!quiet && terminal) std::fprintf(stderr, "\r\033[K%s ", line.c_str());
 }
 
 void Console::EndProgress() const {

@@ -16,6 +16,7 @@ struct Console {
 
   /// One line that is overwritten; only on a terminal.
   void Progress(const std::string& what, int done, int total) const;
+  void Status(const std::string& line) const;
   void EndProgress() const;
 
   /// A line of human-readable result; nothing when quiet.

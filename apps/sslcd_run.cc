@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
                                                    {"eval", AddEvalCommand(app, console)},
                                                    {"match", AddMatchCommand(app, console)},
                                                    {"graph", AddGraphCommand(app, console)},
+                                                   {"bench", AddBenchCommand(app, console)},
                                                    {"check-config", AddCheckConfigCommand(app, console)},
                                                    {"dump-config", AddDumpConfigCommand(app, console)},
                                                    {"version", AddVersionCommand(app)}};

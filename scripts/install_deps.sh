@@ -8,7 +8,7 @@
 set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
-       libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev)
+       libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev nlohmann-json3-dev)
 test=(libgtest-dev libgmock-dev python3 ccache clang-format-14)
 dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
 

@@ -7,6 +7,7 @@ void DescribeFields(FieldVisitor& visitor, BaselineOptions& options) {
   visitor.Nested("lin", options.lin, "Lin et al. 2021: random walks and edit distance");
   visitor.Nested("x_view", options.x_view, "Gawel et al. 2018: random walks");
   visitor.Nested("semantic_histogram", options.semantic_histogram, "Guo et al. 2021: histograms of label paths");
+  visitor.Nested("point_matches", options.point_matches, "matched image points, e.g. SuperGlue's");
 }
 
 }  // namespace sslcd::baselines

@@ -18,8 +18,8 @@ OPT_IN = {"include/sslcd/io/opencv_image.h": {"opencv2"}, "include/sslcd/optim/c
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "onnxruntime": "onnx"}
-# Not modules of the library: synthetic data and other methods stand above it, beside each other, and may use all of it.
-ABOVE = {"sim", "baselines"}
+# Not modules of the library: these stand above it and may use all of it, and of each other what is named here.
+ABOVE = {"sim": set(), "baselines": set(), "benchmark": {"sim", "baselines"}}
 
 
 def read_modules(cmake_lists):
@@ -58,13 +58,14 @@ def check_include(include, module, relative, modules, source_dir):
     """None, or what is wrong with this include."""
     public = relative.startswith("include/")
     first = include.split("/")[0]
-    may_include, may_use = modules[module] if module not in ABOVE else (set(modules) | {module}, set(OUTSIDE))
+    may_include, may_use = (modules[module] if module not in ABOVE else
+                            (set(modules) | {module} | ABOVE[module], set(OUTSIDE)))
     if first == "sslcd":
         target = include.split("/")[1]
         if not (source_dir / "include" / include).exists():
             return f"there is no include/{include}"
         return None if target in may_include else f"{module} is not above {target}"
-    if "/" in include and first in set(modules) | ABOVE:  # not <map>
+    if "/" in include and first in set(modules) | set(ABOVE):  # not <map>
         if public:
             return f"a public header includes the private {include}"
         return None if first == module else f"{include} is private to {first}"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sslcd/baselines/lin.h"
+#include "sslcd/baselines/point_matches.h"
 #include "sslcd/baselines/semantic_histogram.h"
 #include "sslcd/baselines/x_view.h"
 
@@ -12,6 +13,7 @@ struct BaselineOptions {
   LinOptions lin;
   XViewOptions x_view;
   SemanticHistogramOptions semantic_histogram;
+  PointMatchOptions point_matches;
 };
 void DescribeFields(FieldVisitor& visitor, BaselineOptions& options);
 

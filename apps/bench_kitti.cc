@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench_kitti.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "evaluation.h"
+#include "sslcd/benchmark/paper_figures.h"
+#include "sslcd/core/error.h"
+#include "sslcd/io/dataset.h"
+#include "sslcd/pipeline/run.h"
+
+namespace sslcd::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> Sequences(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() == ".txt" &&
+        entry.path().stem().string().find_first_not_of("0123456789") == std::string::npos)
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::map<std::string, std::optional<double>> RunOne(const std::string& folder, const std::string& detections,
+                                                    const std::string& sequence, const Options& options) {
+  DatasetRequest request;
+  request.path = folder;
+  request.format = DatasetFormat::kKittiTracking;
+  request.sequence = sequence;
+  request.detections = detections;
+  request.odometry = "orbslam3_poses";
+  const Dataset dataset = LoadDataset(request);
+  const RunResult run =
+      RunSequence(dataset.frames, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, options);
+  const MapFile map{dataset.up_axis, run.objects};
+  EvaluationInput input;
+  input.estimate = run.trajectory;
+  input.frames = run.frames;
+  input.odometry = run.odometry;
+  input.map = &map;
+  input.detections = &dataset.frames;
+  input.labels_path = (fs::path(folder) / "label_02" / (sequence + ".txt")).string();
+  const Metrics metrics = Evaluate(input);
+  return {metrics.begin(), metrics.end()};
+}
+
+}  // namespace
+
+benchmark::Table KittiTable(const std::string& folder, const std::vector<std::string>& detections,
+                            const Options& options, const std::function<bool()>& stop) {
+  benchmark::Table table{"table1",
+                         "3D IoU of standing cars, KITTI tracking",
+                         {"detections", "sequence", "single detections", "map", "coverage", "purity",
+                          "VisualDet3D (paper)", "CubeSLAM (paper)", "Ji et al. (paper)"},
+                         {}};
+  for (const std::string& set : detections) {
+    const fs::path path = fs::path(folder) / set;
+    if (!fs::is_directory(path)) continue;
+    for (const std::string& sequence : Sequences(path)) {
+      if (stop && stop()) return {};
+      const auto figures = RunOne(folder, set, sequence, options);
+      const auto cell = [&](const char* name) { return benchmark::Cell("%.3f", figures.at(name).value_or(0)); };
+      std::vector<std::string> row{
+          set, sequence, cell("iou_raw"), cell("iou_map"), cell("coverage"), cell("purity"), "", "", ""};
+      for (const benchmark::PaperIou& paper : benchmark::kPaperIou)
+        if (paper.sequence == sequence) {
+          row[6] = benchmark::Cell("%.3f", paper.visualdet3d);
+          row[7] = benchmark::Cell("%.3f", paper.cubeslam);
+          row[8] = benchmark::Cell("%.3f", paper.paper);
+        }
+      table.rows.push_back(std::move(row));
+    }
+  }
+  if (table.rows.empty())
+    throw Error(ErrorKind::kBadInput, {folder}, "holds none of the folders of detections; give --detections");
+  return table;
+}
+
+}  // namespace sslcd::apps

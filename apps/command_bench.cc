@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "bench_kitti.h"
+#include "commands.h"
+#include "sslcd/benchmark/foreign.h"
+#include "sslcd/benchmark/halv_tables.h"
+#include "sslcd/benchmark/results.h"
+#include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/config.h"
+#include "sslcd_commit.h"
+
+namespace sslcd::apps {
+namespace {
+
+using benchmark::Method;
+using benchmark::MethodResults;
+using benchmark::Place;
+using benchmark::Table;
+using benchmark::Trial;
+using benchmark::TrialResult;
+
+struct BenchArguments {
+  std::string name, out = "runs/bench", layout, kitti, docs, baselines, matches;
+  int seeds = 10, threads = 0;
+  std::vector<int> cases = {1, 2, 3, 4};
+  std::vector<std::string> methods, trajectories, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
+};
+
+baselines::BaselineOptions LoadBaselines(const std::string& file) {
+  baselines::BaselineOptions options;
+  if (!file.empty()) LoadConfigFile(file, [&](FieldVisitor& visitor) { DescribeFields(visitor, options); });
+  return options;
+}
+
+std::string Dump(baselines::BaselineOptions options) {
+  return DumpConfig([&](FieldVisitor& visitor) { DescribeFields(visitor, options); }, false);
+}
+
+// Ends a benchmark that ctrl-C has stopped.
+struct Stopped {};
+
+class Bench {
+ public:
+  Bench(const BenchArguments& arguments, const Console& console)
+      : arguments_(arguments),
+        console_(console),
+        baselines_(LoadBaselines(arguments.baselines)),
+        folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
+
+  // What is asked for, in the order of the paper's tables.
+  void Run() {
+    const std::vector<std::pair<std::string, void (Bench::*)()>> all = {
+        {"table1", &Bench::Table1},     {"table2", &Bench::Table2}, {"table3", &Bench::Table3},
+        {"attempts", &Bench::Attempts}, {"pr", &Bench::Pr},         {"ablation", &Bench::Ablation}};
+    for (const auto& [name, run] : all)
+      if (arguments_.name == "all" || arguments_.name == name) (this->*run)();
+    if (!arguments_.docs.empty()) WriteDocument();
+  }
+
+ private:
+  void Table1() {
+    if (arguments_.kitti.empty()) {
+      if (arguments_.name != "all")
+        throw Error(ErrorKind::kUsage, "table1 is of real data: give --kitti FOLDER, of KITTI's tracking benchmark");
+      console_.Say("table1: left out, for there is no --kitti FOLDER\n");
+      return;
+    }
+    const Table table = KittiTable(arguments_.kitti, arguments_.detections, {}, Interrupted);
+    if (table.rows.empty()) throw Stopped();
+    Write(table);
+  }
+
+  void Table2() {
+    std::vector<MethodResults> foreign;  // first: what is wrong with them is to be known at once
+    for (const std::string& given : arguments_.trajectories) foreign.push_back(Foreign(given));
+    std::vector<MethodResults> results = Results(Places()[0], Chosen(), false);
+    for (MethodResults& other : foreign) results.push_back(std::move(other));
+    Write(AteTable(results));
+  }
+
+  // What another system has made of the same sequences: "NAME=FOLDER", with a file for each, e.g. lot-c1-s7.txt.
+  MethodResults Foreign(const std::string& given) const {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::kUsage, "--trajectories " + given + ": write NAME=FOLDER");
+    MethodResults foreign;
+    foreign.method.key = foreign.method.title = given.substr(0, equals);
+    for (Trial& trial : TrialsOf(Places()[0], foreign.method, false)) {
+      const std::string file = given.substr(equals + 1) + "/" + trial.World() + ".txt";
+      TrialResult result;
+      result.ate = benchmark::ForeignAte(file, MakeSequence(trial).scene.world.truth);
+      foreign.results.push_back(result);
+      foreign.trials.push_back(std::move(trial));
+    }
+    return foreign;
+  }
+
+  // Times are of one run at a time, whatever --threads says.
+  void Table3() {
+    std::vector<Trial> trials;
+    for (int seed = 1; seed <= arguments_.seeds; ++seed) {
+      Trial& trial = trials.emplace_back();
+      trial.case_number = 1;
+      trial.seed = static_cast<std::uint64_t>(seed);
+      trial.method = benchmark::Methods()[0];
+      trial.method.key += "-timed";
+    }
+    Write(StageTable(RunAll(trials, 1)));
+  }
+
+  void Attempts() {
+    std::vector<MethodResults> all;
+    for (const Place& place : Places()) {
+      const MethodResults results = Results(place, {benchmark::Methods()[0]}, false)[0];
+      const std::string key = place.key == "lot" ? "attempts" : "attempts_" + place.key;
+      Write(AttemptsTable(results, key, "sslcd: keyframes recognised and loops, " + TitleOf(place)));
+      all.push_back(results);
+    }
+    WriteCsv(LoopTable(all));
+  }
+
+  void Pr() {
+    std::vector<Method> full, asked;
+    for (const Method& method : Chosen()) {
+      if (method.matcher) asked.push_back(method);
+      if (method.key == "sslcd") full.push_back(method);
+    }
+    if (!arguments_.matches.empty())
+      asked.push_back(benchmark::PointMatchMethod(arguments_.matches, baselines_.point_matches));
+    std::vector<MethodResults> results = Results(Places()[0], full, false);
+    for (MethodResults& method : Results(Places()[0], asked, true)) results.push_back(std::move(method));
+    Write(PrecisionRecallTable(results));
+    WriteCsv(PrecisionRecallCurves(results));
+  }
+
+  void Ablation() { Write(AblationTable(Results(Places()[0], benchmark::Ablations(), false))); }
+
+  std::vector<Method> Chosen() const { return benchmark::Select(benchmark::Methods(baselines_), arguments_.methods); }
+
+  // The car park, the same with other cars on the way back, and a real one where it is given.
+  std::vector<Place> Places() const {
+    std::vector<Place> places(2);
+    places[1].key = "churn";
+    places[1].scene.churn = 0.3;
+    if (arguments_.layout.empty()) return places;
+    Place& real = places.emplace_back();
+    real.key = std::filesystem::path(arguments_.layout).stem().string();
+    real.scene.layout = arguments_.layout;
+    return places;
+  }
+
+  std::string TitleOf(const Place& place) const {
+    if (place.key == "churn") return "car park with 30 % of the cars changed between the passes";
+    return place.key == "lot" ? "generated car park" : "layout " + place.key;
+  }
+
+  std::vector<Trial> TrialsOf(const Place& place, const Method& method, bool only_asked) const {
+    std::vector<Trial> trials;
+    for (const int c : arguments_.cases)
+      for (int seed = 1; seed <= arguments_.seeds; ++seed)
+        trials.push_back({place, c, static_cast<std::uint64_t>(seed), method, only_asked});
+    return trials;
+  }
+
+  std::vector<MethodResults> Results(const Place& place, const std::vector<Method>& methods, bool only_asked) {
+    std::vector<Trial> trials;
+    for (const Method& method : methods)
+      for (Trial& trial : TrialsOf(place, method, only_asked)) trials.push_back(std::move(trial));
+    const std::vector<TrialResult> results = RunAll(trials, arguments_.threads);
+    std::vector<MethodResults> sorted;
+    const std::size_t each = arguments_.cases.size() * static_cast<std::size_t>(arguments_.seeds);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      MethodResults& of_method = sorted.emplace_back();
+      of_method.method = methods[m];
+      of_method.trials.assign(trials.begin() + m * each, trials.begin() + (m + 1) * each);
+      of_method.results.assign(results.begin() + m * each, results.begin() + (m + 1) * each);
+    }
+    return sorted;
+  }
+
+  std::vector<TrialResult> RunAll(const std::vector<Trial>& trials, int threads) {
+    benchmark::TrialHooks hooks;
+    hooks.stop = Interrupted;
+    const auto start = std::chrono::steady_clock::now();
+    int first = -1;
+    hooks.progress = [&](int done, int total) {
+      if (first < 0) first = done - 1;
+      const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double left = passed / (done - first) * (total - done);
+      console_.Status("run " + std::to_string(done) + "/" + std::to_string(total) + ", " +
+                      Number("%.0f", std::ceil(left / 60)) + " min left");
+    };
+    auto results = RunTrials(trials, folder_, threads, hooks);
+    console_.EndProgress();
+    if (!results) throw Stopped();
+    return std::move(*results);
+  }
+
+  void Write(Table table) {
+    table.note = Provenance();
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".md", ToMarkdown(table));
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".json", ToJson(table));
+    WriteCsv(table);
+    console_.Say(ToMarkdown(table));
+    tables_.push_back(std::move(table));
+  }
+
+  void WriteCsv(const Table& table) const {
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".csv", ToCsv(table));
+  }
+
+  std::string Provenance() const {
+    std::string cases;
+    for (const int c : arguments_.cases) cases += (cases.empty() ? "" : ", ") + std::to_string(c);
+    return "Commit " + std::string(SSLCD_COMMIT) + ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases " +
+           cases + ": `sslcd_run bench " + arguments_.name + "`.";
+  }
+
+  void WriteDocument() const {
+    std::ifstream file(arguments_.docs, std::ios::binary);
+    if (!file) throw Error(ErrorKind::kBadInput, {arguments_.docs}, "cannot be read: check the path of --docs");
+    std::ostringstream text;
+    text << file.rdbuf();
+    WriteFileAtomically(arguments_.docs, benchmark::ReplaceTables(text.str(), arguments_.docs, tables_));
+  }
+
+  const BenchArguments& arguments_;
+  const Console& console_;
+  baselines::BaselineOptions baselines_;
+  benchmark::ResultFolder folder_;
+  std::vector<Table> tables_;
+};
+
+int RunBench(BenchArguments& arguments, const Console& console) {
+  if (arguments.threads == 0) arguments.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::sort(arguments.cases.begin(), arguments.cases.end());
+  arguments.cases.erase(std::unique(arguments.cases.begin(), arguments.cases.end()), arguments.cases.end());
+  CatchInterrupt();
+  try {
+    Bench(arguments, console).Run();
+  } catch (const Stopped&) {
+    console.EndProgress();
+    console.Say("interrupted: the same command goes on from here");
+    return 130;
+  }
+  console.Say("wrote " + arguments.out);
+  return 0;
+}
+
+}  // namespace
+
+Command AddBenchCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("bench", "the paper's tables and curves: sslcd, the paper and other methods");
+  const auto a = std::make_shared<BenchArguments>();
+  command->add_option("NAME", a->name, "table1, table2, table3, attempts, pr, ablation, or all")
+      ->required()
+      ->check(CLI::IsMember({"table1", "table2", "table3", "attempts", "pr", "ablation", "all"}));
+  command->add_option("--out", a->out, "folder of results; what is there is not measured again")->capture_default_str();
+  command->add_option("--seeds", a->seeds, "so many worlds of each case")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--cases", a->cases, "cases of HALV-sim")->check(CLI::Range(1, 4))->delimiter(',');
+  command->add_option("--methods", a->methods, "methods of table2 and pr; default: all")->delimiter(',');
+  command->add_option("--baselines", a->baselines, "parameters of the other methods, see config/baselines.yaml");
+  command
+      ->add_option("--matches", a->matches,
+                   "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, and so on: "
+                   "rows of query_frame match_frame confidence; a row of pr")
+      ->check(CLI::ExistingDirectory);
+  command->add_option(
+      "--trajectories", a->trajectories,
+      "NAME=FOLDER: what another system has made of the same sequences, TUM rows in FOLDER/lot-c1-s1.txt "
+      "for case 1, seed 1, and so on; a row of table2");
+  command->add_option("--layout", a->layout, "JSON file of parked cars, for attempts on a real car park")
+      ->check(CLI::ExistingFile);
+  command->add_option("--kitti", a->kitti, "folder of KITTI's tracking benchmark, for table1")
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--detections", a->detections, "folders of detections in it")->delimiter(',');
+  command->add_option("--docs", a->docs,
+                      "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
+  command
+      ->add_option("--threads", a->threads, "runs at a time; the figures but times do not depend on it; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  return [a, &console] {
+    console.InstallLog();
+    return RunBench(*a, console);
+  };
+}
+
+}  // namespace sslcd::apps

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/benchmark/results.h"
+
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
+
+namespace sslcd::benchmark {
+namespace {
+
+std::optional<std::string> ReadIfThere(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(std::string path, const std::string& commit, const std::string& baselines_yaml)
+    : path_(std::move(path)) {
+  const std::string way_out = "; give another --out, or delete the folder to start again";
+  MakeWritableFolder(path_);
+  MakeWritableFolder(path_ + "/trials");
+  const auto known = ReadIfThere(path_ + "/commit.txt");
+  if (known && *known != commit + "\n")
+    throw Error(ErrorKind::kUsage, path_ + " holds results of commit " + known->substr(0, known->find('\n')) +
+                                       ", but this program is " + commit + way_out);
+  const auto baselines = ReadIfThere(path_ + "/baselines.yaml");
+  if (baselines && *baselines != baselines_yaml)
+    throw Error(ErrorKind::kUsage, path_ + " holds results with other parameters of the baselines" + way_out);
+  WriteFileAtomically(path_ + "/commit.txt", commit + "\n");
+  WriteFileAtomically(path_ + "/baselines.yaml", baselines_yaml);
+}
+
+std::string ResultFolder::FileOf(const Trial& trial) const { return path_ + "/trials/" + trial.Name() + ".json"; }
+
+std::optional<TrialResult> ResultFolder::Find(const Trial& trial) const {
+  const auto text = ReadIfThere(FileOf(trial));
+  if (!text) return std::nullopt;
+  return FromJson(*text, FileOf(trial));
+}
+
+void ResultFolder::Put(const Trial& trial, const TrialResult& result) const {
+  WriteFileAtomically(FileOf(trial), ToJson(result));
+}
+
+std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials, const ResultFolder& folder,
+                                                  int threads, const TrialHooks& hooks) {
+  std::vector<TrialResult> results(trials.size());
+  std::vector<std::vector<std::size_t>> missing;  // by world, which is made once
+  std::map<std::string, std::size_t> worlds;
+  int done = 0;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (auto found = trials[i].method.from_files ? std::nullopt : folder.Find(trials[i])) {
+      results[i] = std::move(*found);
+      ++done;
+      continue;
+    }
+    const auto [world, is_new] = worlds.insert({trials[i].World(), missing.size()});
+    if (is_new) missing.emplace_back();
+    missing[world->second].push_back(i);
+  }
+
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> stopped{false};
+  std::mutex one_at_a_time;
+  std::exception_ptr problem;
+  const auto work = [&] {
+    try {
+      for (std::size_t world = next++; world < missing.size(); world = next++) {
+        std::optional<sim::HalvSequence> sequence;
+        for (const std::size_t i : missing[world]) {
+          if (hooks.stop && hooks.stop()) stopped = true;
+          if (stopped) return;
+          if (!sequence) sequence = MakeSequence(trials[i]);
+          results[i] = RunTrial(trials[i], *sequence);
+          if (!trials[i].method.from_files) folder.Put(trials[i], results[i]);
+          const std::lock_guard<std::mutex> lock(one_at_a_time);
+          ++done;
+          if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));
+        }
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(one_at_a_time);
+      if (!problem) problem = std::current_exception();
+      stopped = true;
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  if (problem) std::rethrow_exception(problem);
+  if (stopped) return std::nullopt;
+  return results;
+}
+
+}  // namespace sslcd::benchmark
