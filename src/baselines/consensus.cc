@@ -73,7 +73,8 @@ std::optional<Answer> LargestConsensus(const Objects& local, const Objects& glob
     const double local_m = (local[l].position - local[other_l].position).head<2>().norm();
     const double global_m = (global[g].position - global[other_g].position).head<2>().norm();
     // Two that are close to each other do not tell the heading, and a pose does not change distances.
-    if (!(local_m > options.inlier_m) || !(std::abs(local_m - global_m) <= 2 * options.inlier_m)) continue;
+    if (!(std::min(local_m, global_m) > options.inlier_m) || !(std::abs(local_m - global_m) <= 2 * options.inlier_m))
+      continue;
     const YawShift pose = PoseOf(local, global, {{l, g}, {other_l, other_g}});
     ObjectPairs agreeing = Agreeing(local, global, pairs, pose, options.inlier_m);
     if (agreeing.size() > best.matches.size()) best = {std::move(agreeing), pose};
@@ -85,6 +86,8 @@ std::optional<Answer> LargestConsensus(const Objects& local, const Objects& glob
     best.matches = std::move(agreeing);
   }
   if (static_cast<int>(best.matches.size()) < options.least_inliers) return std::nullopt;
+  best.score = static_cast<double>(best.matches.size());
+  best.accepted = true;
   return best;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "sslcd/association/assignment.h"
 
@@ -13,10 +14,14 @@ bool Adjacent(const LabelGraph& graph, int a, int b) {
   return std::binary_search(graph.neighbours[a].begin(), graph.neighbours[a].end(), b);
 }
 
-int CountEdges(const LabelGraph& graph) {
-  std::size_t ends = 0;
-  for (const std::vector<int>& neighbours : graph.neighbours) ends += neighbours.size();
-  return static_cast<int>(ends / 2);
+// Vertices and edges of the graph of these vertices and their neighbours.
+int SizeAround(const LabelGraph& graph, const std::vector<int>& vertices) {
+  std::set<int> around(vertices.begin(), vertices.end());
+  for (const int vertex : vertices) around.insert(graph.neighbours[vertex].begin(), graph.neighbours[vertex].end());
+  int ends = 0;
+  for (const int vertex : around)
+    for (const int other : graph.neighbours[vertex]) ends += static_cast<int>(around.count(other));
+  return static_cast<int>(around.size()) + ends / 2;
 }
 
 }  // namespace
@@ -51,20 +56,17 @@ double StarSimilarity(const std::vector<Spoke>& a, const std::vector<Spoke>& b, 
 }
 
 double GraphSimilarity(const LabelGraph& local, const LabelGraph& global, const ObjectPairs& matches) {
-  int global_edges = 0, common_edges = 0;  // among matched vertices
+  std::vector<int> of_local, of_global;
+  int common_edges = 0;
   for (std::size_t a = 0; a < matches.size(); ++a) {
-    for (std::size_t b = a + 1; b < matches.size(); ++b) {
-      const bool in_local = Adjacent(local, matches[a].first, matches[b].first);
-      const bool in_global = Adjacent(global, matches[a].second, matches[b].second);
-      global_edges += in_global;
-      common_edges += in_local && in_global;
-    }
+    of_local.push_back(matches[a].first);
+    of_global.push_back(matches[a].second);
+    for (std::size_t b = 0; b < a; ++b)
+      common_edges +=
+          Adjacent(local, matches[a].first, matches[b].first) && Adjacent(global, matches[a].second, matches[b].second);
   }
-  const int vertices = static_cast<int>(local.labels.size()), matched = static_cast<int>(matches.size());
-  const int all_local_edges = CountEdges(local);
-  const int all = vertices + matched + all_local_edges + global_edges;
-  const int edits = vertices - matched + all_local_edges + global_edges - 2 * common_edges;
-  return all == 0 ? 0 : 1 - static_cast<double>(edits) / all;
+  const int smaller = std::min(SizeAround(local, of_local), SizeAround(global, of_global));
+  return smaller == 0 ? 0 : (static_cast<double>(matches.size()) + common_edges) / smaller;
 }
 
 }  // namespace sslcd::baselines

@@ -9,7 +9,6 @@ void DescribeFields(FieldVisitor& visitor, SemanticHistogramOptions& options) {
   visitor.Real("least_similarity", options.least_similarity, 0, 1, "inner product that a match needs");
   visitor.Integer("candidates", options.candidates, 1, 1000, "global objects that each local one may be");
   visitor.Nested("consensus", options.consensus, "geometric consistency");
-  visitor.Real("accept_score", options.accept_score, 0, 1, "a loop has at least this score; 0: every pose");
   visitor.Integer("seed", options.seed, 0, 1000000000, "of RANSAC");
 }
 
@@ -25,11 +24,7 @@ std::optional<Answer> MatchSemanticHistogram(const std::vector<LayoutObject>& lo
 
   const ObjectPairs pairs = BestPairs(similarity, options.least_similarity, options.candidates);
   std::mt19937_64 random(options.seed);
-  std::optional<Answer> answer = LargestConsensus(local, global, pairs, options.consensus, random);
-  if (!answer) return std::nullopt;
-  answer->score = static_cast<double>(answer->matches.size()) / static_cast<double>(local.size());
-  answer->accepted = answer->score >= options.accept_score;
-  return answer;
+  return LargestConsensus(local, global, pairs, options.consensus, random);
 }
 
 PlaceMatcher SemanticHistogramMatcher(const SemanticHistogramOptions& options) {

@@ -9,7 +9,6 @@ void DescribeFields(FieldVisitor& visitor, XViewOptions& options) {
   visitor.Real("least_similarity", options.least_similarity, 0, 1, "share of identical walks that a match needs");
   visitor.Integer("candidates", options.candidates, 1, 1000, "global objects that each local one may be");
   visitor.Nested("consensus", options.consensus, "geometric consistency");
-  visitor.Real("accept_score", options.accept_score, 0, 1, "a loop has at least this score; 0: every pose");
   visitor.Integer("seed", options.seed, 0, 1000000000, "of the walks and of RANSAC");
 }
 
@@ -24,11 +23,7 @@ std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local, const s
       if (local[l].label == global[g].label) similarity(l, g) = CommonShare(local_walks[l], global_walks[g]);
 
   const ObjectPairs pairs = BestPairs(similarity, options.least_similarity, options.candidates);
-  std::optional<Answer> answer = LargestConsensus(local, global, pairs, options.consensus, random);
-  if (!answer) return std::nullopt;
-  for (const auto& [l, g] : answer->matches) answer->score += similarity(l, g) / static_cast<double>(local.size());
-  answer->accepted = answer->score >= options.accept_score;
-  return answer;
+  return LargestConsensus(local, global, pairs, options.consensus, random);
 }
 
 PlaceMatcher XViewMatcher(const XViewOptions& options) {

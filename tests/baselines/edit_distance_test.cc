@@ -45,12 +45,14 @@ TEST(SpokesOf, Neighbours) {
 }
 
 TEST(GraphSimilarity, CountsVerticesAndEdges) {
-  const LabelGraph triangle = MakeLabelGraph({At(0, 0), At(8, 0), At(4, 5)}, 10);
-  const LabelGraph chain = MakeLabelGraph({At(0, 0), At(8, 0), At(16, 0)}, 10);
+  const LabelGraph triangle = MakeLabelGraph({At(0, 0), At(8, 0), At(4, 5)}, 10);            // size 6
+  const LabelGraph chain = MakeLabelGraph({At(0, 0), At(8, 0), At(16, 0), At(900, 0)}, 10);  // size 5, and one far away
   EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, triangle, {{0, 0}, {1, 1}, {2, 2}}), 1);
-  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}, {2, 2}}), 1 - 1. / 11);  // one edge goes
-  EXPECT_DOUBLE_EQ(GraphSimilarity(chain, triangle, {{0, 0}, {1, 1}, {2, 2}}), 1 - 1. / 11);  // one comes
-  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}}), 1 - 3. / 9);           // a vertex, its two edges
+  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}, {2, 2}}), 1);  // a part of the triangle
+  EXPECT_DOUBLE_EQ(GraphSimilarity(chain, triangle, {{0, 0}, {1, 1}, {2, 2}}), 1);
+  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}}), 3. / 5);
+  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 2}}), 2. / 5);  // no such edge
+  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 3}}), 1);
   EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {}), 0);
   EXPECT_DOUBLE_EQ(GraphSimilarity({}, {}, {}), 0);
 }

@@ -2,6 +2,8 @@
 // The baselines on the shared map pairs. docs/baselines.md has the figures; here only that they do not get worse.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -45,8 +47,8 @@ TEST(ObjectPairs, AsManyRightAsMeasured) {
     int street, lot;  // at least so many of 180 right
   };
   const std::vector<Case> cases{
-      {"lin", [&](const auto& l, const auto& g) { return MatchLin(l, g, o.lin); }, 100, 3},
-      {"x_view", [&](const auto& l, const auto& g) { return MatchXView(l, g, o.x_view); }, 115, 50},
+      {"lin", [&](const auto& l, const auto& g) { return MatchLin(l, g, o.lin); }, 120, 20},
+      {"x_view", [&](const auto& l, const auto& g) { return MatchXView(l, g, o.x_view); }, 95, 55},
       {"semantic_histogram",
        [&](const auto& l, const auto& g) { return MatchSemanticHistogram(l, g, o.semantic_histogram); }, 15, 3}};
   for (const Case& c : cases) {

@@ -23,8 +23,10 @@ double StarEditDistance(const std::vector<Spoke>& a, const std::vector<Spoke>& b
 /// 1 - distance / (number of spokes of both), in [0, 1]; 0 where neither has any.
 double StarSimilarity(const std::vector<Spoke>& a, const std::vector<Spoke>& b, double edge_tolerance_m);
 
-/// The local graph against the part of the global one that is matched: 1 - (vertices and edges to add or remove) /
-/// (vertices and edges of both), in [0, 1]. Matches are one to one.
+/// The graphs round a match are each that of the matched vertices and their neighbours. 1 - edit distance / size of the
+/// smaller one = (matched vertices + edges between them that both have) / (vertices + edges of the smaller one), in
+/// [0, 1]. What only the larger has costs nothing, and what lies further away does not count, since maps overlap in
+/// part. Matches are one to one.
 double GraphSimilarity(const LabelGraph& local, const LabelGraph& global, const ObjectPairs& matches);
 
 }  // namespace sslcd::baselines

@@ -15,14 +15,13 @@ struct SemanticHistogramOptions {
   double least_similarity = 0.5;
   int candidates = 1;  ///< global objects that each local one may be
   ConsensusOptions consensus{1000, 1, 5};
-  double accept_score = 0;  ///< 0, the published rule: every pose
-  int seed = 1;             ///< of RANSAC
+  int seed = 1;  ///< of RANSAC
 };
 void DescribeFields(FieldVisitor& visitor, SemanticHistogramOptions& options);
 
 /// An object is described by the histogram of the labels along all paths from it; objects of equal labels are as
 /// similar as the normalised inner product of their histograms. The best ones give the pose by RANSAC and least
-/// squares. Score: the share of the local objects that agree, in [0, 1]. Taken from `accept_score` on.
+/// squares. Score: the number of matches; every pose is taken.
 std::optional<Answer> MatchSemanticHistogram(const std::vector<LayoutObject>& local,
                                              const std::vector<LayoutObject>& global,
                                              const SemanticHistogramOptions& options);

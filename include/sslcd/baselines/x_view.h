@@ -14,15 +14,13 @@ struct XViewOptions {
   RandomWalkOptions walks;  ///< the descriptor: m walks of n steps
   double least_similarity = 0.2;
   int candidates = 10;  ///< k: the most similar global objects of each local one take part
-  ConsensusOptions consensus{5000, 1, 3};
-  double accept_score = 0;  ///< 0, the published rule: every pose
+  ConsensusOptions consensus{5000, 1, 5};
   int seed = 1;
 };
 void DescribeFields(FieldVisitor& visitor, XViewOptions& options);
 
 /// Objects of equal labels are as similar as the share of identical random walks. The k best of each, checked for
-/// geometric consistency, give the pose. Score: the mean similarity of the matches times the share of the local objects
-/// that are matched, in [0, 1]. Taken from `accept_score` on.
+/// geometric consistency, give the pose. Score: the number of matches; every pose is taken.
 std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
                                  const XViewOptions& options);
 PlaceMatcher XViewMatcher(const XViewOptions& options);
