@@ -43,7 +43,7 @@ Vec3f SkyColour(const Daylight& light, const Vec3f& direction) {
   }
   const float glow = std::max(direction.dot(light.to_sun), 0.f);
   return sky +
-         light.sun * (0.12f * std::pow(glow, 24.f) + 6 * Smooth(0.9993f, 0.9999f, glow) + 0.5f * std::pow(glow, 300.f));
+         light.sun * (0.12f * std::pow(glow, 24.f) + 6 * Smooth(0.9997f, 0.9999f, glow) + 0.5f * std::pow(glow, 400.f));
 }
 
 Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, const Vec3f& view, float sunlit,

@@ -55,12 +55,19 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
     const bool text = ValueNoise(turn * 9, spot.at.z() * 60, seed) > 0.55f;
     return {text ? Vec3f(0.08f, 0.1f, 0.3f) : Vec3f(0.6f, 0.6f, 0.5f), 0.02f, 20, 2};
   }
-  Vec3f albedo = Linear(paint) * (1 + 0.25f * rust);
-  if (spot.at.z() < 1)
-    albedo = Hash(seed) % 2
-                 ? (static_cast<int>(spot.at.z() * 4) % 2 ? Vec3f(0.5f, 0.36f, 0.02f) : Vec3f(0.03f, 0.03f, 0.03f))
-                 : albedo;
-  return {albedo, 0.03f, 30, spot.at.z() < 1 ? 3 + static_cast<int>(spot.at.z() * 4) : 0};
+  const int ring = Floor(4 * spot.at.z());
+  if (ring < 4 && Hash(seed) % 2) {  // a guard against bumpers, yellow and black
+    const Vec3f colour = ring % 2 ? Vec3f(0.5f, 0.36f, 0.02f) : Vec3f(0.03f, 0.03f, 0.03f);
+    return {Vec3f(colour * (1 + 0.25f * rust)), 0.03f, 30, 3 + ring};
+  }
+  return {Vec3f(Linear(paint) * (1 + 0.25f * rust)), 0.03f, 30, 0};
+}
+
+Surface StopSurface(std::uint32_t seed, const Spot& spot) {
+  const float worn = Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, 4, 6, spot.footprint, 0.7f);
+  const bool yellow = Floor(spot.at.y() / 0.3f) % 2 != 0 && worn < 0.25f && seed % 3 == 0;
+  const Vec3f albedo = yellow ? Vec3f(0.5f, 0.36f, 0.04f) : Vec3f(0.3f, 0.29f, 0.27f);
+  return {Vec3f(albedo * (1 + 0.35f * worn)), 0, 1, yellow, 0.6f};
 }
 
 Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/vectors.h"
+#include "render/moment.h"
 #include "sslcd/render/options.h"
 
 namespace sslcd::render {
 
 /// From light to the bytes of a colour image (blue, green, red): vignetting, exposure, a film's soft highlights, gamma
 /// 2, noise that follows from `seed` and the pixel's number.
-std::vector<std::uint8_t> Develop(const std::vector<Vec3f>& light, int width, int height, float exposure,
+std::vector<std::uint8_t> Develop(const std::vector<Sample>& samples, int width, int height, float exposure,
                                   const RenderOptions& options, std::uint32_t seed);
 
 }  // namespace sslcd::render

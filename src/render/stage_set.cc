@@ -25,6 +25,7 @@ StageSet::StageSet(const sim::HalvWorld& scene, std::uint32_t seed)
       ground_(scene, used_, Hash(seed, 2)) {
   AddObjects(Hash(seed, 3));
   AddSurroundings(Hash(seed, 4));
+  AddWheelStops(scene.spaces, Hash(seed, 5));
 }
 
 void StageSet::AddObjects(std::uint32_t seed) {
@@ -73,6 +74,22 @@ void StageSet::AddSurroundings(std::uint32_t seed) {
   }
 }
 
+void StageSet::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed) {
+  constexpr double kSideBySide = 2.4;  // spaces along a kerb are narrower, and have none
+  Mesh mesh;
+  AddBox(mesh, {-0.08f, -0.85f, 0}, {0.08f, 0.85f, 0.1f}, 0);
+  ComputeNormals(mesh);
+  meshes_.push_back(mesh);
+  for (const sim::ParkingSpace& space : spaces) {
+    if (space.width_m < kSideBySide) continue;
+    const double ahead = 0.5 * space.length_m - 0.25;
+    const Vec3 at(space.x + ahead * std::sin(space.heading), space.z + ahead * std::cos(space.heading), 0);
+    const Pose T_scene_stop(lie::SO3<double>::Exp(Vec3(0, 0, 0.5 * M_PI - space.heading)), at);
+    const std::uint32_t own = Hash(seed, static_cast<std::uint32_t>(surroundings_.size()));
+    surroundings_.push_back({{static_cast<int>(meshes_.size()) - 1, T_scene_stop}, Kind::kStop, -1, own});
+  }
+}
+
 std::vector<StageSet::Thing> StageSet::ThingsAt(int frame) const {
   std::vector<Thing> things = surroundings_;
   for (const sim::WorldObject& object : world_.objects) {
@@ -92,6 +109,7 @@ Surface StageSet::SurfaceOf(const Thing& thing, const Spot& spot) const {
     case Kind::kGround: return ground_.At(spot);
     case Kind::kTown: return TownSurface(town_, spot);
     case Kind::kTree: return TreeSurface(paint, thing.seed, spot);
+    case Kind::kStop: return StopSurface(thing.seed, spot);
     case Kind::kPole: return PoleSurface(paint, thing.seed, spot);
     default: return CarSurface(shapes_[thing.identity], paint, spot);
   }

@@ -16,7 +16,7 @@ class StageSet {
  public:
   StageSet(const sim::HalvWorld& scene, std::uint32_t seed);
 
-  enum class Kind { kGround, kTown, kTree, kPole, kVehicle };
+  enum class Kind { kGround, kTown, kTree, kPole, kVehicle, kStop };
   struct Thing {
     Instance instance;
     Kind kind = Kind::kGround;
@@ -36,6 +36,7 @@ class StageSet {
  private:
   void AddObjects(std::uint32_t seed);
   void AddSurroundings(std::uint32_t seed);
+  void AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed);
 
   sim::World world_;
   Pose T_scene_world_;

@@ -27,6 +27,7 @@ struct Surface {
 
 Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot);
 Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot);
+Surface StopSurface(std::uint32_t seed, const Spot& spot);
 Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot);
 
 }  // namespace sslcd::render
