@@ -110,8 +110,9 @@ int Run(int argc, char** argv) {
   sim::HalvOptions& halv = arguments.halv;
   CLI::App* halv_command = AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
   AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance, arguments.render_options);
-  halv_command->add_flag("--render", arguments.render, "stereo images too: image_2, image_3; needs Embree");
-  halv_command->add_flag("--render-truth", arguments.images.truth, "and images of depth and identity");
+  CLI::Option* render =
+      halv_command->add_flag("--render", arguments.render, "stereo images too: image_2, image_3; needs Embree");
+  halv_command->add_flag("--render-truth", arguments.images.truth, "and images of depth and identity")->needs(render);
   halv_command->add_option("--threads", arguments.images.threads, "that render")->capture_default_str();
   CLI::App* calibrate = app.add_subcommand("calibrate", "what HALV-sim should be and what it is, as a table");
   calibrate->add_option("--seeds", arguments.seeds, "how many of each case")->capture_default_str();

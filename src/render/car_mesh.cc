@@ -68,14 +68,14 @@ void AddBody(const CarShape& shape, Mesh& mesh) {
     const std::vector<int>&front = rings[i - 1], &back = rings[i];
     for (int row = 0; row < last; ++row) {
       const bool top = row >= kTopRow && row < last - kTopRow;
-      mesh.AddQuad(back[row], front[row], front[row + 1], back[row + 1], top ? kCarTop : kCarSide);
+      mesh.AddQuad(front[row], back[row], back[row + 1], front[row + 1], top ? kCarTop : kCarSide);
     }
-    mesh.AddQuad(front[0], back[0], back[last], front[last], kCarUnder);
+    mesh.AddQuad(back[0], front[0], front[last], back[last], kCarUnder);
   }
   for (int row = 0; row < last / 2; ++row) {  // nose and tail: across from left to right
     const std::vector<int>&front = rings.front(), &back = rings.back();
-    mesh.AddQuad(front[row], front[last - row], front[last - row - 1], front[row + 1], kCarFront);
-    mesh.AddQuad(back[last - row], back[row], back[row + 1], back[last - row - 1], kCarRear);
+    mesh.AddQuad(front[last - row], front[row], front[row + 1], front[last - row - 1], kCarFront);
+    mesh.AddQuad(back[row], back[last - row], back[last - row - 1], back[row + 1], kCarRear);
   }
 }
 

@@ -70,8 +70,8 @@ std::optional<Surface> Front(const CarShape& shape, const Spot& spot) {
 std::optional<Surface> Rear(const CarShape& shape, const Spot& spot) {
   const float y = std::abs(spot.at.y()) / shape.half_width, z = spot.at.z();
   const bool tall = shape.style != CarStyle::kSaloon;
-  const float low = shape.belt - (tall ? Mix(0.12f, 0.3f, Unit(Hash(shape.seed, 51))) : 0.17f);
-  const float in = tall ? Mix(0.66f, 0.76f, Unit(Hash(shape.seed, 52))) : 0.52f;
+  const float low = shape.belt - (tall ? Mix(0.2f, 0.34f, Unit(Hash(shape.seed, 51))) : 0.17f);
+  const float in = tall ? Mix(0.58f, 0.68f, Unit(Hash(shape.seed, 52))) : 0.52f;
   if (y > in && Within(z, low, shape.belt - 0.01f)) {
     const bool white = Within(z, low + 0.04f, low + 0.08f);
     return white ? Surface{Vec3f(0.5f, 0.45f, 0.4f), 0.06f, 80, kLamp}

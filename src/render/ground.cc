@@ -126,8 +126,11 @@ Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
   const std::uint32_t thing = Hash(column, row, seed_ + 11);
   const Vec2f off(Fraction(x / kLitter) - Mix(0.2f, 0.8f, Unit(Hash(thing, 1))),
                   Fraction(y / kLitter) - Mix(0.2f, 0.8f, Unit(Hash(thing, 2))));
-  const float size = Mix(0.008f, 0.03f, Unit(Hash(thing, 3))) * (0.6f + 0.8f * ValueNoise(60 * x, 60 * y, seed_));
-  const float litter = thing % 2 ? Band(kLitter * off.norm(), size, footprint) : 0;
+  float litter = 0;
+  if (thing % 2 && kLitter * off.norm() < 0.05f + footprint) {
+    const float ragged = 0.6f + 0.8f * ValueNoise(60 * x, 60 * y, seed_);
+    litter = Band(kLitter * off.norm(), ragged * Mix(0.008f, 0.03f, Unit(Hash(thing, 3))), footprint);
+  }
 
   float oil = 0;
   for (int i : near_oil_.At(place)) {

@@ -12,7 +12,7 @@
 namespace sslcd::render {
 namespace {
 
-constexpr std::size_t kBatch = 4096;  // rays at once
+constexpr std::size_t kBatch = 1024;  // rays at once
 
 struct Pixel {
   int x = 0, y = 0;

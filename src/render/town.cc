@@ -82,7 +82,7 @@ Surface House(const Building& house, float along, float up, const Spot& spot, st
   Vec3f albedo = brick ? Brick(along, up, seed, Plain(seed), spot.footprint) : Plain(seed);
   if (up < 0.6f || roof < 0.35f || (roof < 1 && roof > 0.85f)) albedo = Vec3f(0.35f, 0.34f, 0.33f);
   const int band = up < 0.6f ? 5 : roof < 0.35f ? 6 : 1;
-  return {Vec3f(albedo * (1 + 0.22f * stain)), 0, 1, band, Mix(0.6f, 1, Smooth(0, 2.5f, up))};
+  return {Vec3f(albedo * (1 + 0.22f * stain)).cwiseMin(0.85f), 0, 1, band, Mix(0.6f, 1, Smooth(0, 2.5f, up))};
 }
 
 }  // namespace

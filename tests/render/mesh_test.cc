@@ -74,6 +74,19 @@ TEST(Mesh, EveryVehicleFillsItsCuboidAndStandsOnItsWheels) {
   }
 }
 
+TEST(Mesh, VehiclesAreClosedAndFaceOutwards) {
+  sim::WorldObject object;
+  object.dims = {4.4, 1.8, 1.6};
+  for (const char* label : {"Car", "Van", "Truck"}) {
+    object.label = label;
+    const Mesh mesh = MakeCarMesh(MakeCarShape(object, 1));
+    double volume = 0;  // of the tetrahedra from the origin to each triangle; positive where these face outwards
+    for (const auto& [a, b, c] : mesh.triangles) volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6;
+    EXPECT_GT(volume, 0.4 * object.dims.prod()) << label;
+    EXPECT_LT(volume, 0.9 * object.dims.prod()) << label;
+  }
+}
+
 TEST(Mesh, CarsDiffer) {
   sim::WorldObject object;
   object.label = "Car";
