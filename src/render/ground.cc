@@ -9,6 +9,44 @@ namespace {
 constexpr float kPavedWithin = 9;  // of what is used [m]
 constexpr float kHalfLine = 0.055f;
 
+/// Rectangles of newer or older asphalt in some cells of a coarse grid, sealed along their edges: a factor.
+float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
+  const Vec2f cell(9, 7);
+  const Vec2f at = place.cwiseQuotient(cell);
+  const std::uint32_t patch = Hash(Floor(at.x()), Floor(at.y()), seed);
+  if (patch % 3 != 0) return 1;
+  const Vec2f off = Vec2f(Fraction(at.x()) - 0.5f, Fraction(at.y()) - 0.5f).cwiseProduct(cell);
+  const Vec2f half{Mix(0.6f, 3, Unit(Hash(patch))), Mix(0.5f, 2, Unit(Hash(patch, 1)))};
+  const float inside = (half - off.cwiseAbs()).minCoeff();
+  const float shade = inside > 0 ? Mix(0.55f, 1.25f, Unit(Hash(patch, 2))) : 1;
+  return shade * (1 - 0.7f * Band(inside, 0.03f, footprint));
+}
+
+/// Cracks along the borders of bent cells, on some stretches of these: a factor.
+float Cracked(const Vec2f& place, float bend, std::uint32_t seed, float footprint) {
+  constexpr float kCells = 0.22f;  // a metre
+  const float open = Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, 0.12f, 2, footprint));
+  if (open <= 0) return 1;
+  const Vec2f bent = kCells * place + 0.3f * bend * Vec2f(1, -1);
+  const float crack = CellNoise(bent.x(), bent.y(), seed).border / kCells;
+  return 1 - 0.75f * open * Band(crack, 0.02f, footprint);
+}
+
+/// A leaf, a stone or a spot of chewing gum in every second cell.
+Vec3f Littered(const Vec2f& place, std::uint32_t seed, float footprint, const Vec3f& asphalt) {
+  constexpr float kCell = 0.55f;
+  const Vec2f at = place / kCell;
+  const std::uint32_t thing = Hash(Floor(at.x()), Floor(at.y()), seed);
+  const Vec2f middle{Mix(0.2f, 0.8f, Unit(Hash(thing, 1))), Mix(0.2f, 0.8f, Unit(Hash(thing, 2)))};
+  const float off = kCell * (Vec2f(Fraction(at.x()), Fraction(at.y())) - middle).norm();
+  if (thing % 2 == 0 || off > 0.05f + footprint) return asphalt;
+  static const Vec3f kColours[] = {
+      {0.03f, 0.03f, 0.03f}, {0.2f, 0.13f, 0.05f}, {0.3f, 0.29f, 0.27f}, {0.05f, 0.05f, 0.05f}};
+  const float ragged = 0.6f + 0.8f * ValueNoise(60 * place.x(), 60 * place.y(), seed);
+  const float size = ragged * Mix(0.008f, 0.03f, Unit(Hash(thing, 3)));
+  return Mix(asphalt, kColours[thing / 2 % 4], 0.8f * Band(off, size, footprint));
+}
+
 }  // namespace
 
 NearList::NearList(const Vec2f& low, const Vec2f& high, float cell) : low_(low), cell_(cell) {
@@ -97,50 +135,19 @@ Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
   const float middle = Fractal(x, y, seed_ + 1, 0.8f, 5, footprint, 0.75f);
   const float grain = Fractal(x, y, seed_ + 2, 28, 3, footprint, 0.8f);
   float grey = 0.125f * (1 + 0.3f * wide + 0.26f * middle + 0.34f * grain);
-
-  // Stones that show: bright specks of the mix.
-  const float stones = Clamp01(1.5f - 90 * footprint);
+  const float stones = Clamp01(1.5f - 90 * footprint);  // of the mix; seen from nearby
   if (stones > 0) {
     const float speck = ValueNoise(x * 60, y * 60, seed_ + 4);
     grey += stones * (0.08f * Smooth(0.8f, 0.95f, speck) - 0.04f * Smooth(0.2f, 0.05f, speck));
   }
-  // Repairs: rectangles of newer asphalt in a few places of a coarse grid, sealed along their edges.
-  const float px = x / 9, py = y / 7;
-  const std::uint32_t patch = Hash(Floor(px), Floor(py), seed_ + 5);
-  if (patch % 3 == 0) {
-    const float u = (Fraction(px) - 0.5f) * 9, v = (Fraction(py) - 0.5f) * 7;
-    const float inside =
-        std::min(Mix(0.6f, 3, Unit(Hash(patch))) - std::abs(u), Mix(0.5f, 2, Unit(Hash(patch, 1))) - std::abs(v));
-    if (inside > 0) grey *= Mix(0.55f, 1.25f, Unit(Hash(patch, 2)));
-    grey *= 1 - 0.7f * Band(inside, 0.03f, footprint);
-  }
-  // Cracks along the borders of bent cells; some stretches only.
-  const float bend = 0.1f * middle;
-  const float crack = CellNoise(0.22f * x + bend * 0.3f, 0.22f * y - bend * 0.3f, seed_ + 6).border / 0.22f;
-  const float open = Smooth(-0.1f, 0.35f, Fractal(x, y, seed_ + 7, 0.12f, 2, footprint));
-  grey *= 1 - 0.75f * open * Band(crack, 0.02f, footprint);
-
-  // Litter: a leaf, a stone, a spot of chewing gum in every second cell.
-  constexpr float kLitter = 0.55f;
-  const int column = Floor(x / kLitter), row = Floor(y / kLitter);
-  const std::uint32_t thing = Hash(column, row, seed_ + 11);
-  const Vec2f off(Fraction(x / kLitter) - Mix(0.2f, 0.8f, Unit(Hash(thing, 1))),
-                  Fraction(y / kLitter) - Mix(0.2f, 0.8f, Unit(Hash(thing, 2))));
-  float litter = 0;
-  if (thing % 2 && kLitter * off.norm() < 0.05f + footprint) {
-    const float ragged = 0.6f + 0.8f * ValueNoise(60 * x, 60 * y, seed_);
-    litter = Band(kLitter * off.norm(), ragged * Mix(0.008f, 0.03f, Unit(Hash(thing, 3))), footprint);
-  }
-
+  grey *= Repaired(place, seed_ + 5, footprint) * Cracked(place, 0.1f * middle, seed_ + 6, footprint);
   float oil = 0;
   for (int i : near_oil_.At(place)) {
-    const float ragged = 0.25f * middle;
-    oil = std::max(oil, Smooth(0.5f, 0.1f, (oil_[i] - place).norm() + ragged) * Unit(Hash(seed_ + 8, i)));
+    const float edge = (oil_[i] - place).norm() + 0.25f * middle;
+    oil = std::max(oil, Smooth(0.5f, 0.1f, edge) * Unit(Hash(seed_ + 8, static_cast<std::uint32_t>(i))));
   }
-  grey *= 1 - 0.6f * oil;
-  static const Vec3f kLitterColours[] = {
-      {0.03f, 0.03f, 0.03f}, {0.2f, 0.13f, 0.05f}, {0.3f, 0.29f, 0.27f}, {0.05f, 0.05f, 0.05f}};
-  return Mix(Vec3f(Vec3f(1.02f, 1, 0.97f) * std::max(grey, 0.012f)), kLitterColours[thing / 2 % 4], 0.8f * litter);
+  grey = std::max(grey * (1 - 0.6f * oil), 0.012f);
+  return Littered(place, seed_ + 11, footprint, grey * Vec3f(1.02f, 1, 0.97f));
 }
 
 Surface Ground::At(const Spot& spot) const {

@@ -115,6 +115,8 @@ Renderer::~Renderer() = default;
 
 int Renderer::frames() const { return static_cast<int>(impl_->set.world().truth.size()); }
 
+int Renderer::objects() const { return static_cast<int>(impl_->set.world().objects.size()); }
+
 View Renderer::Render(int frame, Side side) const {
   const sim::World& world = impl_->set.world();
   if (frame < 0 || frame >= frames()) throw Error(ErrorKind::kUsage, "there is no frame " + std::to_string(frame));

@@ -66,6 +66,8 @@ void WriteFrame(const Renderer& renderer, const std::filesystem::path& folder, i
 void WriteImages(const Renderer& renderer, const std::filesystem::path& folder, const ImageOutput& output) {
   if (output.threads < 1)
     throw Error(ErrorKind::kUsage, "threads is " + std::to_string(output.threads) + ", must be 1 or more");
+  if (output.truth && renderer.objects() > 65535)
+    throw Error(ErrorKind::kUsage, "instance images have room for 65535 objects, the world has more");
   for (const char* name : {"image_2", "image_3", "depth_2", "depth_3", "instance_2", "instance_3"})
     RemoveImages(folder / name);
   for (const char* name : {"image_2", "image_3"}) MakeWritableFolder((folder / name).string());

@@ -35,6 +35,7 @@ class Renderer {
   ~Renderer();
 
   int frames() const;
+  int objects() const;  ///< in the world; identities are below that
 
   /// May be called from several threads; the result depends on the arguments alone. About 0.5 s for 1280x720.
   /// Throws Error(kUsage) where there is no such frame.
