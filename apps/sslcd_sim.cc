@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Writes a synthetic sequence folder: HALV-sim, or a street or a parking lot seen by a drifting, noisy system.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include "option_adder.h"
 #include "sslcd/core/error.h"
+#include "sslcd/render/options.h"
+#include "sslcd/render/write_images.h"
 #include "sslcd/sim/calibration.h"
 #include "sslcd/sim/halv.h"
 #include "sslcd/sim/sensor.h"
@@ -26,6 +31,9 @@ struct Arguments {
   sim::OdometryNoise odometry;
   sim::DetectorNoise detector;
   sim::HalvOptions halv;
+  bool render = false;
+  render::ImageOutput images;
+  render::RenderOptions render_options;
   int seeds = 10;
 };
 
@@ -55,14 +63,27 @@ void WriteSimple(const sim::World& world, const Arguments& arguments) {
         sim::SimulateDetections(world, arguments.detector, arguments.seed), arguments);
 }
 
+/// A line that counts frames, on a terminal only.
+render::ImageOutput WithProgress(render::ImageOutput images) {
+  if (isatty(STDERR_FILENO) == 0) return images;
+  images.progress = [](int done, int frames) {
+    std::fprintf(stderr, "\r%d of %d frames rendered%s", done, frames, done == frames ? "\n" : "");
+  };
+  return images;
+}
+
 void WriteHalv(const Arguments& arguments) {
   const sim::HalvSequence sequence = sim::MakeHalv(arguments.seed, arguments.halv);
+  std::optional<render::Renderer> renderer;  // made before anything is written: it may refuse
+  if (arguments.images.threads < 1) throw Error(ErrorKind::kUsage, "--threads must be 1 or more");
+  if (arguments.render) renderer.emplace(sequence.scene, arguments.seed, arguments.render_options);
   Write(sequence.scene.world, sequence.odometry, sequence.detections, arguments);
   std::printf("the passes meet at %.0f degrees, the odometry errs %.2f times as much as --wander-scale etc. say\n",
               sequence.scene.viewpoint_rad * 180 / M_PI, sequence.drift_factor);
   if (sequence.scene.left_out > 0)
     std::printf("%d vehicles of %s left out: in the way, or twice in one place\n", sequence.scene.left_out,
                 arguments.halv.scene.layout.c_str());
+  if (renderer) render::WriteImages(*renderer, arguments.out, WithProgress(arguments.images));
 }
 
 int Calibrate(const Arguments& arguments) {
@@ -88,7 +109,11 @@ int Run(int argc, char** argv) {
   Arguments arguments;
   sim::HalvOptions& halv = arguments.halv;
   CLI::App* halv_command = AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
-  AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance);
+  AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance, arguments.render_options);
+  CLI::Option* render =
+      halv_command->add_flag("--render", arguments.render, "stereo images too: image_2, image_3; needs Embree");
+  halv_command->add_flag("--render-truth", arguments.images.truth, "and images of depth and identity")->needs(render);
+  halv_command->add_option("--threads", arguments.images.threads, "that render")->capture_default_str();
   CLI::App* calibrate = app.add_subcommand("calibrate", "what HALV-sim should be and what it is, as a table");
   calibrate->add_option("--seeds", arguments.seeds, "how many of each case")->capture_default_str();
   AddTables(calibrate, halv.drift, halv.detector, halv.appearance);

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
 install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN sim EXCLUDE
-  PATTERN baselines EXCLUDE PATTERN benchmark EXCLUDE)  # for tests, benchmarks and the demo only
+  PATTERN render EXCLUDE PATTERN baselines EXCLUDE PATTERN benchmark EXCLUDE)  # for tests, benchmarks and the demo only
 install(DIRECTORY third_party/lie/include/lie DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sslcd/third_party)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)

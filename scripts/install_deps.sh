@@ -3,14 +3,15 @@
 # Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing where all is there.
 #   scripts/install_deps.sh [build|test|dev]
 #     build  the library and the tools; enough for scripts/demo.sh
-#     test   and what the tests need, clang-format among it (default)
+#     test   and what the tests need, clang-format among it (default), and Embree for sslcd_sim --render (the demo needs
+#            it not)
 #     dev    and clang-tidy, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
        libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev
        libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev)
-test=(libgtest-dev libgmock-dev python3 ccache clang-format-14)
+test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libopencv-imgproc-dev libembree-dev)
 dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
 
 case "${1:-test}" in

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 
-#include "sim/check_fields.h"
 #include "sim/streams.h"
 #include "sslcd/perception/colour.h"
+#include "sslcd/sim/check_fields.h"
 
 namespace sslcd::sim {
 namespace {

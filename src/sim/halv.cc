@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/check_fields.h"
 #include "sim/halv_course.h"
 #include "sim/streams.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
+#include "sslcd/sim/check_fields.h"
 
 namespace sslcd::sim {
 namespace {

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/check_fields.h"
 #include "sim/furnish.h"
 #include "sim/halv_course.h"
 #include "sim/layout_file.h"
 #include "sim/slots.h"
 #include "sim/streams.h"
+#include "sslcd/sim/check_fields.h"
 #include "sslcd/sim/halv.h"
 
 namespace sslcd::sim {
@@ -17,10 +17,13 @@ namespace {
 constexpr double kCameraHeight = 1.2;  // of a camera on a ground vehicle [m]
 
 /// ZED 2 as the paper's Table of sensors has it: 1280x720, 110 x 70 degrees; 12 cm between its cameras.
-World EmptyWorld() {
+World EmptyWorld(double render_scale) {
   World world;
+  const int width = static_cast<int>(std::lround(1280 * render_scale));
+  const int height = static_cast<int>(std::lround(720 * render_scale));
   const auto focal = [](double pixels, double degrees) { return 0.5 * pixels / std::tan(0.5 * degrees * M_PI / 180); };
-  world.camera = {focal(1280, 110), focal(720, 70), 639.5, 359.5, Vec3(0, 0, 0), 1280, 720};
+  world.camera = {
+      focal(width, 110), focal(height, 70), 0.5 * (width - 1), 0.5 * (height - 1), Vec3(0, 0, 0), width, height};
   world.camera_height_m = kCameraHeight;
   world.baseline_m = 0.12;
   for (const char* label : {"Car", "Van", "Truck"}) world.labels.Set(label, {Symmetry::kNone});
@@ -137,7 +140,10 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
   for (const Slot& slot : places.vehicles) (random.Chance(places.taken_fraction) ? parked : free).push_back(slot);
   CheckCars(parked, course);
 
-  HalvWorld result{EmptyWorld(), 0, course.viewpoint_rad, places.left_out};
+  HalvWorld result{EmptyWorld(scene.render_scale), 0, course.viewpoint_rad, places.left_out, {}};
+  const bool street = scene.layout == "street";
+  for (const Slot& slot : places.vehicles)
+    result.spaces.push_back({slot.x, slot.z, slot.heading, street ? 5.8 : 5., street ? 2.2 : 2.6});
   World& world = result.world;
   const double step = scene.speed_mps / scene.keyframe_hz;
   result.return_frame = static_cast<int>(std::ceil(course.return_m / step));
@@ -173,6 +179,7 @@ void DescribeFields(FieldVisitor& visitor, HalvScene& scene) {
   visitor.Flag("marks", scene.marks, "poles and trees in generated layouts");
   visitor.Real("churn", scene.churn, 0, 1, "share of the parked vehicles that is replaced before the second pass");
   visitor.Integer("driving_cars", scene.driving_cars, 0, 100, "cars that drive; every second one is oncoming");
+  visitor.Real("render_scale", scene.render_scale, 0.05, 4, "size of the images; 1: 1280x720");
 }
 
 }  // namespace sslcd::sim

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "sim/check_fields.h"
 #include "sim/streams.h"
 #include "sim/visibility.h"
 #include "sslcd/perception/projection.h"
+#include "sslcd/sim/check_fields.h"
 #include "sslcd/sim/random.h"
 
 namespace sslcd::sim {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "sim/check_fields.h"
 #include "sim/furnish.h"
+#include "sslcd/sim/check_fields.h"
 #include "sslcd/sim/random.h"
 
 namespace sslcd::sim {

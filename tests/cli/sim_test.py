@@ -51,6 +51,32 @@ class SimTest(CliCase):
             self.assertTrue(same, name)
         self.assertNotEqual(read(self.out + 'a/detections.txt'), read(self.out + 'c/detections.txt'))
 
+    def test_render(self):
+        """Images in the ordinary folder where this build has Embree, else an error that says how to get it."""
+        args = ('--case', 4, '--size', 0.3, '--speed-mps', 20, '--render-scale', 0.1)
+        result = sim('halv', *args, '--out', self.out, '--render', '--render-truth', '--threads', 2)
+        if 'Embree' in result.stderr:
+            self.assertEqual(result.returncode, 2)
+            self.assertIn('libembree-dev', result.stderr)
+            self.assertFalse(os.path.exists(self.out))
+            return
+        self.assertEqual(result.returncode, 0, result.stderr)
+        frames = len(read(self.out + '/times.txt').splitlines())
+        for name in ('image_2', 'image_3', 'depth_2', 'depth_3', 'instance_2', 'instance_3'):
+            self.assertEqual(sorted(os.listdir(f'{self.out}/{name}')), [f'{i:06d}.png' for i in range(frames)])
+        run = call('run', self.out, '--out', self.out + 'run')
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn('no image', run.stderr)
+        self.refused_render('vignetting', '--vignetting', 2)
+        self.refused_render('threads', '--threads', 0)
+
+    def refused_render(self, message, *args):
+        out = self.out + 'refused'
+        result = sim('halv', '--case', 4, '--out', out, '--render', *args)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn(message, result.stderr)
+        self.assertFalse(os.path.exists(out), 'a refused call must leave nothing')
+
     def test_nothing_true_but_where_it_belongs(self):
         """What the estimator reads is the same whatever the truth is called."""
         self.assertEqual(sim('halv', '--case', 4, '--seed', 3, '--out', self.out).returncode, 0)

@@ -17,9 +17,9 @@ from pathlib import Path
 OPT_IN = {"include/sslcd/io/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
-           "onnxruntime": "onnx"}
+           "onnxruntime": "onnx", "embree3": "embree", "embree4": "embree"}
 # Not modules of the library: these stand above it and may use all of it, and of each other what is named here.
-ABOVE = {"sim": set(), "baselines": set(), "benchmark": {"sim", "baselines"}}
+ABOVE = {"sim": set(), "render": {"sim"}, "baselines": set(), "benchmark": {"sim", "baselines"}}
 
 
 def read_modules(cmake_lists):
@@ -58,14 +58,16 @@ def check_include(include, module, relative, modules, source_dir):
     """None, or what is wrong with this include."""
     public = relative.startswith("include/")
     first = include.split("/")[0]
-    may_include, may_use = (modules[module] if module not in ABOVE else
-                            (set(modules) | {module} | ABOVE[module], set(OUTSIDE)))
+    if module in ABOVE:
+        may_include, may_use = {*modules, module, *ABOVE[module]}, set(OUTSIDE)
+    else:
+        may_include, may_use = modules[module]
     if first == "sslcd":
         target = include.split("/")[1]
         if not (source_dir / "include" / include).exists():
             return f"there is no include/{include}"
         return None if target in may_include else f"{module} is not above {target}"
-    if "/" in include and first in set(modules) | set(ABOVE):  # not <map>
+    if "/" in include and first in {*modules, *ABOVE}:  # not <map>
         if public:
             return f"a public header includes the private {include}"
         return None if first == module else f"{include} is private to {first}"

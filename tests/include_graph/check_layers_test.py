@@ -75,6 +75,13 @@ class CheckLayers(unittest.TestCase):
                                   "src/baselines/other.cc": '#include "sslcd/sim/world.h"\n'})
         self.assertEqual(breaches, ["src/baselines/other.cc:1: baselines is not above sim"])
 
+    def test_render_stands_on_sim(self):
+        self.assertEqual(self.breaches({"include/sslcd/render/view.h": "", "include/sslcd/sim/world.h": "",
+                                        "src/render/view.cc": '#include <embree3/rtcore.h>\n#include "sslcd/sim/world.h"\n'}), [])
+        breaches = self.breaches({"include/sslcd/render/view.h": "", "src/sim/a.cc": '#include "sslcd/render/view.h"\n'})
+        self.assertEqual(breaches, ["src/sim/a.cc:1: sim is not above render"])
+        self.expect_one("src/render/view.cc", '#include "sim/path.h"\n', "private to sim")
+
     def test_link_to_a_module_listed_later(self):
         wrong = CMAKE.replace("core  LINK sslcd_lie", "core  LINK sslcd_optim")
         self.expect_one("CMakeLists.txt", wrong, "core links sslcd_optim")

@@ -23,8 +23,9 @@ struct HalvScene {
   double taken_fraction = 0.6;                        ///< of the generated stalls
   double van_fraction = 0.08, truck_fraction = 0.03;  ///< of the parked vehicles, where the layout does not say
   bool marks = true;                                  ///< poles and trees in generated layouts
-  double churn = 0;      ///< share of the parked vehicles that has gone, and been replaced, at the second pass
-  int driving_cars = 2;  ///< every second one is oncoming
+  double churn = 0;         ///< share of the parked vehicles that has gone, and been replaced, at the second pass
+  int driving_cars = 2;     ///< every second one is oncoming
+  double render_scale = 1;  ///< 1: images of 1280x720
 };
 void DescribeFields(FieldVisitor& visitor, HalvScene& scene);
 
@@ -46,11 +47,18 @@ struct HalvOptions {
   AppearanceNoise appearance;
 };
 
+/// A place for one vehicle, taken or free: where its middle is in the world and which way it faces, from +z towards +x.
+struct ParkingSpace {
+  double x = 0, z = 0, heading = 0;
+  double length_m = 0, width_m = 0;
+};
+
 struct HalvWorld {
   World world;
   int return_frame = 0;      ///< the way out ends here; what changed between the passes changes here
   double viewpoint_rad = 0;  ///< between the two passes where they meet
   int left_out = 0;          ///< vehicles of a layout file that stood in the way or twice in the same place
+  std::vector<ParkingSpace> spaces;
 };
 
 /// World and path. Same seed, same world. Throws Error: kUsage (a value out of range, the path leaves the lot, no cars

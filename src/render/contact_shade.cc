@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/contact_shade.h"
+
+namespace sslcd::render {
+
+ContactShade::ContactShade(const StageSet& set, const std::vector<StageSet::Thing>& things)
+    : near_(set.used().low - Vec2f::Constant(5), set.used().high + Vec2f::Constant(5), 4) {
+  constexpr float kReach = 1.2f;
+  for (const StageSet::Thing& thing : things) {
+    if (thing.identity < 0 || thing.kind == StageSet::Kind::kPole) continue;
+    const Eigen::Matrix3f axes = thing.instance.T_world_mesh.so3().matrix().cast<float>();
+    const Vec3f at = thing.instance.T_world_mesh.translation().cast<float>();
+    const Vec3f dims = set.world().objects[thing.identity].dims.cast<float>();
+    Footprint footprint{at.head<2>(), axes.col(0).head<2>(), 0.5f * dims.head<2>()};
+    if (thing.kind == StageSet::Kind::kTree) footprint.half *= 0.5f;
+    const Vec2f reach = Vec2f::Constant(footprint.half.norm() + kReach);
+    near_.Add(footprint.centre - reach, footprint.centre + reach, static_cast<int>(footprints_.size()));
+    footprints_.push_back(footprint);
+  }
+}
+
+float ContactShade::OpenSky(const Vec3f& place) const {
+  if (place.z() > 0.05f) return 1;
+  float open = 1;
+  for (int i : near_.At(place.head<2>())) {
+    const Footprint& footprint = footprints_[i];
+    const Vec2f off = place.head<2>() - footprint.centre;
+    const Vec2f own(std::abs(off.dot(footprint.ahead)),
+                    std::abs(off.x() * footprint.ahead.y() - off.y() * footprint.ahead.x()));
+    const Vec2f out = own - footprint.half;
+    const float inside = -std::max(out.x(), out.y());
+    const float outside = out.cwiseMax(Vec2f::Zero()).norm();
+    open *= inside > 0 ? 0.4f - 0.32f * Clamp01(inside / 0.5f) : 1 - 0.6f * std::exp(-outside / 0.32f);
+  }
+  return open;
+}
+
+}  // namespace sslcd::render

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/surface.h"
+#include "render/town.h"
+#include "sslcd/sim/halv.h"
+
+namespace sslcd::render {
+
+/// A grid of square cells over a rectangle, each with a list of numbers: what lies in or near it.
+class NearList {
+ public:
+  NearList() = default;
+  NearList(const Vec2f& low, const Vec2f& high, float cell);
+  void Add(const Vec2f& low, const Vec2f& high, int number);  ///< to all cells that the rectangle touches
+  const std::vector<int>& At(const Vec2f& place) const;
+
+ private:
+  Vec2f low_ = Vec2f::Zero();
+  float cell_ = 1;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::vector<int>> lists_;
+};
+
+/// Asphalt with stall lines, cracks, repairs and oil where things stand or drive, grass elsewhere.
+class Ground {
+ public:
+  Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed);
+  Surface At(const Spot& spot) const;
+
+ private:
+  struct Line {
+    Vec2f from, to;
+  };
+  float Paved(const Vec2f& place) const;  ///< 1: asphalt, 0: grass
+  float Painted(const Vec2f& place, float footprint) const;
+  Vec3f Asphalt(const Vec2f& place, float footprint) const;
+
+  std::uint32_t seed_;
+  std::vector<Line> lines_;
+  std::vector<Vec2f> oil_, used_;
+  NearList near_lines_, near_oil_, near_used_;
+};
+
+}  // namespace sslcd::render

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "render/vectors.h"
+
+namespace sslcd::render {
+
+/// Triangles, each with a part number that says how it is painted.
+struct Mesh {
+  std::vector<Vec3f> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> parts;
+  std::vector<std::array<Vec3f, 3>> normals;  ///< at the corners of each triangle; see ComputeNormals
+
+  int AddPoint(const Vec3f& point);
+  void AddTriangle(int a, int b, int c, int part);
+  void AddQuad(int a, int b, int c, int d, int part);  ///< counter-clockwise seen from outside
+};
+
+/// Faces with points of their own, so that their edges stay sharp.
+void AddQuad(Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, int part);
+void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part);
+
+/// About the axis from `from` to `to`, radii there; closed. Round, so its sides share points.
+void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius, int sides, int part);
+
+/// Mean over the faces around a corner that lie within `crease_rad` of its own: round where the mesh is round.
+void ComputeNormals(Mesh& mesh, float crease_rad = 0.6f);
+
+}  // namespace sslcd::render

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/contact_shade.h"
+#include "render/light.h"
+#include "render/ray_tracer.h"
+#include "render/stage_set.h"
+
+namespace sslcd::render {
+
+/// What one ray brings home.
+struct Sample {
+  Vec3f colour = Vec3f::Zero();
+  float depth = 0;  ///< in lengths of the ray's direction; 0: sky
+  int identity = -1;
+  std::uint32_t key =
+      0;  ///< of the surface, and whether the sun shines on it; neighbours of equal key need no smoothing
+};
+
+/// The world at one frame, in one light.
+class Moment {
+ public:
+  static constexpr float kFar = 2000;
+
+  /// `pixel_angle`: of a pixel in the middle of the image [rad]. Keeps references to all but that.
+  Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame, float pixel_angle);
+
+  /// What each ray sees, with one more ray from there to the sun.
+  std::vector<Sample> Look(const std::vector<Ray>& rays) const;
+
+ private:
+  /// A point of a surface, in the scene's frame.
+  struct Point {
+    Vec3f at = Vec3f::Zero(), flat = Vec3f::UnitZ(),
+          normal = Vec3f::UnitZ();  ///< normals of the triangle, of the shape
+  };
+  Point PointOf(const Ray& ray, const Hit& hit) const;
+  Sample SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool lit) const;
+  const Mesh& MeshOf(const Hit& hit) const { return set_.meshes()[things_[hit.instance].instance.mesh]; }
+
+  const StageSet& set_;
+  const Daylight& light_;
+  std::vector<StageSet::Thing> things_;
+  std::vector<Eigen::Matrix3f> axes_;  ///< of the things' meshes in the scene
+  std::vector<Vec3f> origins_;
+  ContactShade shade_;
+  Scene scene_;
+  float pixel_angle_;
+};
+
+}  // namespace sslcd::render

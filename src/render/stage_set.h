@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/ground.h"
+#include "render/ray_tracer.h"
+#include "render/town.h"
+
+namespace sslcd::render {
+
+/// What a world looks like, whatever the light: the meshes of all its objects and of their surroundings, and how each
+/// is painted.
+class StageSet {
+ public:
+  StageSet(const sim::HalvWorld& scene, std::uint32_t seed);
+
+  enum class Kind { kGround, kTown, kTree, kPole, kVehicle, kStop };
+  struct Thing {
+    Instance instance;
+    Kind kind = Kind::kGround;
+    int identity = -1;  ///< of the WorldObject
+    std::uint32_t seed = 0;
+  };
+
+  /// All that is there at a frame.
+  std::vector<Thing> ThingsAt(int frame) const;
+  Surface SurfaceOf(const Thing& thing, const Spot& spot) const;
+
+  const sim::World& world() const { return world_; }
+  const UsedPlaces& used() const { return used_; }
+  const Pose& T_scene_world() const { return T_scene_world_; }
+  const std::vector<Mesh>& meshes() const { return meshes_; }
+
+ private:
+  void AddObjects(std::uint32_t seed);
+  void AddSurroundings(std::uint32_t seed);
+  void AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed);
+
+  sim::World world_;
+  Pose T_scene_world_;
+  UsedPlaces used_;
+  Town town_;
+  Ground ground_;
+  std::vector<Mesh> meshes_;
+  std::vector<CarShape> shapes_;  ///< by identity; empty ones for poles and trees
+  std::vector<Thing> objects_;    ///< by identity; without pose
+  std::vector<Thing> surroundings_;
+};
+
+}  // namespace sslcd::render
