@@ -47,50 +47,74 @@ bool LoopCloser::Closed() const {
                      [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
 }
 
-double LoopCloser::OldUntil() const {
-  return frames_.back().travelled - options_.loop.layout.local_m - options_.loop.layout.gap_m;
+double LoopCloser::OldUntil(double here_m) const {
+  return here_m - options_.loop.layout.local_m - options_.loop.layout.gap_m;
 }
 
 bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
   if (frames_.back().travelled - last_attempt_m_ < options_.loop.layout.every_m) return false;
   last_attempt_m_ = frames_.back().travelled;
-  return DetectAndCorrect(options_.loop.lag_m, scale, timing);
+  return DetectAndCorrect(last_attempt_m_, options_.loop.lag_m, scale, timing);
 }
 
 void LoopCloser::Finish(double scale, TimingTable& timing) {
   constexpr double kStep = 10.;  // [m]
   if (frames_.empty() || options_.mode == Options::Mode::kPaper || matcher_) return;
-  for (double lag = options_.loop.lag_m - kStep; lag > 0; lag -= kStep) DetectAndCorrect(lag, scale, timing);
+  for (double lag = options_.loop.lag_m - kStep; lag > 0; lag -= kStep)
+    DetectAndCorrect(frames_.back().travelled, lag, scale, timing);
+  if (Closed()) LookAgain(scale, timing);
 }
 
-bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timing) {
+bool LoopCloser::DetectAndCorrect(double here_m, double lag_m, double scale, TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
-    if (!Find(lag_m)) return false;
+    if (!Find(here_m, lag_m)) return false;
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moved = !Agree();
-  if (moved) Correct(scale);
+  if (moved) Correct(here_m, scale);
   const bool fused = Fuse();
   if (moved && options_.mode != Options::Mode::kPaper) {
-    const Pose before = frames_.back().T_world_cam;
+    const int here = FrameAt(here_m);
+    const Pose before = frames_[here].T_world_cam;
     OptimiseAfterLoop(map_, frames_, scale, options_);
-    tracks_.Move(LayoutChange(before, frames_.back().T_world_cam, map_.gravity()));
+    tracks_.Move(LayoutChange(before, frames_[here].T_world_cam, map_.gravity()));
   }
   return moved || fused;
 }
 
-// True: something new is believed.
-bool LoopCloser::Find(double lag_m) {
-  if (matcher_) return DetectWithMatcher(lag_m);
-  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m);
+int LoopCloser::FrameAt(double path_m) const {
+  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
 }
 
-bool LoopCloser::Detect(double lag_m) {
+// With hindsight: once the trajectory is known to within the loops, little has to be seen of a place to know it again.
+void LoopCloser::LookAgain(double scale, TimingTable& timing) {
+  path_ = {};
+  for (const Attempt& attempt : attempts_)
+    if (attempt.loop.row.decision == LoopDecision::kAccepted)
+      path_.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
+  tracks_.Forget();
+  const std::size_t first_looks = attempts_.size();
+  const LoopLayoutOptions& o = options_.loop.layout;
+  for (double here = o.local_m; here < frames_.back().travelled; here += o.every_m)
+    DetectAndCorrect(here, options_.loop.lag_m, scale, timing);
+  attempts_.erase(std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first_looks), attempts_.end(),
+                                 [](const Attempt& attempt) { return !attempt.believed; }),
+                  attempts_.end());
+}
+
+// True: something new is believed.
+bool LoopCloser::Find(double here_m, double lag_m) {
+  if (matcher_) return DetectWithMatcher(lag_m);
+  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(here_m, lag_m);
+}
+
+bool LoopCloser::Detect(double here_m, double lag_m) {
   const LoopOptions& o = options_.loop;
-  const double here = frames_.back().travelled;
-  const PassLayout local = passes_.Recent(here - o.layout.local_m, o.layout.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(), o.layout.min_sightings);
+  const PassLayout local = passes_.Between(here_m - o.layout.local_m, here_m, o.layout.min_sightings);
+  const PassLayout global = passes_.Before(OldUntil(here_m), o.layout.min_sightings);
   const int few = o.match.search.min_matches;
   if (static_cast<int>(std::min(local.objects.size(), global.objects.size())) < few) return false;
 
@@ -102,13 +126,13 @@ bool LoopCloser::Detect(double lag_m) {
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
-  tracks_.Update(likelihood, found, search, here,
-                 OdometryPrior(passes_, path_.From(here), local, global, index, o.prior));
+  tracks_.Update(likelihood, found, search, here_m,
+                 OdometryPrior(passes_, path_.From(here_m), local, global, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
   const LoopMeter meter(map_.gravity(), frames_, passes_, o);
-  auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, lag_m, OldUntil());
+  auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, here_m - lag_m, OldUntil(here_m));
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.track = best.id;
@@ -160,8 +184,9 @@ void LoopCloser::Believe(Attempt& attempt, const std::string& reason) {
 // to it.
 bool LoopCloser::DetectAsPrinted() {
   const LoopLayoutOptions& o = options_.loop.layout;
-  PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
-  PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
+  const double here_m = frames_.back().travelled;
+  PassLayout local = passes_.Between(here_m - o.local_m, here_m, o.min_sightings);
+  PassLayout global = passes_.Before(OldUntil(here_m), o.min_sightings);
   for (PassLayout* layout : {&local, &global})
     for (std::size_t i = 0; i < layout->objects.size(); ++i)
       layout->objects[i].position = map_.gravity().Basis().transpose() * layout->places[i].position;
@@ -195,9 +220,10 @@ bool LoopCloser::DetectAsPrinted() {
 // A matcher of the host finds the place and decides; drift, pose graph and map are ours.
 bool LoopCloser::DetectWithMatcher(double lag_m) {
   const LoopLayoutOptions& o = options_.loop.layout;
-  const PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
-  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(),
+  const double here_m = frames_.back().travelled;
+  const PassLayout local = passes_.Between(here_m - o.local_m, here_m, o.min_sightings);
+  const PassLayout global = passes_.Before(OldUntil(here_m), o.min_sightings);
+  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(here_m),
                                         [](double m, const FrameRecord& frame) { return m < frame.travelled; });
   if (old_end == frames_.begin()) return false;
   const auto answer = matcher_({local.objects, global.objects, frames_.back().frame, std::prev(old_end)->frame});
@@ -209,7 +235,7 @@ bool LoopCloser::DetectWithMatcher(double lag_m) {
     constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
     CheckMatches(answer->matches, local.objects.size(), global.objects.size());
     const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
-    loop = meter.Measure(local, global, answer->matches, kSigma, lag_m, OldUntil());
+    loop = meter.Measure(local, global, answer->matches, kSigma, here_m - lag_m, OldUntil(here_m));
   }
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
@@ -266,7 +292,7 @@ bool LoopCloser::Agree() const {
 
 // Solves the pose graph with all loops ever believed, which decides anew about each of them, and moves trajectory and
 // map.
-void LoopCloser::Correct(double scale) {
+void LoopCloser::Correct(double here_m, double scale) {
   std::vector<Attempt*> loops;
   std::vector<LoopEdge> edges;
   for (Attempt& attempt : attempts_) {
@@ -292,7 +318,8 @@ void LoopCloser::Correct(double scale) {
   const std::vector<Pose> before = PosesOf(frames_);
   MoveKeyframes(frames_, graph.keyframes, PosesOf(graph.graph));
   MoveObjects(map_, frames_, before, options_.noise);
-  tracks_.Move(LayoutChange(before.back(), frames_.back().T_world_cam, map_.gravity()));
+  const int here = FrameAt(here_m);
+  tracks_.Move(LayoutChange(before[here], frames_[here].T_world_cam, map_.gravity()));
 }
 
 // What was matched becomes one landmark.

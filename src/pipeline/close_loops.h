@@ -49,9 +49,9 @@ class LoopCloser {
     bool believed = false;   // an edge of the pose graph, which may refuse it
     bool in_graph = false;   // ... since the last time that was solved
   };
-  bool DetectAndCorrect(double lag_m, double scale, TimingTable& timing);
-  bool Find(double lag_m);
-  bool Detect(double lag_m);
+  bool DetectAndCorrect(double here_m, double lag_m, double scale, TimingTable& timing);
+  bool Find(double here_m, double lag_m);
+  bool Detect(double here_m, double lag_m);
   bool DetectWithMatcher(double lag_m);
   LoopMeasurement MeasureImages(int match_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
@@ -59,9 +59,11 @@ class LoopCloser {
   bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);
   void Believe(Attempt& attempt, const std::string& reason);
   bool Agree() const;
-  void Correct(double scale);
+  void Correct(double here_m, double scale);
   bool Fuse();
-  double OldUntil() const;
+  double OldUntil(double here_m) const;
+  int FrameAt(double path_m) const;
+  void LookAgain(double scale, TimingTable& timing);
 
   Options options_;
   ObjectMap& map_;

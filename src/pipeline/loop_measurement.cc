@@ -16,18 +16,18 @@ constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's headin
 
 std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const PassLayout& global,
                                                   const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                                  double lag_m, double old_until_m) const {
+                                                  double query_m, double old_until_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < 3; ++i) {
-    auto now = MeasureAt(lag_m + kFurtherBack * i, local, global, matches, sigma_m, old_until_m);
+    auto now = MeasureAt(query_m - kFurtherBack * i, local, global, matches, sigma_m, old_until_m);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.belief.max_heading_sigma_rad) break;
   }
   return best;
 }
 
-std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayout& local, const PassLayout& global,
+std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLayout& local, const PassLayout& global,
                                                     const std::vector<std::pair<int, int>>& matches, double sigma_m,
                                                     double old_until_m) const {
   if (matches.empty()) return std::nullopt;
@@ -50,8 +50,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayo
   if (!drift.usable) return std::nullopt;
 
   std::sort(seen.begin(), seen.end());
-  const double query_m = std::clamp(frames_.back().travelled - lag_m, seen.front(), seen.back());
-  loop.query = FrameAt(query_m);
+  loop.query = FrameAt(std::clamp(query_m, seen.front(), seen.back()));
   loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
   if (loop.match < 0) return std::nullopt;
   const Pose &T_world_query = frames_[loop.query].T_world_cam, &T_world_match = frames_[loop.match].T_world_cam;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -51,8 +52,13 @@ class PassMap {
   /// Landmarks were fused: those that are gone -> those that took them over.
   void Rename(const std::map<int, LandmarkId>& heirs);
 
-  /// Objects seen since `from_m` of path at least `min_sightings` times, where those sightings put them.
-  PassLayout Recent(double from_m, int min_sightings) const;
+  /// Objects seen at least `min_sightings` times between two points of the path, where those sightings put them.
+  PassLayout Between(double from_m, double to_m, int min_sightings) const;
+
+  /// ... since then.
+  PassLayout Recent(double from_m, int min_sightings) const {
+    return Between(from_m, std::numeric_limits<double>::infinity(), min_sightings);
+  }
 
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;
