@@ -47,35 +47,33 @@ bool LoopCloser::Closed() const {
                      [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
 }
 
-double LoopCloser::OldUntil(double here_m) const {
-  return here_m - options_.loop.layout.local_m - options_.loop.layout.gap_m;
-}
-
 bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
-  if (frames_.back().travelled - last_attempt_m_ < options_.loop.layout.every_m) return false;
+  const LoopLayoutOptions& o = options_.loop.layout;
+  if (frames_.back().travelled - last_attempt_m_ < o.every_m) return false;
   last_attempt_m_ = frames_.back().travelled;
-  return DetectAndCorrect(last_attempt_m_, options_.loop.lag_m, scale, timing);
+  return DetectAndCorrect({last_attempt_m_, options_.loop.lag_m, o.local_m, 0.}, scale, timing);
 }
 
 void LoopCloser::Finish(double scale, TimingTable& timing) {
   constexpr double kStep = 10.;  // [m]
   if (frames_.empty() || options_.mode == Options::Mode::kPaper || matcher_) return;
-  for (double lag = options_.loop.lag_m - kStep; lag > 0; lag -= kStep)
-    DetectAndCorrect(frames_.back().travelled, lag, scale, timing);
+  const LoopOptions& o = options_.loop;
+  for (double lag = o.lag_m - kStep; lag > 0; lag -= kStep)
+    DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
   if (Closed()) LookAgain(scale, timing);
 }
 
-bool LoopCloser::DetectAndCorrect(double here_m, double lag_m, double scale, TimingTable& timing) {
+bool LoopCloser::DetectAndCorrect(const Look& look, double scale, TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
-    if (!Find(here_m, lag_m)) return false;
+    if (!Find(look)) return false;
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moved = !Agree();
-  if (moved) Correct(here_m, scale);
+  if (moved) Correct(look.here_m, scale);
   const bool fused = Fuse();
   if (moved && options_.mode != Options::Mode::kPaper) {
-    const int here = FrameAt(here_m);
+    const int here = FrameAt(look.here_m);
     const Pose before = frames_[here].T_world_cam;
     OptimiseAfterLoop(map_, frames_, scale, options_);
     tracks_.Move(LayoutChange(before, frames_[here].T_world_cam, map_.gravity()));
@@ -89,7 +87,15 @@ int LoopCloser::FrameAt(double path_m) const {
   return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
 }
 
-// With hindsight: once the trajectory is known to within the loops, little has to be seen of a place to know it again.
+bool LoopCloser::ClosedNear(double path_m) const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
+    return attempt.loop.row.decision == LoopDecision::kAccepted &&
+           std::abs(frames_[attempt.loop.query].travelled - path_m) < 0.5 * options_.loop.layout.every_m;
+  });
+}
+
+// What was missed at first for want of evidence is found where a later loop has made the trajectory right: the prior is
+// narrow there, and few objects suffice. Only what is believed becomes an attempt.
 void LoopCloser::LookAgain(double scale, TimingTable& timing) {
   path_ = {};
   for (const Attempt& attempt : attempts_)
@@ -97,24 +103,25 @@ void LoopCloser::LookAgain(double scale, TimingTable& timing) {
       path_.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
   tracks_.Forget();
   const std::size_t first_looks = attempts_.size();
-  const LoopLayoutOptions& o = options_.loop.layout;
-  for (double here = o.local_m; here < frames_.back().travelled; here += o.every_m)
-    DetectAndCorrect(here, options_.loop.lag_m, scale, timing);
+  const LoopOptions& o = options_.loop;
+  for (double here = o.lag_m; here < frames_.back().travelled; here += o.layout.every_m)
+    if (!ClosedNear(here - o.lag_m)) DetectAndCorrect({here, o.lag_m, o.layout.hindsight_m, o.lag_m}, scale, timing);
   attempts_.erase(std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first_looks), attempts_.end(),
                                  [](const Attempt& attempt) { return !attempt.believed; }),
                   attempts_.end());
 }
 
 // True: something new is believed.
-bool LoopCloser::Find(double here_m, double lag_m) {
-  if (matcher_) return DetectWithMatcher(lag_m);
-  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(here_m, lag_m);
+bool LoopCloser::Find(const Look& look) {
+  if (matcher_) return DetectWithMatcher();
+  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(look);
 }
 
-bool LoopCloser::Detect(double here_m, double lag_m) {
+bool LoopCloser::Detect(const Look& look) {
   const LoopOptions& o = options_.loop;
-  const PassLayout local = passes_.Between(here_m - o.layout.local_m, here_m, o.layout.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(here_m), o.layout.min_sightings);
+  const double old_until = look.OldUntil(o.layout.gap_m);
+  const PassLayout local = passes_.Between(look.here_m - look.local_m, look.here_m, o.layout.min_sightings);
+  const PassLayout global = passes_.Before(old_until, o.layout.min_sightings);
   const int few = o.match.search.min_matches;
   if (static_cast<int>(std::min(local.objects.size(), global.objects.size())) < few) return false;
 
@@ -126,13 +133,14 @@ bool LoopCloser::Detect(double here_m, double lag_m) {
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
-  tracks_.Update(likelihood, found, search, here_m,
-                 OdometryPrior(passes_, path_.From(here_m), local, global, index, o.prior));
+  tracks_.Update(likelihood, found, search, look.here_m,
+                 OdometryPrior(passes_, path_.From(look.here_m), local, global, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
   const LoopMeter meter(map_.gravity(), frames_, passes_, o);
-  auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, here_m - lag_m, OldUntil(here_m));
+  auto loop = meter.Measure(local, global, best.fit.matches, best.fit.sigma, look.here_m - look.lag_m, old_until,
+                            look.beyond_m);
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.track = best.id;
@@ -184,9 +192,9 @@ void LoopCloser::Believe(Attempt& attempt, const std::string& reason) {
 // to it.
 bool LoopCloser::DetectAsPrinted() {
   const LoopLayoutOptions& o = options_.loop.layout;
-  const double here_m = frames_.back().travelled;
-  PassLayout local = passes_.Between(here_m - o.local_m, here_m, o.min_sightings);
-  PassLayout global = passes_.Before(OldUntil(here_m), o.min_sightings);
+  const double local_from = frames_.back().travelled - o.local_m;
+  PassLayout local = passes_.Recent(local_from, o.min_sightings);
+  PassLayout global = passes_.Before(local_from - o.gap_m, o.min_sightings);
   for (PassLayout* layout : {&local, &global})
     for (std::size_t i = 0; i < layout->objects.size(); ++i)
       layout->objects[i].position = map_.gravity().Basis().transpose() * layout->places[i].position;
@@ -218,12 +226,12 @@ bool LoopCloser::DetectAsPrinted() {
 }
 
 // A matcher of the host finds the place and decides; drift, pose graph and map are ours.
-bool LoopCloser::DetectWithMatcher(double lag_m) {
+bool LoopCloser::DetectWithMatcher() {
   const LoopLayoutOptions& o = options_.loop.layout;
-  const double here_m = frames_.back().travelled;
-  const PassLayout local = passes_.Between(here_m - o.local_m, here_m, o.min_sightings);
-  const PassLayout global = passes_.Before(OldUntil(here_m), o.min_sightings);
-  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(here_m),
+  const double here = frames_.back().travelled, local_from = here - o.local_m, old_until = local_from - o.gap_m;
+  const PassLayout local = passes_.Recent(local_from, o.min_sightings);
+  const PassLayout global = passes_.Before(old_until, o.min_sightings);
+  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), old_until,
                                         [](double m, const FrameRecord& frame) { return m < frame.travelled; });
   if (old_end == frames_.begin()) return false;
   const auto answer = matcher_({local.objects, global.objects, frames_.back().frame, std::prev(old_end)->frame});
@@ -235,7 +243,7 @@ bool LoopCloser::DetectWithMatcher(double lag_m) {
     constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
     CheckMatches(answer->matches, local.objects.size(), global.objects.size());
     const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
-    loop = meter.Measure(local, global, answer->matches, kSigma, here_m - lag_m, OldUntil(here_m));
+    loop = meter.Measure(local, global, answer->matches, kSigma, here - options_.loop.lag_m, old_until, 0.);
   }
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));

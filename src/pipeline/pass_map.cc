@@ -16,8 +16,8 @@ struct Place {
   double height_m = 0, seen_m = 0;
 };
 std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
-                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m,
-                               double to_m, int min_sightings) {
+                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m, double to_m,
+                               int min_sightings) {
   const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Vec3 weighted = Vec3::Zero();
