@@ -10,20 +10,11 @@
 #include "pipeline/loop_prior.h"
 #include "pipeline/move.h"
 #include "pipeline/refine.h"
-#include "sslcd/core/error.h"
 
 namespace sslcd {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-
-void CheckMatches(const std::vector<std::pair<int, int>>& matches, std::size_t locals, std::size_t globals) {
-  for (const auto& [i, j] : matches)
-    if (i < 0 || j < 0 || i >= static_cast<int>(locals) || j >= static_cast<int>(globals))
-      throw Error(ErrorKind::kUsage, "the place matcher matches objects " + std::to_string(i) + " and " +
-                                         std::to_string(j) + " of " + std::to_string(locals) + " local and " +
-                                         std::to_string(globals) + " global ones");
-}
 
 }  // namespace
 
@@ -47,50 +38,81 @@ bool LoopCloser::Closed() const {
                      [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
 }
 
-double LoopCloser::OldUntil() const {
-  return frames_.back().travelled - options_.loop.layout.local_m - options_.loop.layout.gap_m;
-}
-
 bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
-  if (frames_.back().travelled - last_attempt_m_ < options_.loop.layout.every_m) return false;
+  const LoopLayoutOptions& o = options_.loop.layout;
+  if (frames_.back().travelled - last_attempt_m_ < o.every_m) return false;
   last_attempt_m_ = frames_.back().travelled;
-  return DetectAndCorrect(options_.loop.lag_m, scale, timing);
+  return DetectAndCorrect({last_attempt_m_, options_.loop.lag_m, o.local_m, 0.}, scale, timing);
 }
 
 void LoopCloser::Finish(double scale, TimingTable& timing) {
   constexpr double kStep = 10.;  // [m]
   if (frames_.empty() || options_.mode == Options::Mode::kPaper || matcher_) return;
-  for (double lag = options_.loop.lag_m - kStep; lag > 0; lag -= kStep) DetectAndCorrect(lag, scale, timing);
+  const LoopOptions& o = options_.loop;
+  for (double lag = o.lag_m - kStep; lag > 0; lag -= kStep)
+    DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
+  if (Closed()) LookAgain(scale, timing);
 }
 
-bool LoopCloser::DetectAndCorrect(double lag_m, double scale, TimingTable& timing) {
+bool LoopCloser::DetectAndCorrect(const Look& look, double scale, TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
-    if (!Find(lag_m)) return false;
+    if (!Find(look)) return false;
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moved = !Agree();
-  if (moved) Correct(scale);
+  if (moved) Correct(look.here_m, scale);
   const bool fused = Fuse();
   if (moved && options_.mode != Options::Mode::kPaper) {
-    const Pose before = frames_.back().T_world_cam;
+    const int here = FrameAt(look.here_m);
+    const Pose before = frames_[here].T_world_cam;
     OptimiseAfterLoop(map_, frames_, scale, options_);
     passes_.MovedFrom(0);
-    tracks_.Move(LayoutChange(before, frames_.back().T_world_cam, map_.gravity()));
+    tracks_.Move(LayoutChange(before, frames_[here].T_world_cam, map_.gravity()));
   }
   return moved || fused;
 }
 
+int LoopCloser::FrameAt(double path_m) const {
+  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
+}
+
+bool LoopCloser::ClosedNear(double path_m) const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
+    return attempt.loop.row.decision == LoopDecision::kAccepted &&
+           std::abs(frames_[attempt.loop.query].travelled - path_m) < 0.5 * options_.loop.layout.every_m;
+  });
+}
+
+// What was missed at first for want of evidence is found where a later loop has made the trajectory right: the prior is
+// narrow there, and few objects suffice. Only what is believed becomes an attempt.
+void LoopCloser::LookAgain(double scale, TimingTable& timing) {
+  path_ = {};
+  for (const Attempt& attempt : attempts_)
+    if (attempt.loop.row.decision == LoopDecision::kAccepted)
+      path_.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
+  tracks_.Forget();
+  const std::size_t first_looks = attempts_.size();
+  const LoopOptions& o = options_.loop;
+  for (double here = o.lag_m; here < frames_.back().travelled; here += o.layout.every_m)
+    if (!ClosedNear(here - o.lag_m)) DetectAndCorrect({here, o.lag_m, o.layout.hindsight_m, o.lag_m}, scale, timing);
+  attempts_.erase(std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first_looks), attempts_.end(),
+                                 [](const Attempt& attempt) { return !attempt.believed; }),
+                  attempts_.end());
+}
+
 // True: something new is believed.
-bool LoopCloser::Find(double lag_m) {
-  if (matcher_) return DetectWithMatcher(lag_m);
-  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(lag_m);
+bool LoopCloser::Find(const Look& look) {
+  if (matcher_) return DetectWithMatcher();
+  return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(look);
 }
 
 // The global map, kept from attempt to attempt.
-const LayoutIndex& LoopCloser::OldMap() {
+const LayoutIndex& LoopCloser::OldMap(double old_until_m) {
   const LoopOptions& o = options_.loop;
-  LayoutChanges changes = passes_.ChangesBefore(OldUntil(), o.layout.min_sightings);
+  LayoutChanges changes = passes_.ChangesBefore(old_until_m, o.layout.min_sightings);
   if (!old_ || changes.anew)
     old_.emplace(std::move(changes.objects), o.match.max_pair_m, o.match.reach_m);
   else
@@ -98,11 +120,11 @@ const LayoutIndex& LoopCloser::OldMap() {
   return *old_;
 }
 
-bool LoopCloser::Detect(double lag_m) {
+bool LoopCloser::Detect(const Look& look) {
   const LoopOptions& o = options_.loop;
-  const double here = frames_.back().travelled;
-  const PassLayout local = passes_.Recent(here - o.layout.local_m, o.layout.min_sightings);
-  const LayoutIndex& index = OldMap();
+  const double old_until = look.OldUntil(o.layout.gap_m);
+  const PassLayout local = passes_.Between(look.here_m - look.local_m, look.here_m, o.layout.min_sightings);
+  const LayoutIndex& index = OldMap(old_until);
   const int few = o.match.search.min_matches;
   if (static_cast<int>(std::min(local.objects.size(), index.objects().size())) < few) return false;
 
@@ -113,12 +135,14 @@ bool LoopCloser::Detect(double lag_m) {
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);
   if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
-  tracks_.Update(likelihood, found, search, here, OdometryPrior(passes_, path_.From(here), local, index, o.prior));
+  tracks_.Update(likelihood, found, search, look.here_m,
+                 OdometryPrior(passes_, path_.From(look.here_m), local, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
   const LoopMeter meter(map_.gravity(), frames_, passes_, o);
-  auto loop = meter.Measure(local, index, best.fit.matches, best.fit.sigma, lag_m, OldUntil());
+  auto loop =
+      meter.Measure(local, index, best.fit.matches, best.fit.sigma, look.here_m - look.lag_m, old_until, look.beyond_m);
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.track = best.id;
@@ -165,95 +189,6 @@ void LoopCloser::Believe(Attempt& attempt, const std::string& reason) {
   path_.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
 }
 
-// The two-stage matching, the drift and the loop frame of mode: paper (IV-B to IV-D), which knows no refusal. The loop
-// frame is the first one that saw any of the matched objects; the newest camera, moved by the printed T_drift, is tied
-// to it.
-bool LoopCloser::DetectAsPrinted() {
-  const LoopLayoutOptions& o = options_.loop.layout;
-  PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
-  PassLayout global = passes_.Before(OldUntil(), o.min_sightings);
-  for (PassLayout* layout : {&local, &global})
-    for (std::size_t i = 0; i < layout->objects.size(); ++i)
-      layout->objects[i].position = map_.gravity().Basis().transpose() * layout->places[i].position;
-  const auto matches = PaperMatch(local.objects, global.objects, options_.loop.paper);
-  if (!matches) return false;
-  LoopMeasurement loop;
-  LoopClosure& row = loop.row;
-  std::vector<DriftPair> pairs;
-  loop.query = static_cast<int>(frames_.size()) - 1;
-  loop.match = loop.query;
-  for (const ObjectMatch& match : *matches) {
-    DriftPair& pair = pairs.emplace_back();
-    pair.T_world_local = ToPose(local.places[match.local], map_.gravity());
-    pair.T_world_global = ToPose(global.places[match.global], map_.gravity());
-    row.pairs.push_back({{local.objects[match.local].id}, {global.objects[match.global].id}});
-    row.score += match.similarity;
-    for (const PassObject& pass : passes_.passes())
-      if (pass.id == row.pairs.back().second) loop.match = std::min(loop.match, pass.sightings.front().first);
-  }
-  const std::optional<Pose> T_drift = SolveDriftAsPrinted(pairs);
-  if (!T_drift || loop.match == loop.query) return false;
-  const FrameRecord &query = frames_[loop.query], &match = frames_[loop.match];
-  row.query_frame = query.frame;
-  row.match_frame = match.frame;
-  row.T_match_query = match.T_world_cam.inverse() * T_drift->inverse() * query.T_world_cam;  // Eq. 19
-  row.covariance = Mat6::Identity() * 0.01;                                                  // none is printed: tight
-  Believe(AddAttempt(std::move(loop)), "as printed: " + std::to_string(pairs.size()) + " objects match");
-  return true;
-}
-
-// A matcher of the host finds the place and decides; drift, pose graph and map are ours.
-bool LoopCloser::DetectWithMatcher(double lag_m) {
-  const LoopLayoutOptions& o = options_.loop.layout;
-  const PassLayout local = passes_.Recent(frames_.back().travelled - o.local_m, o.min_sightings);
-  const LayoutIndex& global = OldMap();
-  const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), OldUntil(),
-                                        [](double m, const FrameRecord& frame) { return m < frame.travelled; });
-  if (old_end == frames_.begin()) return false;
-  const auto answer = matcher_({local.objects, global.objects(), frames_.back().frame, std::prev(old_end)->frame});
-  if (!answer) return false;
-  std::optional<LoopMeasurement> loop;
-  if (answer->matches.empty()) {
-    loop = MeasureImages(answer->match_frame, answer->T_match_query);
-  } else {
-    constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
-    CheckMatches(answer->matches, local.objects.size(), global.objects().size());
-    const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
-    loop = meter.Measure(local, global, answer->matches, kSigma, lag_m, OldUntil());
-  }
-  if (!loop) return false;
-  Attempt& attempt = AddAttempt(std::move(*loop));
-  LoopClosure& row = attempt.loop.row;
-  row.score = answer->score;
-  row.decision = LoopDecision::kAmbiguous;
-  row.reason = "the matcher is not sure";
-  if (answer->accepted) Believe(attempt, "the matcher is sure");
-  return answer->accepted;
-}
-
-// Two images tie two cameras together: the newest one and an old one.
-LoopMeasurement LoopCloser::MeasureImages(int match_frame, const Pose& T_match_query) const {
-  const auto match = std::find_if(frames_.begin(), frames_.end(),
-                                  [&](const FrameRecord& frame) { return frame.frame == match_frame; });
-  if (match == frames_.end())
-    throw Error(ErrorKind::kUsage, "the place matcher answers with frame " + std::to_string(match_frame) +
-                                       ", which has not been seen; name one up to PlaceQuery::old_frame");
-  LoopMeasurement loop;
-  loop.query = static_cast<int>(frames_.size()) - 1;
-  loop.match = static_cast<int>(match - frames_.begin());
-  LoopClosure& row = loop.row;
-  row.query_frame = frames_.back().frame;
-  row.match_frame = match_frame;
-  row.T_match_query = T_match_query;
-  Vec6 sigmas;
-  sigmas << Vec3::Constant(options_.loop.sigma_m), Vec3::Constant(options_.loop.sigma_rad);
-  row.covariance = Mat6(sigmas.cwiseAbs2().asDiagonal());
-  const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
-  row.viewpoint_change_rad =
-      std::abs(WrapAngle(meter.Heading(match->T_world_cam * T_match_query) - meter.Heading(match->T_world_cam)));
-  return loop;
-}
-
 LoopCloser::Attempt& LoopCloser::AddAttempt(LoopMeasurement loop) {
   Attempt& attempt = attempts_.emplace_back();
   attempt.loop = std::move(loop);
@@ -276,7 +211,7 @@ bool LoopCloser::Agree() const {
 
 // Solves the pose graph with all loops ever believed, which decides anew about each of them, and moves trajectory and
 // map.
-void LoopCloser::Correct(double scale) {
+void LoopCloser::Correct(double here_m, double scale) {
   std::vector<Attempt*> loops;
   std::vector<LoopEdge> edges;
   for (Attempt& attempt : attempts_) {
@@ -303,7 +238,8 @@ void LoopCloser::Correct(double scale) {
   MoveKeyframes(frames_, graph.keyframes, PosesOf(graph.graph));
   MoveObjects(map_, frames_, before, options_.noise);
   passes_.MovedFrom(0);
-  tracks_.Move(LayoutChange(before.back(), frames_.back().T_world_cam, map_.gravity()));
+  const int here = FrameAt(here_m);
+  tracks_.Move(LayoutChange(before[here], frames_[here].T_world_cam, map_.gravity()));
 }
 
 // What was matched becomes one landmark.

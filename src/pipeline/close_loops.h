@@ -32,7 +32,8 @@ class LoopCloser {
   /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or map have changed.
   bool AddKeyframe(double scale, TimingTable& timing);
 
-  /// After the last frame: nothing more is to come that could surround the latest cameras with objects.
+  /// After the last frame: nothing more is to come that could surround the latest cameras with objects. Then looks at
+  /// the whole run again, with hindsight.
   void Finish(double scale, TimingTable& timing);
 
   /// After everything was refined and associated anew: takes back loops that the trajectory does not go through.
@@ -53,20 +54,29 @@ class LoopCloser {
     bool believed = false;   // an edge of the pose graph, which may refuse it
     bool in_graph = false;   // ... since the last time that was solved
   };
-  bool DetectAndCorrect(double lag_m, double scale, TimingTable& timing);
-  bool Find(double lag_m);
-  const LayoutIndex& OldMap();
-  bool Detect(double lag_m);
-  bool DetectWithMatcher(double lag_m);
+  /// Where on the path to look for a loop, and how. [m]
+  struct Look {
+    double here_m, lag_m;  // the path so far; the query camera stood so far back
+    double local_m;        // the local map
+    double beyond_m;       // the query camera may have left the last matched object behind by this
+    double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
+  };
+  bool DetectAndCorrect(const Look& look, double scale, TimingTable& timing);
+  bool Find(const Look& look);
+  const LayoutIndex& OldMap(double old_until_m);
+  bool Detect(const Look& look);
+  bool DetectWithMatcher();
   LoopMeasurement MeasureImages(int match_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
   Attempt& AddAttempt(LoopMeasurement loop);
   bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);
   void Believe(Attempt& attempt, const std::string& reason);
   bool Agree() const;
-  void Correct(double scale);
+  void Correct(double here_m, double scale);
   bool Fuse();
-  double OldUntil() const;
+  int FrameAt(double path_m) const;
+  bool ClosedNear(double path_m) const;
+  void LookAgain(double scale, TimingTable& timing);
 
   Options options_;
   ObjectMap& map_;

@@ -16,20 +16,20 @@ constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's headin
 
 std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const LayoutIndex& global,
                                                   const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                                  double lag_m, double old_until_m) const {
+                                                  double query_m, double old_until_m, double beyond_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < 3; ++i) {
-    auto now = MeasureAt(lag_m + kFurtherBack * i, local, global, matches, sigma_m, old_until_m);
+    auto now = MeasureAt(query_m - kFurtherBack * i, local, global, matches, sigma_m, old_until_m, beyond_m);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.belief.max_heading_sigma_rad) break;
   }
   return best;
 }
 
-std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayout& local, const LayoutIndex& global,
+std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLayout& local, const LayoutIndex& global,
                                                     const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                                    double old_until_m) const {
+                                                    double old_until_m, double beyond_m) const {
   if (matches.empty()) return std::nullopt;
   LoopMeasurement loop;
   LoopClosure& row = loop.row;
@@ -52,8 +52,9 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayo
   if (!drift.usable) return std::nullopt;
 
   std::sort(seen.begin(), seen.end());
-  const double query_m = std::clamp(frames_.back().travelled - lag_m, seen.front(), seen.back());
-  loop.query = FrameAt(query_m);
+  // Where the matched objects were in sight, or later on the odometry's word.
+  const int last_seen = FrameAt(std::clamp(query_m, seen.front(), seen.back()));
+  loop.query = FrameAt(std::clamp(query_m, seen.front(), seen.back() + beyond_m));
   loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
   if (loop.match < 0) return std::nullopt;
   const Pose &T_world_query = frames_[loop.query].T_world_cam, &T_world_match = frames_[loop.match].T_world_cam;
@@ -76,8 +77,10 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double lag_m, const PassLayo
   row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected) - Heading(T_world_match)));
   const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
-  row.covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
-  row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
+  const Pose since = frames_[last_seen].T_odom_cam.inverse() * frames_[loop.query].T_odom_cam;
+  const OdometrySigmas walked = loop.query > last_seen ? SigmasOf(since, options_.odometry) : OdometrySigmas{};
+  row.covariance.diagonal().head<3>().array() += std::pow(std::hypot(options_.sigma_m, walked.translation), 2);
+  row.covariance.diagonal().tail<3>().array() += std::pow(std::hypot(options_.sigma_rad, walked.rotation), 2);
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
   return loop;

@@ -32,19 +32,20 @@ class LoopMeter {
       : gravity_(gravity), frames_(frames), passes_(passes), options_(options) {}
 
   /// `matches`: index of local, of global; `sigma_m`: how well their positions agree; `old_until_m`: where the path of
-  /// the global map ends. Tries `lag_m` and, while the heading remains too uncertain, cameras further back. None where
-  /// the matches fix no pose.
+  /// the global map ends. Tries the camera at `query_m` and, while the heading remains too uncertain, cameras further
+  /// back; none that stood before the first matched object or more than `beyond_m` after the last one. What odometry
+  /// may have done since that one counts in the covariance. None where the matches fix no pose.
   std::optional<LoopMeasurement> Measure(const PassLayout& local, const LayoutIndex& global,
-                                         const std::vector<std::pair<int, int>>& matches, double sigma_m, double lag_m,
-                                         double old_until_m) const;
+                                         const std::vector<std::pair<int, int>>& matches, double sigma_m,
+                                         double query_m, double old_until_m, double beyond_m) const;
 
   /// Which way a camera looks, horizontally. [rad]
   double Heading(const Pose& T_world_cam) const;
 
  private:
-  std::optional<LoopMeasurement> MeasureAt(double lag_m, const PassLayout& local, const LayoutIndex& global,
+  std::optional<LoopMeasurement> MeasureAt(double query_m, const PassLayout& local, const LayoutIndex& global,
                                            const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                           double old_until_m) const;
+                                           double old_until_m, double beyond_m) const;
   int FrameAt(double path_m) const;
   int NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const;
   double Bent(int frame, double seen_m) const;

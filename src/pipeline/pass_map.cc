@@ -9,13 +9,14 @@
 namespace sslcd {
 namespace {
 
-// Information-weighted mean of where the sightings since `from_m` put an object. None if they are fewer than asked for.
+// Information-weighted mean of where the sightings on a stretch of the path put an object. None if they are fewer than
+// asked for.
 struct Place {
   UprightPose pose;
   double height_m = 0, seen_m = 0;
 };
 std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
-                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m,
+                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m, double to_m,
                                int min_sightings) {
   const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -26,7 +27,7 @@ std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRe
   Pose T_cam_world;  // of the nearest camera
   for (const auto& [f, d] : pass.sightings) {
     const FrameRecord& frame = frames[f];
-    if (frame.travelled < from_m) continue;
+    if (frame.travelled < from_m || frame.travelled > to_m) continue;
     const Pose& T_cam_object = frame.detections[d].T_cam_object;
     const Vec3 p = T_cam_object.translation();
     const Eigen::Matrix3d R = frame.T_world_cam.so3().matrix();
@@ -115,7 +116,7 @@ void PassMap::Rebuild() {
 void PassMap::Finish(PassObject& pass) {
   touched_.insert(pass.id.value);
   pass.anchor = pass.sightings[pass.sightings.size() / 2].first;
-  const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., 1);
+  const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., pass.last_m, 1);
   pass.T_anchor_object = frames_[pass.anchor].T_world_cam.inverse() * ToPose(place->pose, map_.gravity());
   pass.height_m = place->height_m;
 }
@@ -160,18 +161,20 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, d
   layout.seen_m.push_back(seen_m);
 }
 
-PassLayout PassMap::Recent(double from_m, int min_sightings) const {
+PassLayout PassMap::Between(double from_m, double to_m, int min_sightings) const {
   std::set<int> ids;
-  SeenIn(FrameFrom(from_m), frames_.size(), ids);
+  for (std::size_t f = FrameFrom(from_m); f < frames_.size() && frames_[f].travelled <= to_m; ++f)
+    SeenIn(f, f + 1, ids);
   PassLayout layout;
   for (const int id : ids) {
     if (!Usable(map_, {id})) continue;
     const std::vector<int>& all = PassesOf({id});
-    const auto latest =
-        std::find_if(all.rbegin(), all.rend(), [&](int pass) { return passes_[pass].last_m >= from_m; });
+    const auto latest = std::find_if(all.rbegin(), all.rend(), [&](int pass) {
+      return passes_[pass].last_m >= from_m && passes_[pass].first_m <= to_m;
+    });
     if (latest == all.rend()) continue;
     const PassObject& pass = passes_[*latest];
-    const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, from_m, min_sightings);
+    const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, from_m, to_m, min_sightings);
     if (place) Append({id}, place->pose, place->height_m, place->seen_m, pass.colour, pass.embedding, layout);
   }
   return layout;

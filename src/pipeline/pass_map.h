@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -64,8 +65,13 @@ class PassMap {
   /// Trajectory or detections of the frames from this one on are not what they were; 0: of all.
   void MovedFrom(int frame) { moved_from_ = std::min(moved_from_, static_cast<std::size_t>(frame)); }
 
-  /// Objects seen since `from_m` of path at least `min_sightings` times, where those sightings put them.
-  PassLayout Recent(double from_m, int min_sightings) const;
+  /// Objects seen at least `min_sightings` times between two points of the path, where those sightings put them.
+  PassLayout Between(double from_m, double to_m, int min_sightings) const;
+
+  /// ... since then.
+  PassLayout Recent(double from_m, int min_sightings) const {
+    return Between(from_m, std::numeric_limits<double>::infinity(), min_sightings);
+  }
 
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;

@@ -129,6 +129,21 @@ TEST(PoseTracks, AloneTheyCompeteWithNowhere) {
   EXPECT_NEAR(attempts.tracks.Margin(0), attempts.tracks.tracks()[0].evidence, 1e-9);
 }
 
+TEST(PoseTracks, StartAgainUnderNewNames) {
+  Attempts attempts(Strewn(60, 80, 1));
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  ASSERT_FALSE(attempts.tracks.tracks().empty());
+  const PoseTrack before = attempts.tracks.tracks()[0];
+  attempts.tracks.Forget();
+  EXPECT_TRUE(attempts.tracks.tracks().empty());
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  ASSERT_FALSE(attempts.tracks.tracks().empty());
+  const PoseTrack& now = attempts.tracks.tracks()[0];
+  EXPECT_GT(now.id, before.id);
+  EXPECT_EQ(now.votes.size(), 1u);
+  EXPECT_NEAR(now.evidence, before.evidence, 1e-9);
+}
+
 TEST(PoseTracks, FollowAChangeOfCoordinates) {
   Attempts attempts(Strewn(60, 80, 1));
   attempts.Update(attempts.SeenAt(10, 5), 100);

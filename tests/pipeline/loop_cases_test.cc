@@ -6,6 +6,7 @@
 
 #include "loop_drives.h"
 #include "sslcd/io/run_folder.h"
+#include "sslcd/sim/halv.h"
 
 namespace sslcd {
 namespace {
@@ -57,6 +58,33 @@ TEST(LoopCases, LoopsToACopyOfAPlaceContradictTheTrueOnes) {
     }
   }
   EXPECT_GT(contradict, 50);
+}
+
+TEST(LoopCases, WithHindsightLessIsEnough) {
+  Options as_it_came;
+  as_it_came.refine.enabled = false;  // no end, no second look
+  double first = 0, second = 0;
+  for (const int seed : {1, 4}) {
+    sim::HalvOptions curve;
+    curve.scene.case_number = 3;
+    const sim::HalvSequence halv = sim::MakeHalv(seed, curve);
+    const sim::World& world = halv.scene.world;
+    const std::vector<Frame> frames = sim::MakeFrames(halv.odometry, halv.detections);
+    const auto run = [&](const Options& options, double& recall) {
+      RunResult result = RunSequence(frames, {world.gravity, world.labels, world.camera}, options);
+      const SequenceMetrics metrics =
+          ComputeSequenceMetrics({result.trajectory.poses, result.odometry.poses, world.truth.poses, frames,
+                                  halv.detections.identity, result.loops, result.objects});
+      EXPECT_EQ(metrics.wrong_loops, 0);
+      recall += metrics.recall / 2;
+      return result.loops;
+    };
+    const std::vector<LoopClosure> before = run(as_it_came, first), after = run({}, second);
+    ASSERT_GT(after.size(), before.size());
+    for (std::size_t i = before.size(); i < after.size(); ++i)
+      EXPECT_EQ(after[i].newest_frame, frames.back().index) << "known at the end only";
+  }
+  EXPECT_GT(second, first + 0.1);
 }
 
 TEST(LoopCases, LoopsGoOnAfterARefinementInMidRun) {

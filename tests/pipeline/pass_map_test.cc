@@ -166,6 +166,10 @@ TEST(PassMap, WhatTakesPart) {
   EXPECT_EQ(world.passes.Recent(290, 5).objects.size(), 1u);
   EXPECT_EQ(world.passes.Recent(303, 3).objects.size(), 0u) << "only sightings since then count";
   EXPECT_EQ(world.passes.Recent(303, 2).objects.size(), 1u);
+  EXPECT_EQ(world.passes.Between(0, 100, 2).objects.size(), 1u) << "as it was then: one once, one not at all yet";
+  EXPECT_EQ(world.passes.Between(0, 100, 1).objects.size(), 2u);
+  EXPECT_EQ(world.passes.Between(0, 1, 3).objects.size(), 0u) << "nor do later sightings count";
+  EXPECT_TRUE(world.passes.Between(100, 0, 1).objects.empty());
 }
 
 TEST(PassMap, LabelsAndHeadings) {

@@ -57,6 +57,9 @@ class PoseTracks {
   /// The local map's coordinates have changed: new = change(old).
   void Move(const YawShift& change);
 
+  /// Starts again; new tracks get new ids.
+  void Forget() { tracks_.clear(); }
+
  private:
   PoseTrackOptions options_;
   std::vector<PoseTrack> tracks_;

@@ -12,11 +12,12 @@ namespace sslcd {
 
 /// What is compared with what.
 struct LoopLayoutOptions {
-  double every_m = 5.;    ///< an attempt every so much path
-  double local_m = 75.;   ///< the local map: objects seen on the last so much path
-  double gap_m = 10.;     ///< the global map: objects on passes that ended so long before the local map begins
-  double split_m = 30.;   ///< an object unseen for so much path is on another pass when it comes back
-  int min_sightings = 2;  ///< objects seen less often on a pass take no part
+  double every_m = 5.;       ///< an attempt every so much path
+  double local_m = 75.;      ///< the local map: objects seen on the last so much path
+  double hindsight_m = 60.;  ///< ... when the whole run is looked at again: the pose is nearly known, fewer objects do
+  double gap_m = 10.;        ///< the global map: objects on passes that ended so long before the local map begins
+  double split_m = 30.;      ///< an object unseen for so much path is on another pass when it comes back
+  int min_sightings = 2;     ///< objects seen less often on a pass take no part
 };
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 
