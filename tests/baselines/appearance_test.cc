@@ -20,7 +20,9 @@ constexpr int kWidth = 320, kHeight = 240;
 // A camera goes along a painted wall, looking at it: to the right for 8 m, then it starts again at the left.
 class Wall : public testing::Test {
  protected:
-  Wall() : folder_(testing::TempDir() + "/sslcd_wall") {
+  Wall()
+      : folder_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+                "_sslcd_wall") {
     fs::remove_all(folder_);
     for (const char* images : {"/image_2", "/image_3"}) fs::create_directories(folder_ + images);
     cv::RNG random(1);

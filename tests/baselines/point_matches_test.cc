@@ -13,7 +13,9 @@ namespace {
 
 class PointMatches : public testing::Test {
  protected:
-  PointMatches() : file_(testing::TempDir() + "/sslcd_point_matches.txt") {}
+  PointMatches()
+      : file_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+              "_sslcd_point_matches.txt") {}
   ~PointMatches() override { std::filesystem::remove(file_); }
 
   PlaceMatcher Matcher(const std::string& text) const {

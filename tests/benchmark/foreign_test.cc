@@ -15,7 +15,9 @@ namespace {
 
 class Foreign : public testing::Test {
  protected:
-  Foreign() : file_(testing::TempDir() + "/sslcd_foreign.txt") {
+  Foreign()
+      : file_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
+              "_sslcd_foreign.txt") {
     for (int i = 0; i < 100; ++i) {
       truth_.stamps.push_back(10 + 0.1 * i);
       truth_.poses.push_back(Pose::Trans(0.3 * i, 0, std::sin(0.1 * i)));
