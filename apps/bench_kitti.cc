@@ -34,6 +34,8 @@ std::map<std::string, std::optional<double>> RunOne(const std::string& folder, c
   request.sequence = sequence;
   request.detections = detections;
   request.odometry = "orbslam3_poses";
+  const fs::path truth = fs::path("oxts_cam0_poses") / (sequence + ".txt");
+  if (fs::is_regular_file(fs::path(folder) / truth)) request.groundtruth = truth.string();
   const Dataset dataset = LoadDataset(request);
   const RunResult run =
       RunSequence(dataset.frames, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, options);
@@ -42,6 +44,7 @@ std::map<std::string, std::optional<double>> RunOne(const std::string& folder, c
   input.estimate = run.trajectory;
   input.frames = run.frames;
   input.odometry = run.odometry;
+  input.groundtruth = dataset.groundtruth;
   input.map = &map;
   input.detections = &dataset.frames;
   input.labels_path = (fs::path(folder) / "label_02" / (sequence + ".txt")).string();
