@@ -67,7 +67,10 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
     for (const std::string& sequence : Sequences(path)) {
       if (stop && stop()) return {};
       const auto figures = RunOne(folder, set, sequence, options);
-      const auto cell = [&](const char* name) { return benchmark::Cell("%.3f", figures.at(name).value_or(0)); };
+      const auto cell = [&](const char* name) {
+        const std::optional<double>& value = figures.at(name);
+        return value ? benchmark::Cell("%.3f", *value) : std::string();
+      };
       std::vector<std::string> row{
           set, sequence, cell("iou_raw"), cell("iou_map"), cell("coverage"), cell("purity"), "", "", ""};
       for (const benchmark::PaperIou& paper : benchmark::kPaperIou)

@@ -74,9 +74,10 @@ class Bench {
       console_.Say("table1: left out, for there is no --kitti FOLDER\n");
       return;
     }
-    const Table table = KittiTable(arguments_.kitti, arguments_.detections, {}, Interrupted);
+    Table table = KittiTable(arguments_.kitti, arguments_.detections, {}, Interrupted);
     if (table.rows.empty()) throw Stopped();
-    Write(table);
+    table.note = Provenance({});
+    Write(std::move(table));
   }
 
   void Table2() {
@@ -114,7 +115,9 @@ class Bench {
       trial.method = benchmark::Methods()[0];
       trial.method.key += "-timed";
     }
-    Write(StageTable(RunAll(trials, 1)));
+    Table table = StageTable(RunAll(trials, 1));
+    table.note = Provenance({1});
+    Write(std::move(table));
   }
 
   void Attempts() {
@@ -136,6 +139,8 @@ class Bench {
     }
     if (!arguments_.matches.empty())
       asked.push_back(benchmark::PointMatchMethod(arguments_.matches, baselines_.point_matches));
+    if (full.empty() && asked.empty())
+      throw Error(ErrorKind::kUsage, "none of --methods has answers to be scored: take sslcd, or one with a matcher");
     std::vector<MethodResults> results = Results(Places()[0], full, false);
     for (MethodResults& method : Results(Places()[0], asked, true)) results.push_back(std::move(method));
     Write(PrecisionRecallTable(results));
@@ -158,14 +163,14 @@ class Bench {
     places[1].scene.churn = 0.3;
     if (arguments_.layout.empty()) return places;
     Place& real = places.emplace_back();
-    real.key = std::filesystem::path(arguments_.layout).stem().string();
+    real.key = "layout-" + std::filesystem::path(arguments_.layout).stem().string();
     real.scene.layout = arguments_.layout;
     return places;
   }
 
   std::string TitleOf(const Place& place) const {
     if (place.key == "churn") return "car park with 30 % of the cars changed between the passes";
-    return place.key == "lot" ? "generated car park" : "layout " + place.key;
+    return place.key == "lot" ? "generated car park" : place.key;
   }
 
   std::vector<Trial> TrialsOf(const Place& place, const Method& method, bool only_asked) const {
@@ -211,7 +216,7 @@ class Bench {
   }
 
   void Write(Table table) {
-    table.note = Provenance();
+    if (table.note.empty()) table.note = Provenance(arguments_.cases);
     WriteFileAtomically(folder_.path() + "/" + table.key + ".md", ToMarkdown(table));
     WriteFileAtomically(folder_.path() + "/" + table.key + ".json", ToJson(table));
     WriteCsv(table);
@@ -223,11 +228,21 @@ class Bench {
     WriteFileAtomically(folder_.path() + "/" + table.key + ".csv", ToCsv(table));
   }
 
-  std::string Provenance() const {
-    std::string cases;
-    for (const int c : arguments_.cases) cases += (cases.empty() ? "" : ", ") + std::to_string(c);
-    return "Commit " + std::string(SSLCD_COMMIT) + ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases " +
-           cases + ": `sslcd_run bench " + arguments_.name + "`.";
+  // What stands below a table: which code, which worlds, how. No cases: it is not of HALV-sim.
+  std::string Provenance(const std::vector<int>& cases) const {
+    std::string note = "Commit " + std::string(SSLCD_COMMIT);
+    if (!cases.empty()) note += ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases ";
+    for (const int c : cases) note += (c == cases[0] ? "" : ", ") + std::to_string(c);
+    note += ": `sslcd_run bench " + arguments_.name;
+    const auto add = [&](const char* option, const std::string& value) {
+      if (!value.empty()) note += std::string(" --") + option + " " + std::filesystem::path(value).filename().string();
+    };
+    if (cases.empty()) add("kitti", arguments_.kitti);
+    if (!arguments_.methods.empty()) note += " --methods ...";
+    add("images", arguments_.images);
+    add("matches", arguments_.matches);
+    add("baselines", arguments_.baselines);
+    return note + "`.";
   }
 
   void WriteDocument() const {
@@ -292,7 +307,9 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
       "for case 1, seed 1, and so on; a row of table2");
   command->add_option("--layout", a->layout, "JSON file of parked cars, for attempts on a real car park")
       ->check(CLI::ExistingFile);
-  command->add_option("--kitti", a->kitti, "folder of KITTI's tracking benchmark, for table1")
+  command
+      ->add_option("--kitti", a->kitti,
+                   "KITTI's tracking benchmark with orbslam3_poses and folders of detections, for table1")
       ->check(CLI::ExistingDirectory);
   command->add_option("--detections", a->detections, "folders of detections in it")->delimiter(',');
   command->add_option("--docs", a->docs,

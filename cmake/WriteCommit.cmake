@@ -5,5 +5,10 @@ execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)
   set(commit "unknown")
+elseif(commit MATCHES "-dirty$")  # which changes: results of different ones are not to be mixed
+  execute_process(COMMAND git -C ${SOURCE_DIR} diff HEAD OUTPUT_VARIABLE changes)
+  string(SHA1 changes "${changes}")
+  string(SUBSTRING ${changes} 0 8 changes)
+  string(APPEND commit "-${changes}")
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#define SSLCD_COMMIT \"@commit@\"\n" @ONLY)

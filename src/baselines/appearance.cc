@@ -61,8 +61,7 @@ class Recogniser {
     return dataset;
   }
 
-  // From images all over the sequence. Published systems bring a vocabulary that was learnt elsewhere; one learnt here
-  // can only be better.
+  // From images all over the sequence; published systems bring a larger vocabulary that was learnt elsewhere.
   Vocabulary Train() {
     std::vector<std::vector<BinaryDescriptor>> images;
     const std::size_t step = std::max<std::size_t>(1, dataset_.frames.size() / options_.training_images);

@@ -100,6 +100,7 @@ std::vector<Method> Ablations() {
               {"loop.match.likelihood.appearance.limit=0"}),
       Changed("no_tracks", "each attempt by itself, no agreement over time", {"loop.tracks.agree_m=0"}),
       Changed("no_prior", "odometry says nothing about a loop", {"loop.prior.surprise=1"}),
+      Changed("no_hindsight", "no second look at the end", {"loop.layout.hindsight_m=0"}),
       Changed("no_lag", "loops tie the newest camera", {"loop.lag_m=0"}),
       Changed("trusting", "no loop is ever refused or taken back by the others",
               {"loop.graph.inlier_probability=0.999999", "loop.graph.drift_factor=1000", "loop.belief.probation_m=1000",
@@ -108,7 +109,7 @@ std::vector<Method> Ablations() {
       Changed("paper_adjustment", "bundle adjustment as printed (Eq. 8)", {"ba.residual=paper"}),
       Changed("no_adjustment", "no bundle adjustment after a loop", {"loop.adjust_keyframes=0"}),
       Changed("no_window", "no sliding window", {"window.enabled=false"}),
-      Changed("no_refinement", "no refinement at the end", {"refine.enabled=false"}),
+      Changed("no_refinement", "no refinement at the end, and so no second look", {"refine.enabled=false"}),
   };
 }
 

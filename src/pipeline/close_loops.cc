@@ -51,7 +51,7 @@ void LoopCloser::Finish(double scale, TimingTable& timing) {
   const LoopOptions& o = options_.loop;
   for (double lag = o.lag_m - kStep; lag > 0; lag -= kStep)
     DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
-  if (Closed()) LookAgain(scale, timing);
+  if (Closed() && o.layout.hindsight_m > 0) LookAgain(scale, timing);
 }
 
 bool LoopCloser::DetectAndCorrect(const Look& look, double scale, TimingTable& timing) {
@@ -266,6 +266,7 @@ bool LoopCloser::Fuse() {
 
 void LoopCloser::Review() {
   passes_.Rebuild();
+  tracks_.Forget();  // where they were everything has moved
   if (options_.mode == Options::Mode::kPaper) return;
   const LoopBeliefOptions& o = options_.loop.belief;
   for (Attempt& attempt : attempts_) {

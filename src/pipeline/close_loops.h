@@ -66,7 +66,7 @@ class LoopCloser {
   const LayoutIndex& OldMap(double old_until_m);
   bool Detect(const Look& look);
   bool DetectWithMatcher();
-  LoopMeasurement MeasureImages(int match_frame, const Pose& T_match_query) const;
+  LoopMeasurement MeasureImages(int match_frame, int old_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
   Attempt& AddAttempt(LoopMeasurement loop);
   bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);

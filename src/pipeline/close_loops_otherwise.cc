@@ -71,7 +71,7 @@ bool LoopCloser::DetectWithMatcher() {
   if (!answer) return false;
   std::optional<LoopMeasurement> loop;
   if (answer->matches.empty()) {
-    loop = MeasureImages(answer->match_frame, answer->T_match_query);
+    loop = MeasureImages(answer->match_frame, std::prev(old_end)->frame, answer->T_match_query);
   } else {
     constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
     CheckMatches(answer->matches, local.objects.size(), global.objects().size());
@@ -89,12 +89,12 @@ bool LoopCloser::DetectWithMatcher() {
 }
 
 // Two images tie two cameras together: the newest one and an old one.
-LoopMeasurement LoopCloser::MeasureImages(int match_frame, const Pose& T_match_query) const {
+LoopMeasurement LoopCloser::MeasureImages(int match_frame, int old_frame, const Pose& T_match_query) const {
   const auto match = std::find_if(frames_.begin(), frames_.end(),
                                   [&](const FrameRecord& frame) { return frame.frame == match_frame; });
-  if (match == frames_.end())
+  if (match == frames_.end() || match_frame > old_frame)
     throw Error(ErrorKind::kUsage, "the place matcher answers with frame " + std::to_string(match_frame) +
-                                       ", which has not been seen; name one up to PlaceQuery::old_frame");
+                                       ", which is none of the old ones; name one up to PlaceQuery::old_frame");
   LoopMeasurement loop;
   loop.query = static_cast<int>(frames_.size()) - 1;
   loop.match = static_cast<int>(match - frames_.begin());
