@@ -11,12 +11,6 @@
 namespace sslcd::benchmark {
 namespace {
 
-Options PaperOptions() {
-  Options options;
-  options.mode = Options::Mode::kPaper;
-  return options;
-}
-
 // What is asked of a single look at two layouts, without memory of earlier ones.
 std::optional<PlaceAnswer> OneLook(const PlaceQuery& query) {
   const LayoutMatchOptions options = Options().loop.match;
@@ -57,7 +51,8 @@ Method Changed(const std::string& key, const std::string& title, const std::vect
 }  // namespace
 
 std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
-  Method paper_unrefined{"paper_unrefined", "the paper as printed, w/o refinement", PaperOptions()};
+  const Options as_printed = DefaultOptions(Options::Mode::kPaper);
+  Method paper_unrefined{"paper_unrefined", "the paper as printed, w/o refinement", as_printed};
   paper_unrefined.options.window.enabled = paper_unrefined.options.refine.enabled = false;
   return {
       {"sslcd", "**sslcd**", {}},
@@ -65,7 +60,7 @@ std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
               {"window.enabled=false", "refine.enabled=false", "loop.adjust_keyframes=0"}),
       {"one_look", "sslcd's matching of one pair of layouts, no memory", {}, Always(OneLook)},
       Changed("no_loops", "sslcd without loops", {"loop.enabled=false"}),
-      {"paper", "the paper as printed", PaperOptions()},
+      {"paper", "the paper as printed", as_printed},
       paper_unrefined,
       {"paper_stages", "the paper's matching", {}, Always(PaperStages)},
       {"lin", "Lin et al. 2021", {}, Always(LinMatcher(baselines.lin))},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sslcd/core/error.h"
+#include "sslcd/io/config.h"
 
 namespace sslcd::benchmark {
 namespace {
@@ -71,6 +72,19 @@ TEST(Trial, DamagedJson) {
       EXPECT_NE(std::string(error.what()).find("x.json: is no result"), std::string::npos) << error.what();
     }
   }
+}
+
+std::string Dump(Options options) {
+  return DumpConfig([&](FieldVisitor& visitor) { DescribeFields(visitor, options); }, false);
+}
+
+TEST(Method, ThePaperIsAsPrintedInEveryPart) {
+  EXPECT_EQ(Dump(Select(Methods(), {"paper"})[0].options), Dump(DefaultOptions(Options::Mode::kPaper)));
+  EXPECT_EQ(Dump(Select(Methods(), {"sslcd"})[0].options), Dump(DefaultOptions(Options::Mode::kRobust)));
+  const Options unrefined = Select(Methods(), {"paper_unrefined"})[0].options;
+  EXPECT_EQ(unrefined.association.method, AssociationOptions::Method::kPaper);
+  EXPECT_EQ(unrefined.ba.residual, BaOptions::Residual::kPaper);
+  EXPECT_FALSE(unrefined.window.enabled || unrefined.refine.enabled);
 }
 
 TEST(Method, KeysAreUniqueAndSelect) {
