@@ -61,9 +61,13 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
                          {"detections", "sequence", "single detections", "map", "coverage", "purity",
                           "VisualDet3D (paper)", "CubeSLAM (paper)", "Ji et al. (paper)"},
                          {}};
-  for (const std::string& set : detections) {
+  const std::vector<std::string> usual = {"det_stereo_grade_car", "det_pointrcnn_car"};
+  for (const std::string& set : detections.empty() ? usual : detections) {
     const fs::path path = fs::path(folder) / set;
-    if (!fs::is_directory(path)) continue;
+    if (!fs::is_directory(path)) {
+      if (detections.empty()) continue;
+      throw Error(ErrorKind::kBadInput, {path.string()}, "no such folder of detections; check --detections");
+    }
     for (const std::string& sequence : Sequences(path)) {
       if (stop && stop()) return {};
       const auto figures = RunOne(folder, set, sequence, options);

@@ -32,7 +32,7 @@ struct BenchArguments {
   std::string name, out = "runs/bench", layout, kitti, docs, baselines, images, matches;
   int seeds = 10, threads = 0;
   std::vector<int> cases = {1, 2, 3, 4};
-  std::vector<std::string> methods, trajectories, detections = {"det_stereo_grade_car", "det_pointrcnn_car"};
+  std::vector<std::string> methods, trajectories, detections;
 };
 
 baselines::BaselineOptions LoadBaselines(const std::string& file) {
@@ -61,6 +61,7 @@ class Bench {
     const std::vector<std::pair<std::string, void (Bench::*)()>> all = {
         {"table1", &Bench::Table1},     {"table2", &Bench::Table2}, {"table3", &Bench::Table3},
         {"attempts", &Bench::Attempts}, {"pr", &Bench::Pr},         {"ablation", &Bench::Ablation}};
+    if (!arguments_.docs.empty()) ReadDocument();  // rather now than after the runs
     for (const auto& [name, run] : all)
       if (arguments_.name == "all" || arguments_.name == name) (this->*run)();
     if (!arguments_.docs.empty()) WriteDocument();
@@ -245,12 +246,16 @@ class Bench {
     return note + "`.";
   }
 
-  void WriteDocument() const {
+  std::string ReadDocument() const {
     std::ifstream file(arguments_.docs, std::ios::binary);
     if (!file) throw Error(ErrorKind::kBadInput, {arguments_.docs}, "cannot be read: check the path of --docs");
     std::ostringstream text;
     text << file.rdbuf();
-    WriteFileAtomically(arguments_.docs, benchmark::ReplaceTables(text.str(), arguments_.docs, tables_));
+    return text.str();
+  }
+
+  void WriteDocument() const {
+    WriteFileAtomically(arguments_.docs, benchmark::ReplaceTables(ReadDocument(), arguments_.docs, tables_));
   }
 
   const BenchArguments& arguments_;
@@ -311,7 +316,10 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
       ->add_option("--kitti", a->kitti,
                    "KITTI's tracking benchmark with orbslam3_poses and folders of detections, for table1")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--detections", a->detections, "folders of detections in it")->delimiter(',');
+  command
+      ->add_option("--detections", a->detections,
+                   "folders of detections in it; default: det_stereo_grade_car and det_pointrcnn_car, if there")
+      ->delimiter(',');
   command->add_option("--docs", a->docs,
                       "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
   command

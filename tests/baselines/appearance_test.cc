@@ -9,6 +9,7 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
+#include "temp_folder.h"
 
 namespace sslcd::baselines {
 namespace {
@@ -20,10 +21,7 @@ constexpr int kWidth = 320, kHeight = 240;
 // A camera goes along a painted wall, looking at it: to the right for 8 m, then it starts again at the left.
 class Wall : public testing::Test {
  protected:
-  Wall()
-      : folder_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-                "_sslcd_wall") {
-    fs::remove_all(folder_);
+  Wall() {
     for (const char* images : {"/image_2", "/image_3"}) fs::create_directories(folder_ + images);
     cv::RNG random(1);
     wall_ = cv::Mat(kHeight, 1200, CV_8UC1, cv::Scalar(90));
@@ -46,7 +44,6 @@ class Wall : public testing::Test {
     options_.training_images = 12;
     options_.features = 300;
   }
-  ~Wall() override { fs::remove_all(folder_); }
 
   static std::string Calib() {
     const std::string start = "300 0 160 ", end = " 0 300 120 0 0 0 1 0\n";
@@ -73,7 +70,8 @@ class Wall : public testing::Test {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     }
   }
-  std::string folder_;
+  TempFolder temp_;
+  const std::string folder_ = temp_.path();
   cv::Mat wall_;
   AppearanceOptions options_;
 };

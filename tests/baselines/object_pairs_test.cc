@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include "sslcd/baselines/options.h"
 #include "sslcd/io/pairs_reader.h"
 #include "sslcd/loop/layout_likelihood.h"
+#include "temp_folder.h"
 
 namespace sslcd::baselines {
 namespace {
@@ -35,11 +34,8 @@ Count Judge(const std::vector<LayoutPair>& pairs, const std::string& scene, cons
 }
 
 TEST(ObjectPairs, AsManyRightAsMeasured) {
-  const char* root = std::getenv("SSLCD_DATA_DIR");
-  const auto beside = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
-  const auto file = (root != nullptr ? std::filesystem::path(root) : beside) / "object-pairs" / "pairs_seed7.txt";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
-  const std::vector<LayoutPair> pairs = ReadLayoutPairs(file.string());
+  SSLCD_REAL_DATA(folder, "object-pairs");
+  const std::vector<LayoutPair> pairs = ReadLayoutPairs(folder + "/pairs_seed7.txt");
   const BaselineOptions o;
   struct Case {
     std::string name;

@@ -3,21 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
+#include "temp_folder.h"
 
 namespace sslcd::baselines {
 namespace {
 
 class PointMatches : public testing::Test {
  protected:
-  PointMatches()
-      : file_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-              "_sslcd_point_matches.txt") {}
-  ~PointMatches() override { std::filesystem::remove(file_); }
-
   PlaceMatcher Matcher(const std::string& text) const {
     WriteFileAtomically(file_, text);
     return PointMatchMatcher(file_, {});
@@ -32,7 +26,8 @@ class PointMatches : public testing::Test {
       text += std::to_string(query) + " " + std::to_string(match) + " " + confidence + "\n";
     return text;
   }
-  std::string file_;
+  TempFolder temp_;
+  const std::string file_ = temp_.path() + "/matches.txt";
 };
 
 TEST_F(PointMatches, MeanConfidenceOfTheBestOldFrame) {
@@ -62,7 +57,7 @@ TEST_F(PointMatches, BadRows) {
       FAIL() << row;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kBadInput) << row;
-      EXPECT_NE(std::string(error.what()).find("sslcd_point_matches.txt:2"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("matches.txt:2"), std::string::npos) << error.what();
     }
   }
   EXPECT_THROW(PointMatchMatcher(file_ + ".none", {}), Error);

@@ -9,21 +9,19 @@
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/run_folder.h"
+#include "temp_folder.h"
 
 namespace sslcd::benchmark {
 namespace {
 
 class Foreign : public testing::Test {
  protected:
-  Foreign()
-      : file_(testing::TempDir() + "/" + testing::UnitTest::GetInstance()->current_test_info()->name() +
-              "_sslcd_foreign.txt") {
+  Foreign() {
     for (int i = 0; i < 100; ++i) {
       truth_.stamps.push_back(10 + 0.1 * i);
       truth_.poses.push_back(Pose::Trans(0.3 * i, 0, std::sin(0.1 * i)));
     }
   }
-  ~Foreign() override { std::filesystem::remove(file_); }
   void ExpectRefused(const std::string& text, const std::string& message) {
     WriteFileAtomically(file_, text);
     try {
@@ -34,7 +32,8 @@ class Foreign : public testing::Test {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
     }
   }
-  std::string file_;
+  TempFolder temp_;
+  const std::string file_ = temp_.path() + "/foreign.txt";
   Trajectory truth_;
 };
 
@@ -64,8 +63,8 @@ TEST_F(Foreign, Refused) {
   ExpectRefused(KittiText(truth_), "no stamps");
   for (double& stamp : other.stamps) stamp += 1e6;
   ExpectRefused(TumText(other), "same clock");
-  ExpectRefused("", "sslcd_foreign.txt");
-  ExpectRefused("1 2 3\n", "sslcd_foreign.txt:1");
+  ExpectRefused("", "foreign.txt");
+  ExpectRefused("1 2 3\n", "foreign.txt:1");
   std::filesystem::remove(file_);
   EXPECT_THROW(ForeignAte(file_, truth_), Error);
 }

@@ -3,23 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "sslcd/core/error.h"
+#include "temp_folder.h"
 
 namespace sslcd::benchmark {
 namespace {
 
 class Results : public testing::Test {
  protected:
-  Results()
-      : path_(testing::TempDir() + "/sslcd_results_" + testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    std::filesystem::remove_all(path_);
-  }
-  ~Results() override { std::filesystem::remove_all(path_); }
-
   static std::vector<Trial> Trials() {
     std::vector<Trial> trials;
     for (const std::uint64_t seed : {1, 2})
@@ -31,7 +25,8 @@ class Results : public testing::Test {
       }
     return trials;
   }
-  std::string path_;
+  TempFolder temp_;
+  const std::string path_ = temp_.path() + "/results";
 };
 
 TEST_F(Results, SameForAnyNumberOfThreadsAndNotMadeTwice) {

@@ -121,6 +121,7 @@ class BenchTest(CliCase):
         self.refused(self.bench('table2', '--seeds', 0), 2, '--seeds')
         self.refused(self.bench('attempts', '--layout', self.out + '/none.json'), 2, '--layout')
         self.refused(self.bench('table1', '--kitti', self.data), 3, '--detections')
+        self.refused(self.bench('table1', '--kitti', self.data, '--detections', 'dets'), 3, 'data/dets', '--detections')
         write(self.out + '/commit.txt', 'of-yore\n')
         self.refused(self.bench('table2', *SMALL), 2, 'results of commit of-yore', 'give another --out')
 
