@@ -4,6 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "sslcd/core/log.h"
+#include "sslcd/perception/opencv_image.h"
 
 namespace sslcd::apps {
 
@@ -13,7 +14,7 @@ bool WithImage(const std::string& path, const std::function<void(const ImageView
     Log(LogLevel::kWarning, path + ": no image that can be read; its frame goes without colour");
     return false;
   }
-  use({image.data, image.cols, image.rows, image.step, image.channels()});
+  use(ViewOf(image));
   return true;
 }
 

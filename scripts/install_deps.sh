@@ -10,8 +10,8 @@ set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
        libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev
-       libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev)
-test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libopencv-imgproc-dev libembree-dev)
+       libopencv-imgproc-dev libopencv-video-dev libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev)
+test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libembree-dev)
 dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
 
 case "${1:-test}" in

@@ -2,8 +2,24 @@
 #include "sslcd/core/camera.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "sslcd/core/error.h"
 
 namespace sslcd {
+
+StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
+  constexpr double kSame = 1e-3;  // [px], [m]
+  const double baseline = left.offset.x() - right.offset.x();
+  const bool rectified = std::abs(left.fx - right.fx) < kSame && std::abs(left.fy - right.fy) < kSame &&
+                         std::abs(left.cx - right.cx) < kSame && std::abs(left.cy - right.cy) < kSame;
+  if (!rectified || !(baseline > kSame))
+    throw Error(
+        ErrorKind::kBadInput,
+        "the two cameras are no rectified pair: P2 and P3 of calib.txt must agree in their first three columns, "
+        "and the fourth must put the right camera to the right of the left one");
+  return {left, baseline};
+}
 
 double Iou(const Box2d& a, const Box2d& b) {
   const Box2d both{std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),

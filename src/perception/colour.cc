@@ -11,14 +11,12 @@
 namespace sslcd {
 namespace {
 
-void CheckImage(const ImageView& image) {
-  const auto refuse = [](const std::string& what) { throw Error(ErrorKind::kBadInput, "colour image: " + what); };
-  if (image.channels != 3) {
-    refuse("it has " + std::to_string(image.channels) + " channel(s), the colour signature needs 3 (B G R); " +
-           "leave the images out or give colour ones");
-  }
-  if (!image.data || image.width <= 0 || image.height <= 0) refuse("it is empty");
-  if (image.stride < 3 * static_cast<std::size_t>(image.width)) refuse("its stride is shorter than a row");
+void CheckColourImage(const ImageView& image) {
+  CheckImage(image, "colour image");
+  if (image.channels != 3)
+    throw Error(ErrorKind::kBadInput,
+                "colour image: it has " + std::to_string(image.channels) +
+                    " channel(s), the colour signature needs 3 (B G R); leave the images out or give colour ones");
 }
 
 /// Whole pixels [first, last) of the central part of an interval.
@@ -129,7 +127,7 @@ Vec3 HsvColour(double red, double green, double blue) {
 }
 
 ColourSignature ExtractColour(const ImageView& image, const Box2d& box, const ColourOptions& options) {
-  CheckImage(image);
+  CheckColourImage(image);
   const Eigen::Matrix3Xf pixels = SamplePixels(image, box, options);
   const KMeansResult clusters =
       KMeans(pixels, {options.clusters, options.iterations, static_cast<std::uint64_t>(options.seed)});

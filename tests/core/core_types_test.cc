@@ -6,6 +6,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/error.h"
+#include "sslcd/core/image.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/log.h"
 #include "sslcd/core/upright.h"
@@ -90,6 +91,28 @@ TEST(Label, SymmetriesAndUnknownLabels) {
   table.Set("Tree", {Symmetry::kFull});
   EXPECT_EQ(table["Tree"].symmetry, Symmetry::kFull);
   EXPECT_EQ(table["Car"].symmetry, Symmetry::kNone);
+}
+
+TEST(Image, OnesThatCannotBeReadAreRefused) {
+  const unsigned char bytes[12] = {};
+  EXPECT_NO_THROW(CheckImage({bytes, 2, 2, 6, 3}, "image"));
+  EXPECT_NO_THROW(CheckImage({bytes, 2, 2, 2, 1}, "image"));
+  EXPECT_THROW(CheckImage({}, "image"), Error);
+  EXPECT_THROW(CheckImage({bytes, 2, 2, 5, 3}, "image"), Error);
+  EXPECT_THROW(CheckImage({bytes, 1, 2, 4, 4}, "image"), Error);
+  EXPECT_NO_THROW(CheckImages({{bytes, 2, 2, 2, 1}, {bytes, 2, 2, 6, 3}}));
+  EXPECT_THROW(CheckImages({{bytes, 2, 2, 2, 1}, {bytes, 2, 1, 2, 1}}), Error);
+}
+
+TEST(StereoCamera, HasABaseline) {
+  const Camera left{700, 700, 600, 180, {0.06, 0, 0}, 1242, 375};
+  Camera right = left;
+  right.offset.x() = -0.48;
+  EXPECT_NEAR(MakeStereoCamera(left, right).baseline_m, 0.54, 1e-12);
+  EXPECT_THROW(MakeStereoCamera(right, left), Error);
+  EXPECT_THROW(MakeStereoCamera(left, left), Error);
+  right.fx = 710;
+  EXPECT_THROW(MakeStereoCamera(left, right), Error);
 }
 
 TEST(Error, SaysWhereAndWhat) {

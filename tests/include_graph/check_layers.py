@@ -14,7 +14,7 @@ import re
 import sys
 from pathlib import Path
 
-OPT_IN = {"include/sslcd/io/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
+OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "onnxruntime": "onnx", "embree3": "embree", "embree4": "embree"}
@@ -25,7 +25,7 @@ ABOVE = {"sim": set(), "render": {"sim"}, "baselines": set(), "benchmark": {"sim
 def read_modules(cmake_lists):
     """{module: (modules it may include, outside libraries it may include)}, and the breaches of the order."""
     modules, breaches = {}, []
-    for body in re.findall(r"^sslcd_module\(([^)]*)\)", cmake_lists, re.M):
+    for body in re.findall(r"^ *sslcd_module\(([^)]*)\)", cmake_lists, re.M):
         name, *words = body.split()
         links, outside, into = [], [], None
         for word in words:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
+#include <string>
 
 #include "sslcd/core/pose.h"
 
@@ -14,10 +14,27 @@ struct Camera {
   int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
 };
 
+/// A rectified pair. The right camera differs from the left one in its place only, `baseline_m` to the right.
+struct StereoCamera {
+  Camera left;
+  double baseline_m = 0;
+};
+
+/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, and the second stands to the
+/// right of the first.
+StereoCamera MakeStereoCamera(const Camera& left, const Camera& right);
+
 /// Axis-aligned box in the image. [px]
 struct Box2d {
   double left = 0, top = 0, right = 0, bottom = 0;
   double Area() const { return right > left && bottom > top ? (right - left) * (bottom - top) : 0.; }
+};
+
+/// What a 2D detector says about one object in one image.
+struct ImageDetection {
+  std::string label;
+  double score = 1;  ///< probability that this is an object, in [0, 1]
+  Box2d box;
 };
 
 /// Intersection over union, in [0, 1]; 0 when either box is empty.

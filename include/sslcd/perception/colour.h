@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/fields.h"
+#include "sslcd/core/image.h"
 
 namespace sslcd {
-
-/// Somebody else's 8-bit image, rows from the top, pixels interleaved B G R. Nothing is copied or freed.
-struct ImageView {
-  const unsigned char* data = nullptr;
-  int width = 0, height = 0;  ///< [px]
-  std::size_t stride = 0;     ///< bytes from one row to the next
-  int channels = 3;           ///< must be 3
-};
 
 /// Colour of an object from the pixels of its box (paper III-A.2).
 struct ColourOptions {
