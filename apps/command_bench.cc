@@ -146,6 +146,7 @@ class Bench {
     for (MethodResults& method : Results(Places()[0], asked, true)) results.push_back(std::move(method));
     Write(PrecisionRecallTable(results));
     WriteCsv(PrecisionRecallCurves(results));
+    WriteCsv(ViewpointRecalls(results));
   }
 
   void Ablation() { Write(AblationTable(Results(Places()[0], benchmark::Ablations(), false))); }

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what `sslcd_run bench` has left in a folder: precision-recall curves, and the errors of all loops over the
-change of viewpoint (the paper's figures of the same kind).
+"""Draws what `sslcd_run bench` has left in a folder: precision-recall curves, recall over the change of viewpoint, and
+the errors of all loops over it (the paper's figures of the same kind).
 
-usage: draw_bench.py FOLDER OUT_FOLDER      writes pr.svg and loops.svg; needs the Python standard library only
+usage: draw_bench.py FOLDER OUT_FOLDER      writes pr.svg, viewpoint.svg and loops.svg; standard library only
 """
 import csv
 import os
@@ -40,6 +40,10 @@ class Plot:
     def curve(self, points, colour):
         path = ' '.join(f'{self.x(a):.1f},{self.y(b):.1f}' for a, b in points)
         self.items.append(f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="1.8"/>')
+
+    def bar(self, x, low, high, colour):
+        self.items.append(f'<line x1="{self.x(x):.1f}" x2="{self.x(x):.1f}" y1="{self.y(low):.1f}" '
+                          f'y2="{self.y(high):.1f}" stroke="{colour}" stroke-opacity=".35"/>')
 
     def dots(self, points, colour):
         path = ''.join(f'M{self.x(a):.0f} {self.y(b):.1f}h0' for a, b in points)
@@ -84,6 +88,23 @@ def draw_curves(folder, out):
     write(f'{out}/pr.svg', plots)
 
 
+def draw_viewpoints(folder, out):
+    rows = read(f'{folder}/viewpoint.csv')
+    methods = list(dict.fromkeys(row['method'] for row in rows))
+    plot = Plot(0, 'Keyframes recognised', 'change of viewpoint [degrees]', 'recall', 180, 1, 45, .2)
+    for i, method in enumerate(methods):
+        colour, points = COLOURS[i % len(COLOURS)], []
+        for row in rows:
+            if row['method'] == method:
+                middle = sum(map(float, row['viewpoint_deg'].split('-'))) / 2
+                points.append((middle, float(row['recall'])))
+                plot.bar(middle + 1.5 * i, float(row['recall_low']), float(row['recall_high']), colour)
+        plot.curve(points, colour)
+        plot.dots(points, colour)
+        plot.label(i, method, colour)
+    write(f'{out}/viewpoint.svg', [plot])
+
+
 def draw_loops(folder, out):
     rows = read(f'{folder}/loops.csv')
     places = list(dict.fromkeys(row['place'] for row in rows))
@@ -102,7 +123,7 @@ def main():
     folder, out = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     drawn = 0
-    for name, draw in (('pr_curves.csv', draw_curves), ('loops.csv', draw_loops)):
+    for name, draw in (('pr_curves.csv', draw_curves), ('viewpoint.csv', draw_viewpoints), ('loops.csv', draw_loops)):
         if os.path.exists(f'{folder}/{name}'):
             draw(folder, out)
             drawn += 1

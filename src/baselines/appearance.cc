@@ -25,16 +25,8 @@ class Recogniser {
       if (Known(next_old_)) old_.insert({next_old_, vocabulary_.Words(FeaturesOf(next_old_).descriptors)});
     if (!Known(query.frame)) return std::nullopt;
     const ImageFeatures features = FeaturesOf(query.frame);
-    const WordVector words = vocabulary_.Words(features.descriptors);
-    std::vector<std::pair<double, int>> similar;  // best first, the earlier of equals
-    for (const auto& [frame, other] : old_) {
-      const double similarity = Similarity(words, other);
-      if (similarity >= options_.least_similarity) similar.push_back({-similarity, frame});
-    }
-    std::sort(similar.begin(), similar.end());
-    if (static_cast<int>(similar.size()) > options_.candidates) similar.resize(options_.candidates);
     std::optional<PlaceAnswer> best;
-    for (const auto& [minus_similarity, frame] : similar) {
+    for (const int frame : Candidates(vocabulary_.Words(features.descriptors))) {
       const auto pose = PoseFromImages(features, FeaturesOf(frame), *dataset_.camera, options_);
       if (!pose || (best && pose->inliers <= best->score)) continue;
       best = PlaceAnswer();
@@ -70,6 +62,24 @@ class Recogniser {
     return {images, options_.branching, options_.levels};
   }
 
+  // Old frames like these words, the most similar first, and of neighbours only that one (DBoW2's islands).
+  std::vector<int> Candidates(const WordVector& words) const {
+    std::vector<std::pair<double, int>> similar;  // best first, the earlier of equals
+    for (const auto& [frame, other] : old_) {
+      const double similarity = Similarity(words, other);
+      if (similarity >= options_.least_similarity) similar.push_back({-similarity, frame});
+    }
+    std::sort(similar.begin(), similar.end());
+    std::vector<int> candidates;
+    for (const auto& [minus_similarity, frame] : similar) {
+      if (static_cast<int>(candidates.size()) == options_.candidates) break;
+      if (std::none_of(candidates.begin(), candidates.end(),
+                       [&, f = frame](int other) { return std::abs(other - f) < options_.island; }))
+        candidates.push_back(frame);
+    }
+    return candidates;
+  }
+
   bool Known(int frame) const { return frame >= 0 && frame < static_cast<int>(dataset_.frames.size()); }
 
   // Computed once; a thousand features of each of some hundred images.
@@ -101,9 +111,12 @@ void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
   visitor.Integer("training_images", options.training_images, 1, 100000, "from which the words are learnt");
   visitor.Real("least_similarity", options.least_similarity, 0, 1, "of the words of two images");
   visitor.Integer("candidates", options.candidates, 1, 1000, "old images whose geometry is checked");
+  visitor.Integer("island", options.island, 1, 1000, "so many frames apart, at least");
+  visitor.Real("max_depth_m", options.max_depth_m, 1, 1e6, "points further off do not count");
   visitor.Integer("max_distance", options.max_distance, 0, 256, "bits in which matched descriptors differ");
   visitor.Real("ratio", options.ratio, 0, 1, "distance of the best match to that of the second best");
   visitor.Real("reprojection_px", options.reprojection_px, 0.1, 100, "error of a point that agrees with a pose");
+  visitor.Real("search_px", options.search_px, 0, 100, "how far from where a pose has them points are searched for");
   visitor.Integer("least_inliers", options.least_inliers, 6, 100000, "points that agree in a loop");
   visitor.Real("max_turn_deg", options.max_turn_deg, 0, 180, "a loop turns the camera by no more than this");
   visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "a loop lies no further off");

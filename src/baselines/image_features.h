@@ -18,11 +18,16 @@ struct ImageFeatures {
   std::vector<std::optional<Vec3>> points;    ///< in the left camera, where the right image has the feature, too [m]
 };
 
-/// Throws Error(kBadInput) on an image that cannot be read.
+/// Upright features: cameras are not rolled, and descriptors that need not turn tell more apart (BRIEF, Calonder et al.
+/// 2010, which VINS-Fusion uses). Depth by tracking each from left to right and back (Lucas and Kanade, as in
+/// VINS-Fusion), to a fraction of a pixel. Throws Error(kBadInput) on an image that cannot be read, or a pair of
+/// different sizes.
 ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const Camera& camera,
                               double baseline_m, const AppearanceOptions& options);
 
 /// Where the camera of `query` stands in that of `old`, and how many points agree. None: too few matches, or no pose.
+/// Matches are each other's nearest; a pose by RANSAC; then, as ORB-SLAM's loop closing does, all points of `old` are
+/// searched for where that pose has them, which finds several times as many.
 struct ImagePose {
   Pose T_old_query;
   int inliers = 0;

@@ -210,6 +210,33 @@ Table PrecisionRecallCurves(const std::vector<MethodResults>& methods) {
   return table;
 }
 
+Table ViewpointRecalls(const std::vector<MethodResults>& methods) {
+  constexpr int kStep = 15, kBins = 180 / kStep;  // [deg]
+  Table table{"viewpoint",
+              "Keyframes recognised over the change of viewpoint",
+              {"method", "viewpoint_deg", "keyframes", "recognised", "recall", "recall_low", "recall_high"},
+              {}};
+  for (const MethodResults& method : methods) {
+    std::array<Counts, kBins> counts;
+    for (const TrialResult& result : method.results)
+      for (const Revisit& revisit : result.revisits) {
+        const int bin = static_cast<int>(revisit.viewpoint_rad * kDegrees / kStep);
+        Counts& of_bin = counts[std::min(bin, kBins - 1)];
+        ++of_bin.revisits;
+        of_bin.recognised += Recognised(revisit, result.loops);
+      }
+    for (int bin = 0; bin < kBins; ++bin) {
+      const Counts& c = counts[bin];
+      if (c.revisits == 0) continue;
+      const Interval interval = WilsonInterval(c.recognised, c.revisits);
+      table.rows.push_back({method.method.key, std::to_string(bin * kStep) + "-" + std::to_string((bin + 1) * kStep),
+                            std::to_string(c.revisits), std::to_string(c.recognised), Share(c.recognised, c.revisits),
+                            Cell("%.3f", interval.low), Cell("%.3f", interval.high)});
+    }
+  }
+  return table;
+}
+
 Table StageTable(const std::vector<TrialResult>& results) {
   Table table{
       "table3", "Times of the stages [ms]", {"stage", "calls a run", "p50", "p95", "max", "the paper (i7-9700)"}, {}};

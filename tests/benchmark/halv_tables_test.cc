@@ -92,6 +92,20 @@ TEST(HalvTables, PrecisionAndRecallOfAllAnswers) {
   EXPECT_EQ(curves.rows.size(), 2u + 2u + 4u);
 }
 
+TEST(HalvTables, RecallOverViewpoint) {
+  MethodResults method = TwoRuns();
+  method.method.key = "k";
+  method.results[1].revisits.push_back({30, 3, 300, 1, M_PI, 5});  // the very end is in the last bin
+  const Table table = ViewpointRecalls({method});
+  ASSERT_EQ(table.rows.size(), 2u) << "bins without a keyframe are left out";
+  for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
+  const std::vector<std::string> same(table.rows[0].begin(), table.rows[0].begin() + 5),
+      opposite(table.rows[1].begin(), table.rows[1].begin() + 5);
+  EXPECT_EQ(same, (std::vector<std::string>{"k", "0-15", "2", "2", "1.000"}));
+  EXPECT_EQ(opposite, (std::vector<std::string>{"k", "165-180", "3", "0", "0.000"}));
+  EXPECT_GT(std::stod(table.rows[1][6]), 0.1);
+}
+
 TEST(HalvTables, StageTimes) {
   const Table table = StageTable(TwoRuns().results);
   ASSERT_EQ(table.rows.size(), 1u);
@@ -109,6 +123,7 @@ TEST(HalvTables, OfNothing) {
   EXPECT_EQ(AttemptsTable({}, "a", "t").rows.size(), 5u);
   EXPECT_TRUE(LoopTable({}).rows.empty());
   EXPECT_TRUE(PrecisionRecallTable({}).rows.empty());
+  EXPECT_TRUE(ViewpointRecalls({}).rows.empty());
   EXPECT_TRUE(StageTable({}).rows.empty());
   EXPECT_TRUE(AblationTable({}).rows.empty());
 }

@@ -58,6 +58,8 @@ class BenchTest(CliCase):
         self.assertEqual({row['method'] for row in curves} & {'sslcd', 'one_look'}, {'sslcd', 'one_look'})
         for row in curves:
             self.assertLessEqual(float(row['precision_low']), float(row['precision']))
+        recalls = [row for row in self.read_csv('viewpoint') if row['method'] == 'sslcd']
+        self.assertEqual(sum(int(row['recognised']) for row in recalls), int(attempts[4]['recognised']))
         self.assertIn('loop detection', [row['stage'] for row in self.read_csv('table3')])
         self.assertGreater(len(self.read_csv('ablation')), 5)
 

@@ -13,18 +13,21 @@ namespace sslcd::baselines {
 /// 2012) and of the loop closure of VINS-Fusion and ORB-SLAM3. The code is ours; docs/baselines.md says where it
 /// differs.
 struct AppearanceOptions {
-  int features = 1000;              ///< ORB features of an image
+  int features = 2000;              ///< ORB features of an image
   int every = 2;                    ///< old images are kept from every so many frames
   int branching = 10, levels = 4;   ///< of the tree of words
   int training_images = 40;         ///< of the sequence itself, evenly over it, from which the words are learnt
   double least_similarity = 0.015;  ///< of the words of two images
-  int candidates = 4;               ///< the most similar old images have their geometry checked
+  int candidates = 10;              ///< the most similar old images have their geometry checked, ...
+  int island = 4;                   ///< ... so many frames apart at least, for neighbours show the same
+  double max_depth_m = 50;          ///< a point further off says nothing about where a camera stands
   int max_distance = 64;            ///< of two descriptors that match, in bits of 256
-  double ratio = 0.8;               ///< ... and of the best to the second best
+  double ratio = 0.9;               ///< ... and of the best to the second best
   double reprojection_px = 3;
-  int least_inliers = 25;
-  double max_turn_deg = 30;  ///< a loop turns the camera by no more than this, and ...
-  double max_apart_m = 20;   ///< ... lies no further off
+  double search_px = 6;  ///< how far from where the pose has them points are searched for
+  int least_inliers = 100;
+  double max_turn_deg = 180;  ///< a loop turns the camera by no more than this, and ...
+  double max_apart_m = 20;    ///< ... lies no further off
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
 

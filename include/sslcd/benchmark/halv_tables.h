@@ -33,6 +33,10 @@ Table PrecisionRecallTable(const std::vector<MethodResults>& methods);
 /// The curves, with Wilson intervals.
 Table PrecisionRecallCurves(const std::vector<MethodResults>& methods);
 
+/// Recall of what each method accepted in bins of 15 degrees of viewpoint change, with Wilson intervals; bins without a
+/// keyframe are left out.
+Table ViewpointRecalls(const std::vector<MethodResults>& methods);
+
 /// The paper's Table III: times of the stages, the median over runs of p50 and p95, and the largest of all.
 Table StageTable(const std::vector<TrialResult>& results);
 
