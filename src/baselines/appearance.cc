@@ -28,14 +28,12 @@ class Recogniser {
     std::optional<PlaceAnswer> best;
     for (const int frame : Candidates(vocabulary_.Words(features.descriptors))) {
       const auto pose = PoseFromImages(features, FeaturesOf(frame), *dataset_.camera, options_);
-      if (!pose || (best && pose->inliers <= best->score)) continue;
+      if (!pose || !WithinLimits(pose->T_old_query) || (best && pose->inliers <= best->score)) continue;
       best = PlaceAnswer();
       best->match_frame = frame;
       best->T_match_query = pose->T_old_query;
       best->score = pose->inliers;
-      best->accepted = pose->inliers >= options_.least_inliers &&
-                       pose->T_old_query.so3().Log().norm() < options_.max_turn_deg * M_PI / 180 &&
-                       pose->T_old_query.translation().norm() < options_.max_apart_m;
+      best->accepted = pose->inliers >= options_.least_inliers;
     }
     return best;
   }
@@ -80,6 +78,11 @@ class Recogniser {
     return candidates;
   }
 
+  bool WithinLimits(const Pose& T_old_query) const {
+    return T_old_query.so3().Log().norm() <= options_.max_turn_deg * M_PI / 180 &&
+           T_old_query.translation().norm() <= options_.max_apart_m;
+  }
+
   bool Known(int frame) const { return frame >= 0 && frame < static_cast<int>(dataset_.frames.size()); }
 
   // Computed once; a thousand features of each of some hundred images.
@@ -116,7 +119,7 @@ void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
   visitor.Integer("max_distance", options.max_distance, 0, 256, "bits in which matched descriptors differ");
   visitor.Real("ratio", options.ratio, 0, 1, "distance of the best match to that of the second best");
   visitor.Real("reprojection_px", options.reprojection_px, 0.1, 100, "error of a point that agrees with a pose");
-  visitor.Real("search_px", options.search_px, 0, 100, "how far from where a pose has them points are searched for");
+  visitor.Real("search_px", options.search_px, 1, 100, "how far from where a pose has them points are searched for");
   visitor.Integer("least_inliers", options.least_inliers, 6, 100000, "points that agree in a loop");
   visitor.Real("max_turn_deg", options.max_turn_deg, 0, 180, "a loop turns the camera by no more than this");
   visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "a loop lies no further off");

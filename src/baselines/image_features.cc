@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "baselines/image_features.h"
 
+#include <cmath>
 #include <cstring>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -43,6 +45,7 @@ class Wall : public testing::Test {
     options_.every = 1;
     options_.training_images = 12;
     options_.features = 300;
+    options_.least_inliers = 50;
   }
 
   static std::string Calib() {
@@ -57,6 +60,12 @@ class Wall : public testing::Test {
               right = left + static_cast<int>(kBaseline * kFocal / kDepth);
     cv::imwrite(folder_ + "/image_2/" + name, wall_(cv::Rect(left, 0, kWidth, kHeight)));
     cv::imwrite(folder_ + "/image_3/" + name, wall_(cv::Rect(right, 0, kWidth, kHeight)));
+  }
+  // What the left camera of the frame sees becomes something else.
+  void Repaint(int frame, const std::function<cv::Mat(const cv::Mat&)>& change) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "/image_2/%06d.png", frame);
+    cv::imwrite(folder_ + name, change(cv::imread(folder_ + name, cv::IMREAD_GRAYSCALE)));
   }
   std::optional<PlaceAnswer> Ask(int frame, int old_frame) const {
     const std::vector<LayoutObject> none;
@@ -88,6 +97,43 @@ TEST_F(Wall, KnowsThePlaceAndMeasuresThePose) {
   EXPECT_LT(answer->T_match_query.so3().Log().norm(), 0.03);
 }
 
+TEST_F(Wall, KnowsThePlaceInAnotherLight) {
+  Repaint(9, [](const cv::Mat& image) { return cv::Mat(image * 0.6 + 30); });
+  const auto answer = Ask(9, 4);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->accepted);
+  EXPECT_NEAR(answer->T_match_query.translation().x(), 1. - answer->match_frame, 0.1);
+}
+
+TEST_F(Wall, MeasuresATurn) {
+  const double turn = 15 * M_PI / 180;  // about the camera's down axis: to the right
+  const cv::Matx33d K(kFocal, 0, kWidth / 2., 0, kFocal, kHeight / 2., 0, 0, 1);
+  const cv::Matx33d turned_from(std::cos(turn), 0, -std::sin(turn), 0, 1, 0, std::sin(turn), 0, std::cos(turn));
+  Repaint(9, [&](const cv::Mat& image) {
+    cv::Mat seen;
+    cv::warpPerspective(image, seen, cv::Mat(K * turned_from * K.inv()), image.size());
+    return seen;
+  });
+  const auto answer = Ask(9, 4);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->accepted);
+  const Vec3 axis = answer->T_match_query.so3().Log();
+  EXPECT_NEAR(axis.y(), turn, 0.03);
+  EXPECT_LT(std::hypot(axis.x(), axis.z()), 0.03);
+  options_.max_turn_deg = 10;
+  EXPECT_FALSE(Ask(9, 4));
+}
+
+TEST_F(Wall, NothingToBeSeen) {
+  Repaint(9, [](const cv::Mat& image) { return cv::Mat(image.size(), image.type(), cv::Scalar(90)); });
+  EXPECT_FALSE(Ask(9, 4));
+}
+
+TEST_F(Wall, PointsFarOffDoNotCount) {
+  options_.max_depth_m = kDepth - 1;
+  EXPECT_FALSE(Ask(9, 4));
+}
+
 TEST_F(Wall, OldImagesOnly) {
   EXPECT_FALSE(Ask(9, -1)) << "nothing is old";
   const auto answer = Ask(7, 0);  // at 7 m, frame 0 saw up to 6.4 m from its own place
@@ -96,12 +142,12 @@ TEST_F(Wall, OldImagesOnly) {
 
 TEST_F(Wall, LimitsOfTurnAndDistance) {
   options_.max_apart_m = 0;
-  const auto answer = Ask(9, 4);
-  ASSERT_TRUE(answer);
-  EXPECT_FALSE(answer->accepted);
+  EXPECT_FALSE(Ask(9, 4));
 }
 
 TEST_F(Wall, BadFolders) {
+  Repaint(9, [](const cv::Mat& image) { return image.rowRange(0, kHeight / 2).clone(); });
+  ExpectRefused("has not the size");
   fs::remove(folder_ + "/image_3/000009.png");
   ExpectRefused("image_3/000009.png");
   WriteFileAtomically(folder_ + "/image_2/000004.png", "no image");

@@ -31,8 +31,8 @@ struct AppearanceOptions {
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
 
-/// On a sequence folder with image_2, image_3 and calib.txt. Score: inliers of the PnP check; taken from
-/// `least_inliers` on, within the limits of turn and distance. The frames of the queries are those of the folder.
+/// On a sequence folder with image_2, image_3 and calib.txt. Score: inliers of the PnP check, of poses within the
+/// limits of turn and distance; taken from `least_inliers` on. The frames of the queries are those of the folder.
 /// Images are read as they are asked for. Throws Error (kBadInput): no calibration of two cameras, an image that cannot
 /// be read.
 PlaceMatcher AppearanceMatcher(const std::string& folder, const AppearanceOptions& options);
