@@ -22,7 +22,7 @@ GAIN = 0.02
 CHANNELS = np.array([3.0, -1.5, 0.75])  # weights of the mean
 WIDTH, HEIGHT, TOP = 64, 48, 16  # of the image; its first TOP rows have a colour of their own
 TOP_BGR, BGR, RIGHT_BGR = (200, 10, 60), (30, 90, 210), (60, 120, 150)
-FX, FY, CX, CY, OFFSET, BASELINE = 70.0, 72.0, 31.0, 20.0, np.array([0.06, -0.01, 0.002]), 0.5  # cameras
+FX, FY, CX, CY, OFFSET = 70.0, 72.0, 31.0, 20.0, np.array([0.06, -0.01, 0.002])  # camera
 LABELS = {0: "Car", 2: "Truck"}  # class 1 is not wanted
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent / "tests/data/models")
 
@@ -184,6 +184,114 @@ def embedding():  # two boxes, of one colour each; one half outside the image
     write_rows("embedding", rows)
 
 
+def cuboid(centre, z, alpha, whl):
+    """centre: its image, in pixels of the image. -> x y z, l w h, rotation_y."""
+    left = np.array([(centre[0] - CX) * z / FX, (centre[1] - CY) * z / FY, z])
+    x, y, z = left - OFFSET  # in the reference camera's frame
+    turn = alpha + np.arctan2(x, z)
+    return x, y, z, whl[2], whl[0], whl[1], np.arctan2(np.sin(turn), np.cos(turn))
+
+
+def write_priors(name, mean, std):
+    np.save(FOLDER / f"stereo3d_mean_{name}.npy", mean.reshape(-1, 6).astype(np.float32))
+    np.save(FOLDER / f"stereo3d_std_{name}.npy", std.reshape(-1, 6).astype(np.float32))
+
+
+def stereo3d():  # without its top 64 x 32, at the same size, black on the right up to 80 x 32
+    rng = np.random.default_rng(5)
+    scales, ratios, base, stride, width, height = [1.0, 1.5], [0.5, 1.0, 2.0], 12.0, 16, 80, 32
+    columns, rows, anchors, classes = width // stride, height // stride, len(scales) * len(ratios), 3
+    shape = (columns * rows * anchors,)
+    logits = rng.uniform(-4, -3, shape + (classes + 1,))
+    values = rng.uniform(-1, 1, shape + (12,)) * [2, 2, 1, 1, 2, 2, .5, .5, .5, .5, .5, .5]
+    # A car, a truck, two cars that overlap, one of an anchor never seen, something unwanted, a car too low for the road.
+    logits[[3, 15, 21, 22, 29, 28, 45], [0, 2, 0, 0, 0, 1, 0]] = [2.0, 1.5, 1.2, 1.4, 2.5, 3.0, 1.8]
+    logits[:, classes] = rng.uniform(-1, 1, shape)
+    write_model("stereo3d", {"left": [1, 3, height, width], "right": [1, 3, height, width]},
+                {"scores": (logits[None], (1,) + logits.shape), "boxes": (values[None], (1,) + values.shape)})
+    mean = {c: rng.uniform([8, -.2, -.2, 1.4, 1.3, 3], [14, .2, .2, 2, 2, 5], (len(scales), len(ratios), 6)) for c in LABELS}
+    std = {c: rng.uniform(.2, .9, (len(scales), len(ratios), 6)) for c in LABELS}
+    mean[0][1, 2, 0] = -100  # of anchor 5 of each cell
+    for c, label in LABELS.items():
+        write_priors(label, mean[c], std[c])
+        mean[c], std[c] = mean[c].astype(np.float32).astype(float), std[c].astype(np.float32).astype(float)
+
+    shift = shift_of([(64 / 80, BGR), (16 / 80, (0, 0, 0))]) + 2 * shift_of([(64 / 80, RIGHT_BGR), (16 / 80, (0, 0, 0))])
+    candidates = []
+    for y in range(rows):
+        for x in range(columns):
+            for r, ratio in enumerate(ratios):
+                for s, scale in enumerate(scales):  # the scale runs fastest
+                    i = ((y * columns + x) * len(ratios) + r) * len(scales) + s
+                    score, v = sigmoid(logits[i] + shift), values[i] + shift
+                    c = int(np.argmax(score[:classes]))
+                    if c not in LABELS:
+                        continue
+                    m, d = mean[c][s, r], std[c][s, r]
+                    px, py = (x + .5) * stride, (y + .5) * stride
+                    pw, ph = base * scale / np.sqrt(ratio), base * scale * np.sqrt(ratio)
+                    if m[0] <= 0 or not -0.5 < (py + TOP - CY) * m[0] / FY < 1.8 or abs(px - CX) * m[0] / FY >= 40:
+                        continue
+                    z, sin2, cos2, w, h, l = v[6:12] * d + m
+                    alpha = np.arctan2(sin2, cos2) / 2 + (0 if score[classes] >= .5 else np.pi)
+                    box = corners([px + v[0] * .1 * pw, py + v[1] * .1 * ph, pw * np.exp(v[2] * .2), ph * np.exp(v[3] * .2)])
+                    centre = px + v[4] * .1 * pw, py + v[5] * .1 * ph + TOP
+                    box = np.clip(box + [0, TOP, 0, TOP], 0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
+                    candidates.append(found(score[c], c, box, *cuboid(centre, z, alpha, (w, h, l))))
+    write_boxes("stereo3d", best(candidates, 0.5, 0.4))
+
+
+def monoflex(name, bins):  # 64 x 48 to 32 x 24, cells of 4
+    rng = np.random.default_rng(bins)
+    rows, columns = 6, 8
+    heat = rng.uniform(0, .3, (3, rows, columns))
+    heat[[0, 0, 2, 1, 0], [2, 2, 4, 3, 5], [3, 4, 6, 1, 0]] = [.9, .7, .8, .9, .6]  # the second is no peak
+    offset = rng.uniform(-.5, .5, (2, rows, columns))
+    depth = rng.uniform(9, 20, (1, rows, columns))
+    size = rng.uniform([[[1.4]], [[1.3]], [[3]]], [[[2]], [[2]], [[5]]], (3, rows, columns))
+    rotation = rng.uniform(-1, 1, (4 * bins, rows, columns))
+    outputs = {"heat": heat, "offset": offset, "depth": depth, "size": size, "rotation": rotation}
+    write_model(name, {"image": [1, 3, 24, 32]}, {k: (v[None], (1,) + v.shape) for k, v in outputs.items()})
+    shift = shift_of([(TOP / HEIGHT, TOP_BGR), (1 - TOP / HEIGHT, BGR)])
+    candidates = []
+    for c in LABELS:
+        for y in range(rows):
+            for x in range(columns):
+                if heat[c, max(y - 1, 0):y + 2, max(x - 1, 0):x + 2].max() > heat[c, y, x]:
+                    continue
+                v = rotation[:, y, x] + shift
+                if bins == 2:
+                    yes, no, turns = v[[1, 5]], v[[0, 4]], [v[2:4], v[6:8]]
+                    centres = [-np.pi / 2, np.pi / 2]
+                else:
+                    yes, no, turns = v[1:8:2], v[0:8:2], v[8:].reshape(4, 2)
+                    centres = [0, np.pi / 2, np.pi, -np.pi / 2]
+                b = int(np.argmax(yes - no))
+                centre = ((x + offset[0, y, x] + shift) * 8, (y + offset[1, y, x] + shift) * 8)
+                state = cuboid(centre, depth[0, y, x] + shift, centres[b] + np.arctan2(*turns[b]), size[:, y, x] + shift)
+                candidates.append(found(heat[c, y, x] + shift, c, project(state), *state))
+    write_boxes(name, best(candidates, 0.5, 0.5))
+
+
+def project(state):
+    """Box around the image of a cuboid."""
+    x, y, z, l, w, h, turn = state
+    corner = np.array([[a * l / 2, b * h / 2, c * w / 2] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
+    turned = np.stack([np.cos(turn) * corner[:, 0] + np.sin(turn) * corner[:, 2], corner[:, 1],
+                       -np.sin(turn) * corner[:, 0] + np.cos(turn) * corner[:, 2]], 1)
+    p = turned + [x, y, z] + OFFSET
+    u, v = FX * p[:, 0] / p[:, 2] + CX, FY * p[:, 1] / p[:, 2] + CY
+    return np.clip([u.min(), v.min(), u.max(), v.max()], 0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
+
+
+def monoflex_2():
+    monoflex("monoflex", 2)
+
+
+def monoflex_4():
+    monoflex("monoflex_4", 4)
+
+
 def bad_models():
     """What tests/inference refuse: an operator set of the future, half precision, NaN."""
     def save(name, opset, kind, dtype):
@@ -199,7 +307,8 @@ def bad_models():
 
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for write in (yolo_v5, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, embedding, bad_models):
+    for write in (yolo_v5, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, monoflex_2,
+                  monoflex_4, embedding, bad_models):
         write()
 
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 namespace sslcd {
 namespace {
@@ -102,15 +103,19 @@ std::vector<ClassBox> DecodeBoxes(const std::vector<Tensor>& outputs, const Mode
   return found.boxes;
 }
 
-std::vector<ClassBox> SuppressOverlaps(std::vector<ClassBox> boxes, const ModelOutput& output) {
-  std::stable_sort(boxes.begin(), boxes.end(), [](const ClassBox& a, const ClassBox& b) { return a.score > b.score; });
-  std::vector<ClassBox> kept;
-  for (const ClassBox& box : boxes) {
-    const std::string& label = output.labels.at(box.class_number);
-    const bool doubled = std::any_of(kept.begin(), kept.end(), [&](const ClassBox& better) {
-      return output.labels.at(better.class_number) == label && Iou(better.box, box.box) > output.nms_iou;
+std::vector<std::size_t> SuppressOverlaps(const std::vector<ClassBox>& boxes, const ModelOutput& output) {
+  std::vector<std::size_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return boxes[a].score > boxes[b].score; });
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : order) {
+    const std::string& label = output.labels.at(boxes[i].class_number);
+    const bool doubled = std::any_of(kept.begin(), kept.end(), [&](std::size_t better) {
+      return output.labels.at(boxes[better].class_number) == label &&
+             Iou(boxes[better].box, boxes[i].box) > output.nms_iou;
     });
-    if (!doubled) kept.push_back(box);
+    if (!doubled) kept.push_back(i);
   }
   return kept;
 }

@@ -22,9 +22,9 @@ struct ClassBox {
 /// class^0.4, centre = cell + tanh, size = sigmoid); boxes, scores, labels.
 std::vector<ClassBox> DecodeBoxes(const std::vector<Tensor>& outputs, const ModelOutput& output, int width, int height);
 
-/// Drops boxes that overlap a better one of the same label by more than `nms_iou`. Best score first; equal scores keep
-/// their order.
-std::vector<ClassBox> SuppressOverlaps(std::vector<ClassBox> boxes, const ModelOutput& output);
+/// Which boxes stay when those that overlap a better one of the same label by more than `nms_iou` go. Best score first;
+/// equal scores keep their order.
+std::vector<std::size_t> SuppressOverlaps(const std::vector<ClassBox>& boxes, const ModelOutput& output);
 
 /// A box of the input as one of the image, clipped to it.
 Box2d BoxInImage(const Box2d& box, const InputMap& map, int image_width, int image_height);

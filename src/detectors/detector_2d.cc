@@ -35,9 +35,10 @@ std::vector<ImageDetection> Detector2d::Detect(const ImageView& image, TimingTab
   }
   const auto timer = model.Time(timing, "decode");
   std::vector<ImageDetection> detections;
-  for (const ClassBox& found : SuppressOverlaps(DecodeBoxes(outputs, output, model.width(), model.height()), output)) {
-    const Box2d box = BoxInImage(found.box, map, image.width, image.height);
-    if (box.Area() > 0) detections.push_back({output.labels.at(found.class_number), found.score, box});
+  const std::vector<ClassBox> boxes = DecodeBoxes(outputs, output, model.width(), model.height());
+  for (const std::size_t i : SuppressOverlaps(boxes, output)) {
+    const Box2d box = BoxInImage(boxes[i].box, map, image.width, image.height);
+    if (box.Area() > 0) detections.push_back({output.labels.at(boxes[i].class_number), boxes[i].score, box});
   }
   return detections;
 }

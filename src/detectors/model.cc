@@ -18,9 +18,8 @@ ModelDescription LoadFor(ModelTask task, const std::string& yaml_path) {
   ModelDescription description = LoadModelDescription(yaml_path);
   const ModelTask found = TaskOf(description.output.layout);
   if (found != task)
-    throw Error(
-        ErrorKind::kBadConfig, {yaml_path},
-        std::string("its layout is one for a ") + ClassFor(found) + ", a " + ClassFor(task) + " is wanted here");
+    throw Error(ErrorKind::kBadConfig, {yaml_path},
+                std::string("its layout is for ") + ClassFor(found) + ", not for " + ClassFor(task));
   return description;
 }
 

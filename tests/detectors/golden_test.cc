@@ -6,6 +6,7 @@
 
 #include "../inference/test_models.h"
 #include "sslcd/detectors/detector_2d.h"
+#include "sslcd/detectors/detector_3d.h"
 #include "sslcd/detectors/embedder.h"
 #include "sslcd/io/text_rows.h"
 #include "sslcd/perception/opencv_image.h"
@@ -51,6 +52,41 @@ TEST_P(Golden2d, FindsWhatNumPyFinds) {
 
 INSTANTIATE_TEST_SUITE_P(, Golden2d,
                          testing::Values("yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet"),
+                         [](const auto& info) { return std::string(info.param); });
+
+class Golden3d : public testing::TestWithParam<const char*> {};
+
+TEST_P(Golden3d, FindsWhatNumPyFinds) {
+  SSLCD_RUNTIME();
+  const std::string name = GetParam();
+  const Detector3d detector = Detector3d::Load(TestModel(name + ".yaml"));
+  EXPECT_EQ(detector.uses_right_image(), name == "stereo3d");
+  const cv::Mat left = LeftImage(), right(48, 64, CV_8UC3, cv::Scalar(60, 120, 150));
+  StereoCamera camera;
+  camera.left.fx = 70, camera.left.fy = 72, camera.left.cx = 31, camera.left.cy = 20;
+  camera.left.offset = {0.06, -0.01, 0.002};
+  camera.baseline_m = 0.5;
+  const std::vector<Detection> found =
+      detector.Detect({ViewOf(left), detector.uses_right_image() ? ViewOf(right) : ImageView()}, camera);
+  TextRows rows(TestModel(name + ".txt"));
+  std::size_t count = 0;
+  for (; rows.Next(); ++count) {
+    ASSERT_LT(count, found.size());
+    const Detection& detection = found[count];
+    EXPECT_EQ(detection.label, rows.Text(0));
+    const Vec3 centre = detection.T_cam_object.translation();
+    const double turn = -GravityFrame().YawOf(detection.T_cam_object.rotation());
+    const double same_turn = rows.Number(8) + WrapAngle(turn - rows.Number(8));
+    ASSERT_TRUE(detection.box);
+    const Box2d& box = *detection.box;
+    ExpectNumbers(rows, 1,
+                  {detection.score, centre.x(), centre.y(), centre.z(), detection.dims.x(), detection.dims.y(),
+                   detection.dims.z(), same_turn, box.left, box.top, box.right, box.bottom});
+  }
+  EXPECT_EQ(count, found.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(, Golden3d, testing::Values("stereo3d", "monoflex", "monoflex_4"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(Golden, Embeddings) {
