@@ -53,9 +53,8 @@ InputMap Prepare(const ImageView& view, const ModelInput& input, int width, int 
 
   const cv::Mat image = MatOf(view).rowRange(input.crop_top_px, view.height);
   const cv::Size size = ResizedSize(image.size(), {width, height}, input.resize);
-  const bool shrinks = size.width < image.cols && size.height < image.rows;
   cv::Mat resized;
-  cv::resize(image, resized, size, 0, 0, shrinks ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::resize(image, resized, size, 0, 0, cv::INTER_LINEAR);  // as these models were trained, also where it aliases
 
   InputMap map;
   map.scale_x = static_cast<double>(size.width) / image.cols;

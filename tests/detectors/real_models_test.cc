@@ -35,37 +35,32 @@ std::string Description(const TempFolder& folder, const std::string& name, const
   return folder.Write(name + ".yaml", text);
 }
 
-TEST(RealModels, FastestDetFindsTheOncomingCarInEveryFrame) {
+/// The car that overlaps a box most.
+Box2d NearestCar(const Detector2d& detector, const cv::Mat& image, const Box2d& expected) {
+  Box2d nearest;
+  for (const ImageDetection& found : detector.Detect(ViewOf(image)))
+    if (found.label == "Car" && Iou(found.box, expected) > Iou(nearest, expected)) nearest = found.box;
+  return nearest;
+}
+
+TEST(RealModels, TheOncomingCarIsFoundInEveryFrameAndKnownAgainInTheNext) {
   SSLCD_RUNTIME();
   SSLCD_REAL_DATA(models, "onnx");
   SSLCD_REAL_DATA(data, "kitti-stereo-color");
   const TempFolder folder;
   const Detector2d detector = Detector2d::Load(Description(folder, "fastestdet", models));
-  for (std::size_t i = 0; i < kOncoming.size(); ++i) {
-    const cv::Mat image = Frame(data, kFirst + static_cast<int>(i));
-    ASSERT_FALSE(image.empty());
-    double overlap = 0;
-    for (const ImageDetection& found : detector.Detect(ViewOf(image)))
-      if (found.label == "Car") overlap = std::max(overlap, Iou(found.box, kOncoming[i]));
-    EXPECT_GE(overlap, 0.5) << "frame " << kFirst + i;
-  }
-}
-
-TEST(RealModels, OsnetKnowsTheCarAgainInTheNextFrame) {
-  SSLCD_RUNTIME();
-  SSLCD_REAL_DATA(models, "onnx");
-  SSLCD_REAL_DATA(data, "kitti-stereo-color");
-  const TempFolder folder;
   const Embedder embedder = Embedder::Load(Description(folder, "osnet", models));
   EXPECT_EQ(embedder.dimension(), 512);
   std::vector<float> before;
   for (std::size_t i = 0; i < kOncoming.size(); ++i) {
+    SCOPED_TRACE("frame " + std::to_string(kFirst + i));
     const cv::Mat image = Frame(data, kFirst + static_cast<int>(i));
-    const std::vector<float> now = embedder.Embed(ViewOf(image), {kOncoming[i]}).at(0);
+    const Box2d box = NearestCar(detector, image, kOncoming[i]);
+    EXPECT_GE(Iou(box, kOncoming[i]), 0.5);
+    const std::vector<float> now = embedder.Embed(ViewOf(image), {box}).at(0);
     EXPECT_NEAR(std::inner_product(now.begin(), now.end(), now.begin(), 0.), 1, 1e-5);
-    if (!before.empty()) {
-      EXPECT_GE(std::inner_product(now.begin(), now.end(), before.begin(), 0.), 0.7) << "frame " << kFirst + i;
-    }
+    const double same = before.empty() ? 1 : std::inner_product(now.begin(), now.end(), before.begin(), 0.);
+    EXPECT_GE(same, 0.7);
     before = now;
   }
 }
