@@ -40,25 +40,25 @@ void WritePlanes(const cv::Mat& image, const ModelInput& input, float* planes) {
 
 }  // namespace
 
-InputMap Prepare(const ImageView& view, const ModelInput& input, int width, int height, const char* what,
+InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height, const char* what,
                  float* planes) {
-  CheckImage(view, what);
+  CheckImage(image, what);
   const auto refuse = [what](const std::string& why) {
     throw Error(ErrorKind::kBadInput, std::string(what) + ": " + why);
   };
-  if (view.channels != 3) refuse("it is grey, the model needs colour (B G R)");
-  if (view.height <= input.crop_top_px)
-    refuse("it has " + std::to_string(view.height) + " rows, 'crop_top_px' cuts off " +
+  if (image.channels != 3) refuse("it is grey, the model needs colour (B G R)");
+  if (image.height <= input.crop_top_px)
+    refuse("it has " + std::to_string(image.height) + " rows, 'crop_top_px' cuts off " +
            std::to_string(input.crop_top_px));
 
-  const cv::Mat image = MatOf(view).rowRange(input.crop_top_px, view.height);
-  const cv::Size size = ResizedSize(image.size(), {width, height}, input.resize);
+  const cv::Mat pixels = MatOf(image).rowRange(input.crop_top_px, image.height);
+  const cv::Size size = ResizedSize(pixels.size(), {width, height}, input.resize);
   cv::Mat resized;
-  cv::resize(image, resized, size, 0, 0, cv::INTER_LINEAR);  // as these models were trained, also where it aliases
+  cv::resize(pixels, resized, size, 0, 0, cv::INTER_LINEAR);  // as these models were trained, also where it aliases
 
   InputMap map;
-  map.scale_x = static_cast<double>(size.width) / image.cols;
-  map.scale_y = static_cast<double>(size.height) / image.rows;
+  map.scale_x = static_cast<double>(size.width) / pixels.cols;
+  map.scale_y = static_cast<double>(size.height) / pixels.rows;
   if (size != cv::Size(width, height)) {
     const bool centred = input.resize == ModelInput::Resize::kLetterbox;
     const cv::Point corner = centred ? cv::Point((width - size.width) / 2, (height - size.height) / 2) : cv::Point();

@@ -34,7 +34,6 @@ struct Session::Impl {
   const OrtApi& api;
   OrtPointer<OrtEnv> env;
   OrtPointer<OrtSession> session;
-  OrtPointer<OrtMemoryInfo> memory;
   InferenceOptions::Provider provider = InferenceOptions::Provider::kCpu;
   std::vector<TensorInfo> inputs, outputs;
 
@@ -42,14 +41,10 @@ struct Session::Impl {
       : path(model_path),
         api(LoadRuntime(options.library)),
         env(nullptr, api.ReleaseEnv),
-        session(nullptr, api.ReleaseSession),
-        memory(nullptr, api.ReleaseMemoryInfo) {
-    OrtEnv* new_env = nullptr;
-    Check(api.CreateEnvWithCustomLogger(ForwardLog, nullptr, ORT_LOGGING_LEVEL_WARNING, "sslcd", &new_env));
-    env.reset(new_env);
-    OrtMemoryInfo* new_memory = nullptr;
-    Check(api.CreateCpuMemoryInfo(OrtArenaAllocator, OrtMemTypeDefault, &new_memory));
-    memory.reset(new_memory);
+        session(nullptr, api.ReleaseSession) {
+    OrtEnv* created = nullptr;
+    Check(api.CreateEnvWithCustomLogger(ForwardLog, nullptr, ORT_LOGGING_LEVEL_WARNING, "sslcd", &created));
+    env.reset(created);
     Open(options);
     inputs = Describe(api.SessionGetInputCount, api.SessionGetInputName, api.SessionGetInputTypeInfo);
     outputs = Describe(api.SessionGetOutputCount, api.SessionGetOutputName, api.SessionGetOutputTypeInfo);
@@ -63,35 +58,44 @@ struct Session::Impl {
   }
 
   void Open(const InferenceOptions& options) {
+    if (options.provider == InferenceOptions::Provider::kCuda) {
+      const std::string problem = Problem(api, TryToOpen(options));
+      if (problem.empty()) {
+        provider = InferenceOptions::Provider::kCuda;
+        return;
+      }
+      Log(LogLevel::kWarning, path + ": runs on the CPU, CUDA is not there (" + problem +
+                                  "); 'library' must be ONNX Runtime's GPU build, with its CUDA and cuDNN");
+    }
+    InferenceOptions on_cpu = options;
+    on_cpu.provider = InferenceOptions::Provider::kCpu;
+    Check(TryToOpen(on_cpu), "; export the model again, in a version of ONNX that ONNX Runtime knows (docs/models.md)");
+  }
+
+  OrtStatus* TryToOpen(const InferenceOptions& options) {
     OrtSessionOptions* raw = nullptr;
     Check(api.CreateSessionOptions(&raw));
     const OrtPointer<OrtSessionOptions> settings(raw, api.ReleaseSessionOptions);
     Check(api.SetIntraOpNumThreads(raw, options.threads));
     Check(api.SetInterOpNumThreads(raw, 1));
     Check(api.AddSessionConfigEntry(raw, "session.intra_op.allow_spinning", "0"));  // leaves the cores to others
-    if (options.provider == InferenceOptions::Provider::kCuda) AddCuda(raw, options.device_id);
+    if (options.provider == InferenceOptions::Provider::kCuda)
+      if (OrtStatus* problem = AddCuda(raw, options.device_id)) return problem;
     OrtSession* opened = nullptr;
-    Check(api.CreateSession(env.get(), path.c_str(), raw, &opened),
-          "; export the model again, in a version of ONNX that ONNX Runtime knows (docs/models.md)");
+    OrtStatus* problem = api.CreateSession(env.get(), path.c_str(), raw, &opened);
     session.reset(opened);
+    return problem;
   }
 
-  void AddCuda(OrtSessionOptions* settings, int device_id) {
+  OrtStatus* AddCuda(OrtSessionOptions* settings, int device_id) const {
     OrtCUDAProviderOptionsV2* raw = nullptr;
-    std::string problem = Problem(api, api.CreateCUDAProviderOptions(&raw));
+    if (OrtStatus* problem = api.CreateCUDAProviderOptions(&raw)) return problem;
     const OrtPointer<OrtCUDAProviderOptionsV2> cuda(raw, api.ReleaseCUDAProviderOptions);
-    if (problem.empty()) {
-      const std::string device = std::to_string(device_id);
-      const std::array<const char*, 1> keys = {"device_id"}, values = {device.c_str()};
-      problem = Problem(api, api.UpdateCUDAProviderOptions(raw, keys.data(), values.data(), keys.size()));
-    }
-    if (problem.empty()) problem = Problem(api, api.SessionOptionsAppendExecutionProvider_CUDA_V2(settings, raw));
-    if (problem.empty()) {
-      provider = InferenceOptions::Provider::kCuda;
-    } else {
-      Log(LogLevel::kWarning, path + ": runs on the CPU, CUDA is not there (" + problem +
-                                  "); 'library' must be ONNX Runtime's GPU build, with its CUDA and cuDNN");
-    }
+    const std::string device = std::to_string(device_id);
+    const std::array<const char*, 1> keys = {"device_id"}, values = {device.c_str()};
+    if (OrtStatus* problem = api.UpdateCUDAProviderOptions(raw, keys.data(), values.data(), keys.size()))
+      return problem;
+    return api.SessionOptionsAppendExecutionProvider_CUDA_V2(settings, raw);
   }
 
   template <class CountOf, class NameAt, class TypeAt>

@@ -80,5 +80,19 @@ TEST(RealModels, BoxesOfOneBatchAreThoseOfOneByOne) {
   }
 }
 
+TEST(RealModels, SameBytesOnOneAndTwoThreads) {
+  SSLCD_RUNTIME();
+  SSLCD_REAL_DATA(models, "onnx");
+  SSLCD_REAL_DATA(data, "kitti-stereo-color");
+  const TempFolder folder;
+  const std::string description = Description(folder, "osnet", models);
+  InferenceOptions two;
+  two.threads = 2;
+  const cv::Mat image = Frame(data, 9);
+  const std::vector<Box2d> boxes(kOncoming.begin(), kOncoming.begin() + 3);
+  EXPECT_EQ(Embedder::Load(description).Embed(ViewOf(image), boxes),
+            Embedder::Load(description, two).Embed(ViewOf(image), boxes));
+}
+
 }  // namespace
 }  // namespace sslcd
