@@ -52,7 +52,7 @@ TEST_P(Golden2d, FindsWhatNumPyFinds) {
 
 INSTANTIATE_TEST_SUITE_P(, Golden2d,
                          testing::Values("yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 class Golden3d : public testing::TestWithParam<const char*> {};
 
@@ -87,7 +87,7 @@ TEST_P(Golden3d, FindsWhatNumPyFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Golden3d, testing::Values("stereo3d", "monoflex", "monoflex_4"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Golden, Embeddings) {
   SSLCD_RUNTIME();
