@@ -39,7 +39,7 @@ def write_model(name, inputs, outputs, size_input=None):
         nodes.append(helper.make_node(kind, list(sources), [result], **attributes))
         return result
 
-    batched = "batch" in next(iter(inputs.values()))
+    batched = next(iter(inputs.values()))[0] != 1
     terms = []
     for i, key in enumerate(inputs):
         weighted = node("Mul", f"weighted {i}", key, constant(f"weights {i}", (i + 1) * CHANNELS.reshape(1, 3, 1, 1)))
@@ -176,7 +176,8 @@ def fastestdet():  # without its top 64 x 32, to 32 x 16, black on the right up 
 
 def embedding():  # two boxes, of one colour each; one half outside the image
     numbers = np.array([[.3, -.2, .1, .5, -.4]])
-    write_model("embedding", {"images": ["batch", 3, 8, 4]}, {"features": (numbers, ["batch", 5])})
+    for name, batch in (("embedding", "batch"), ("embedding_pairs", 2)):
+        write_model(name, {"images": [batch, 3, 8, 4]}, {"features": (numbers, [batch, 5])})
     rows = []
     for bgr in (BGR, TOP_BGR):
         v = numbers[0] + shift_of([(1, bgr)], 1)

@@ -109,6 +109,10 @@ TEST(Golden, Embeddings) {
   EXPECT_EQ(timing.Summary().at("embedding run").count, 1) << "both at once";
   EXPECT_TRUE(embedder.Embed(ViewOf(image), {}).empty());
   EXPECT_EQ(embedder.Embed(ViewOf(image), std::vector<Box2d>(70, boxes[0])).back(), found[0]) << "in several batches";
+
+  const Embedder in_pairs = Embedder::Load(TestModel("embedding_pairs.yaml"));
+  EXPECT_EQ(in_pairs.Embed(ViewOf(image), {boxes[0], boxes[2], boxes[0]}),
+            (std::vector<std::vector<float>>{found[0], found[2], found[0]}));
 }
 
 }  // namespace
