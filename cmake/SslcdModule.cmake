@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>...)
-#   src/NAME/*.cc as an object library `sslcd_NAME`. Its LINK list is the layer rule; tests/include_graph checks that the
-#   includes keep to it.
+# sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>... WITHOUT <files>...)
+#   src/NAME/*.cc, but for the files named, as an object library `sslcd_NAME`. Its LINK list is the layer rule;
+#   tests/include_graph checks that the includes keep to it.
 # sslcd_library(TARGET [LINK <libraries>...])
 #   the modules since the last sslcd_library() as one installed library: `sslcd` as sslcd::sslcd, `sslcd_vision` as
 #   sslcd::vision.
 function(sslcd_module name)
-  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;WITHOUT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
+  list(TRANSFORM ARG_WITHOUT PREPEND ${PROJECT_SOURCE_DIR}/src/${name}/)
+  list(REMOVE_ITEM sources ${ARG_WITHOUT})
   add_library(sslcd_${name} OBJECT ${sources})
   target_include_directories(sslcd_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(sslcd_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE} sslcd_compiler)

@@ -1,11 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing where all is there.
-#   scripts/install_deps.sh [build|test|dev]
-#     build  the library and the tools; enough for scripts/demo.sh
-#     test   and what the tests need, clang-format among it (default), and Embree for sslcd_sim --render (the demo needs
-#            it not)
-#     dev    and clang-tidy, Google Benchmark, NumPy and Shapely
+#   scripts/install_deps.sh [build|vision|test|dev]
+#     build   the library and the tools; enough for scripts/demo.sh
+#     vision  and ONNX Runtime, to run models (docs/models.md); where that cannot be had all else is installed
+#     test    and what the tests need, clang-format among it (default), and Embree for sslcd_sim --render (the demo needs
+#             it not)
+#     dev     and clang-tidy, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
@@ -14,11 +15,13 @@ build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev
 test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libembree-dev)
 dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
 
-case "${1:-test}" in
+what=${1:-test}
+case "$what" in
   build) wanted=("${build[@]}") ;;
+  vision) wanted=("${build[@]}" python3) ;;
   test) wanted=("${build[@]}" "${test[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${dev[@]}") ;;
-  *) echo "usage: scripts/install_deps.sh [build|test|dev]" >&2; exit 2 ;;
+  *) echo "usage: scripts/install_deps.sh [build|vision|test|dev]" >&2; exit 2 ;;
 esac
 
 # Debian 13 has no clang 14: the checks that need it are skipped there.
@@ -32,25 +35,37 @@ for package in "${wanted[@]}"; do
   missing+=("$package")
   if in_this_release "$package"; then needed=1; fi
 done
-if ((!needed)); then
+models=0
+if [[ $what != build ]] && ! "$(dirname "$0")/install_onnxruntime.sh" --is-there; then models=1; fi
+if ((!needed && !models)); then
   echo "dependencies: all there"
   exit 0
 fi
 
 as_root=()
 if ((EUID != 0)); then
-  command -v sudo >/dev/null || { echo "not root and no sudo; as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  if ! command -v sudo >/dev/null; then
+    echo "not root and no sudo; as root: scripts/install_deps.sh $what" >&2
+    exit "$needed"  # ONNX Runtime alone can be done without
+  fi
   as_root=(sudo)
 fi
-echo "dependencies: installing ${missing[*]}"
-"${as_root[@]}" apt-get update -qq
-available=()
-for package in "${missing[@]}"; do
-  if in_this_release "$package"; then
-    available+=("$package")
-  else
-    echo "dependencies: this release has no $package; the check that needs it will be skipped"
-  fi
-done
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 "${available[@]}" >/dev/null
+
+if ((needed)); then
+  echo "dependencies: installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  available=()
+  for package in "${missing[@]}"; do
+    if in_this_release "$package"; then
+      available+=("$package")
+    else
+      echo "dependencies: this release has no $package; the check that needs it will be skipped"
+    fi
+  done
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 "${available[@]}" >/dev/null
+fi
+
+if ((models)) && ! "${as_root[@]}" "$(dirname "$0")/install_onnxruntime.sh"; then
+  echo "dependencies: ONNX Runtime could not be installed: models cannot be run, all else works (docs/models.md)"
+fi

@@ -33,6 +33,17 @@ class Printer : public FieldVisitor {
     for (const char* name : names) list += (list.empty() ? "" : ", ") + std::string(name);
     Field(key, names[value], "name", list, meaning);
   }
+  void Numbers(const char* key, std::vector<double>& values, double low, double high, const char* meaning) override {
+    std::string list;
+    for (const double value : values) list += (list.empty() ? "" : ", ") + ShortestNumber(value);
+    Field(key, "[" + list + "]", "numbers", ShortestNumber(low) + " .. " + ShortestNumber(high), meaning);
+  }
+  void Names(const char* key, std::map<int, std::string>& names, const char* meaning) override {
+    std::string list;
+    for (const auto& [number, name] : names)
+      list += (list.empty() ? "" : ", ") + std::to_string(number) + ": " + Quoted(name);
+    Field(key, "{" + list + "}", "names", "", meaning);
+  }
 
   std::string text;
 

@@ -97,6 +97,32 @@ class Loader final : public FieldVisitor {
     });
   }
 
+  void Numbers(const char* key, std::vector<double>& values, double low, double high, const char*) override {
+    const YAML::Node node = Collection(key, YAML::NodeType::Sequence, "a list of numbers, e.g. [1, 2]");
+    std::vector<double> read;
+    for (const auto& item : node) {
+      const std::optional<double> number = item.IsScalar() ? ParseNumber(item.Scalar()) : std::nullopt;
+      if (!number) return WrongType(item, key, "a list of numbers");
+      if (!(*number >= low && *number <= high)) return OutOfRange(item, key, Plain(low), Plain(high));
+      read.push_back(*number);
+    }
+    if (apply_ && node.IsSequence()) values = read;
+  }
+
+  void Names(const char* key, std::map<int, std::string>& names, const char*) override {
+    const YAML::Node node = Collection(key, YAML::NodeType::Map, "names by number, e.g. {2: Car, 7: Truck}");
+    std::map<int, std::string> read;
+    for (const auto& entry : node) {
+      const std::string number = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      if (number.empty() || number.size() > 6 || number.find_first_not_of("0123456789") != std::string::npos)
+        return Problem(entry.first, "'" + std::string(key) + "' has '" + number + "', must be a whole number >= 0");
+      if (!entry.second.IsScalar()) return WrongType(entry.second, key, "names by number");
+      if (!read.emplace(std::stoi(number), entry.second.Scalar()).second)
+        return Problem(entry.first, "duplicate number " + number + " in '" + key + "'");
+    }
+    if (apply_ && node.IsMap()) names = read;
+  }
+
   void Section(const char* key, const char*, const std::function<void(FieldVisitor&)>& describe) override {
     known_.push_back(key);
     const YAML::Node child = Find(key);
@@ -120,6 +146,15 @@ class Loader final : public FieldVisitor {
   YAML::Node Find(const char* key) const {
     for (const auto& entry : node_)
       if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+    return YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  /// The list or map of this key; undefined where it is not there or something else.
+  YAML::Node Collection(const char* key, YAML::NodeType::value type, const char* expected) {
+    known_.push_back(key);
+    YAML::Node node = Find(key);
+    if (!node.IsDefined() || node.Type() == type) return node;
+    WrongType(node, key, expected);
     return YAML::Node(YAML::NodeType::Undefined);
   }
 

@@ -17,7 +17,7 @@ from pathlib import Path
 OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
-           "onnxruntime": "onnx", "embree3": "embree", "embree4": "embree"}
+           "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}
 # Not modules of the library: these stand above it and may use all of it, and of each other what is named here.
 ABOVE = {"sim": set(), "render": {"sim"}, "baselines": set(), "benchmark": {"sim", "baselines"}}
 
@@ -27,10 +27,10 @@ def read_modules(cmake_lists):
     modules, breaches = {}, []
     for body in re.findall(r"^ *sslcd_module\(([^)]*)\)", cmake_lists, re.M):
         name, *words = body.split()
-        links, outside, into = [], [], None
+        links, outside, other, into = [], [], [], None
         for word in words:
-            if word in ("LINK", "PRIVATE"):
-                into = links if word == "LINK" else outside
+            if word in ("LINK", "PRIVATE", "WITHOUT"):
+                into = {"LINK": links, "PRIVATE": outside, "WITHOUT": other}[word]
             else:
                 into.append(word)
         reachable = {name}

@@ -56,6 +56,12 @@ class CheckLayers(unittest.TestCase):
     def test_outside_library_not_linked(self):
         self.expect_one("src/map/map.cc", "#include <ceres/problem.h>\n", "map does not link ceres")
         self.expect_one("src/optim/fit.cc", "#  include <flann/flann.hpp>\n", "optim does not link flann")
+        self.expect_one("src/map/model.cc", "#include <onnxruntime_c_api.h>\n", "map does not link onnxruntime_c_api.h")
+
+    def test_files_left_out_are_no_libraries(self):
+        cmake = CMAKE.replace("sslcd_module(map   LINK sslcd_core)", "sslcd_module(map LINK sslcd_core WITHOUT ceres.cc)")
+        breaches = self.breaches({"CMakeLists.txt": cmake, "src/map/map.cc": "#include <ceres/problem.h>\n"})
+        self.assertEqual(breaches, ["src/map/map.cc:1: map does not link ceres"])
 
     def test_public_header_shows_outside_library(self):
         self.expect_one("include/sslcd/optim/solve.h", "#include <ceres/problem.h>\n", "public header includes ceres")

@@ -19,6 +19,17 @@ void DescribeFields(FieldVisitor& v, Loop& loop) {
   v.Real("topology_m", loop.topology_m, 0, 10, "how far neighbours are");
   v.Integer("neighbours", loop.neighbours, 1, 20, "K");
 }
+struct Lists {
+  std::vector<double> weights{1, 2};
+  std::map<int, std::string> names{{3, "three"}};
+};
+void DescribeFields(FieldVisitor& v, Lists& lists) {
+  v.Numbers("weights", lists.weights, 0, 10, "how much each counts");
+  v.Names("names", lists.names, "who is who");
+}
+Describe Of(Lists& lists) {
+  return [&lists](FieldVisitor& v) { DescribeFields(v, lists); };
+}
 struct Root {
   enum class Mode { kFast, kSafe } mode = Mode::kFast;
   bool on = true;
@@ -120,6 +131,41 @@ TEST(Config, ReferenceNamesEveryKey) {
   const std::string text = ConfigReference(Of(root));
   EXPECT_THAT(text, HasSubstr("| `topology_m` | number | 5 | 0 .. 10 | how far neighbours are |"));
   EXPECT_THAT(text, HasSubstr("## `loop`"));
+}
+
+TEST(Config, ListsAndNames) {
+  Lists lists;
+  LoadConfigText("weights: [0.5, 3e0, 10]\nnames: {0: a, 12: 'b c'}\n", "c.yaml", Of(lists));
+  EXPECT_EQ(lists.weights, (std::vector<double>{0.5, 3, 10}));
+  EXPECT_EQ(lists.names, (std::map<int, std::string>{{0, "a"}, {12, "b c"}}));
+  Lists again;
+  LoadConfigText(DumpConfig(Of(lists), true), "dump", Of(again));
+  EXPECT_EQ(again.weights, lists.weights);
+  EXPECT_EQ(again.names, lists.names);
+  LoadConfigText("weights: []\nnames: {}\n", "c.yaml", Of(lists));
+  EXPECT_TRUE(lists.weights.empty() && lists.names.empty());
+  EXPECT_THAT(ConfigReference(Of(again)), HasSubstr("| `weights` | numbers | [0.5, 3, 10] | 0 .. 10 | how much"));
+}
+
+TEST(Config, BadListsAndNames) {
+  Lists lists;
+  const auto error_of = [&lists](const std::string& yaml) -> std::string {
+    try {
+      LoadConfigText(yaml, "c.yaml", Of(lists));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of("weights: 3"), "c.yaml:1:10: 'weights' is '3', must be a list of numbers, e.g. [1, 2]");
+  EXPECT_EQ(error_of("weights: [1, 11]"), "c.yaml:1:14: 'weights' is 11, must be in [0, 10]");
+  EXPECT_THAT(error_of("weights: [1, [2]]"), HasSubstr("c.yaml:1:14: 'weights' is a list or map"));
+  EXPECT_THAT(error_of("weights: [1, .nan]"), HasSubstr("must be"));
+  EXPECT_THAT(error_of("names: [a]"), HasSubstr("must be names by number, e.g. {2: Car, 7: Truck}"));
+  EXPECT_THAT(error_of("names: {-1: a}"), HasSubstr("'names' has '-1', must be a whole number >= 0"));
+  EXPECT_THAT(error_of("names: {1: [a]}"), HasSubstr("must be names by number"));
+  EXPECT_THAT(error_of("names: {1: a, 01: b}"), HasSubstr("duplicate number 01 in 'names'"));
+  EXPECT_EQ(lists.weights, (std::vector<double>{1, 2})) << "a bad file must change nothing";
 }
 
 TEST(Config, MissingFile) {

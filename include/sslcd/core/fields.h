@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ class FieldVisitor {
 
   /// `value` is an index into `names`. Use the Enum() helper below for enum types.
   virtual void Choice(const char* key, int& value, const std::vector<const char*>& names, const char* meaning) = 0;
+
+  /// A list of numbers, each in [low, high]. Visitors that have no use for lists leave them alone.
+  virtual void Numbers(const char* /*key*/, std::vector<double>& /*values*/, double /*low*/, double /*high*/,
+                       const char* /*meaning*/) {}
+
+  /// Names by number >= 0, e.g. `{2: Car, 7: Truck}`. Likewise.
+  virtual void Names(const char* /*key*/, std::map<int, std::string>& /*names*/, const char* /*meaning*/) {}
 
   /// A nested section; `describe` visits its fields with the same visitor.
   virtual void Section(const char* key, const char* meaning, const std::function<void(FieldVisitor&)>& describe) = 0;

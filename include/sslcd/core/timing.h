@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sslcd {
@@ -29,7 +30,7 @@ class TimingTable {
 /// Adds the time between its construction and destruction to a table.
 class ScopedTimer {
  public:
-  ScopedTimer(TimingTable& table, const char* stage) : table_(table), stage_(stage) {}
+  ScopedTimer(TimingTable& table, std::string stage) : table_(table), stage_(std::move(stage)) {}
   ~ScopedTimer() { table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count()); }
   ScopedTimer(const ScopedTimer&) = delete;
   ScopedTimer& operator=(const ScopedTimer&) = delete;
@@ -37,7 +38,7 @@ class ScopedTimer {
  private:
   using Clock = std::chrono::steady_clock;
   TimingTable& table_;
-  const char* stage_;
+  std::string stage_;
   Clock::time_point start_ = Clock::now();
 };
 

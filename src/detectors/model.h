@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detectors/prepare.h"
+#include "sslcd/core/timing.h"
+#include "sslcd/detectors/model_description.h"
+#include "sslcd/inference/session.h"
+
+namespace sslcd {
+
+/// A described model that is loaded: images in, its outputs in the layout's order out.
+class Model {
+ public:
+  /// Throws Error when the layout is not for `task`, or the model's inputs or outputs do not fit the description.
+  Model(const std::string& yaml_path, ModelTask task, const InferenceOptions& options);
+
+  const ModelDescription& description() const { return description_; }
+  int width() const { return width_; }  ///< of the input [px]
+  int height() const { return height_; }
+  bool takes_two_images() const { return description_.output.layout == ModelLayout::kStereo3d; }
+  int fixed_batch() const { return fixed_batch_; }  ///< images that go in at once; 0: any number
+
+  /// Room for `batch` images.
+  Tensor EmptyInput(int batch) const;
+
+  /// Runs the model; `right` for models that take two images. Throws Error when an output does not have the layout's
+  /// shape.
+  std::vector<Tensor> Run(Tensor left, std::optional<Tensor> right = std::nullopt) const;
+
+  /// Times one stage while it lives, where there is a table.
+  std::optional<ScopedTimer> Time(TimingTable* timing, const char* stage) const;
+
+ private:
+  const TensorInfo& InputNamed(const std::string& name, std::size_t position) const;
+  void ReadInputs();
+  void ReadOutputs();
+  [[noreturn]] void Refuse(const std::string& message) const;
+
+  std::string yaml_path_;
+  ModelDescription description_;
+  Session session_;
+  std::string left_name_, right_name_;
+  std::vector<std::string> output_names_;
+  std::vector<TensorShape> output_shapes_;  ///< what the layout asks for
+  int width_ = 0, height_ = 0, fixed_batch_ = 1;
+};
+
+/// The shapes of a layout's outputs, -1 where any size will do, for an input of this size.
+std::vector<TensorShape> LayoutShapes(const ModelOutput& output, int width, int height);
+
+}  // namespace sslcd
