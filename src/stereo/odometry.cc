@@ -19,6 +19,10 @@ namespace {
 
 constexpr int kCoarse = 4, kFine = 1;  // levels to look through: for anything, for what is nearly known
 constexpr int kCoarsePoints = 120;     // enough to find out roughly where the camera is
+// Turns that are tried when the points are not where they should be: up to 15 degrees, in steps that
+// the coarsest patches bridge.
+constexpr int kTurns = 3;
+constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
 constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
 
@@ -154,12 +158,24 @@ class StereoOdometry::Impl {
   }
 
   std::optional<StereoFrame> Track(const StereoPyramids& current) {
-    const StereoFrame& reference = keyframes_.back();
-    std::optional<Pose> pose = FindPose(current, last_.T_odom_left * velocity_, kCoarsePoints);
-    // Perhaps the velocity is what is wrong.
-    if (!pose) pose = FindPose(current, reference.T_odom_left, static_cast<int>(reference.sightings.size()));
+    std::optional<StereoFrame> frame = Track(reference_images_.left, current.left, current);
+    if (frame) return frame;
+    // Perhaps it is the light that has changed.
+    return Track(Evened(reference_images_.left, options_), Evened(current.left, options_), current);
+  }
+
+  std::optional<StereoFrame> Track(const ImagePyramid& reference, const ImagePyramid& left,
+                                   const StereoPyramids& current) {
+    const Pose T_expected = last_.T_odom_left * velocity_;
+    std::optional<Pose> pose = FindPose(reference, left, T_expected);
+    if (!pose) pose = FindPose(reference, left, last_.T_odom_left);
+    // The camera may have begun to turn, or ended.
+    for (int k = 1; k <= kTurns && !pose; ++k) {
+      pose = FindPose(reference, left, T_expected * Pose::RotY(k * kTurnRad));
+      if (!pose) pose = FindPose(reference, left, T_expected * Pose::RotY(-k * kTurnRad));
+    }
     if (!pose) return std::nullopt;
-    StereoFrame frame = FindAll(current, *pose);
+    StereoFrame frame = FindAll(reference, left, current, *pose);
     RefinePose(camera_, points_, frame);
     DropMisfits(frame);
     if (static_cast<int>(frame.sightings.size()) >= options_.min_tracked) return frame;
@@ -188,10 +204,9 @@ class StereoOdometry::Impl {
   }
 
   /// The pose that most points agree on when looked for around where they appear from `T_guess`.
-  std::optional<Pose> FindPose(const StereoPyramids& current, const Pose& T_guess, int points) {
-    const Expected expected = Expect(T_guess, points);
-    const Followed followed =
-        Follow(reference_images_.left, current.left, expected.from, expected.to, kCoarse, options_);
+  std::optional<Pose> FindPose(const ImagePyramid& from, const ImagePyramid& to, const Pose& T_guess) {
+    const Expected expected = Expect(T_guess, kCoarsePoints);
+    const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, options_);
     const StereoFrame& reference = keyframes_.back();
     const Pose T_reference_odom = reference.T_odom_left.inverse();
     std::vector<cv::Point3d> places;
@@ -222,10 +237,10 @@ class StereoOdometry::Impl {
   }
 
   /// All points of the reference keyframe, in both images, looked for where they must be.
-  StereoFrame FindAll(const StereoPyramids& current, const Pose& T_odom_left) const {
+  StereoFrame FindAll(const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
+                      const Pose& T_odom_left) const {
     const Expected expected = Expect(T_odom_left, std::numeric_limits<int>::max());
-    const Followed left =
-        FollowThereAndBack(reference_images_.left, current.left, expected.from, expected.to, kFine, options_);
+    const Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, options_);
     std::vector<cv::Point2f> guess = left.at;
     for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
     const Followed right = Follow(current.left, current.right, left.at, guess, kFine, options_);

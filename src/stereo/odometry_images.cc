@@ -16,21 +16,35 @@ constexpr double kReturnsWithin = 1;  // [px]
 // Smallest eigenvalue a patch must have (of OpenCV's, per pixel): what noise alone has.
 constexpr double kMinEigenvalue = 1e-4;
 
+constexpr double kMidGrey = 128, kSpread = 40;  // mean and deviation of an evened image
+constexpr double kNoise = 4;                    // deviations below are noise, and not blown up
+
 cv::Size PatchSize(const StereoOdometryOptions& options) { return {options.patch_px, options.patch_px}; }
+
+// The image is copied: the host may write into its own while a keyframe still needs it.
+ImagePyramid Build(const cv::Mat& grey, const StereoOdometryOptions& options) {
+  ImagePyramid pyramid;
+  cv::buildOpticalFlowPyramid(grey, pyramid, PatchSize(options), kMaxLevel, true, cv::BORDER_REFLECT_101,
+                              cv::BORDER_CONSTANT, false);
+  return pyramid;
+}
 
 }  // namespace
 
 StereoPyramids BuildPyramids(const StereoView& images, const StereoOdometryOptions& options) {
-  StereoPyramids pyramids;
-  // Grey images are copied, too: the host may write into its own while a keyframe still needs them.
-  const auto build = [&options](const ImageView& image, ImagePyramid& pyramid) {
-    cv::buildOpticalFlowPyramid(Grey(image), pyramid, PatchSize(options), kMaxLevel, true, cv::BORDER_REFLECT_101,
-                                cv::BORDER_CONSTANT, false);
-  };
-  build(images.left, pyramids.left);
-  build(images.right, pyramids.right);
-  pyramids.size = cv::Size(images.left.width, images.left.height);
-  return pyramids;
+  return {Build(Grey(images.left), options), Build(Grey(images.right), options),
+          cv::Size(images.left.width, images.left.height)};
+}
+
+ImagePyramid Evened(const ImagePyramid& image, const StereoOdometryOptions& options) {
+  const cv::Size surroundings(3 * options.patch_px, 3 * options.patch_px);
+  cv::Mat grey, mean, square, deviation, evened;
+  image[0].convertTo(grey, CV_32F);
+  cv::boxFilter(grey, mean, CV_32F, surroundings);
+  cv::sqrBoxFilter(grey, square, CV_32F, surroundings);
+  cv::sqrt(cv::max(square - mean.mul(mean), 0), deviation);
+  cv::Mat(kMidGrey + kSpread * (grey - mean) / (deviation + kNoise)).convertTo(evened, CV_8U);
+  return Build(evened, options);
 }
 
 Followed Follow(const ImagePyramid& from, const ImagePyramid& to, const std::vector<cv::Point2f>& points,

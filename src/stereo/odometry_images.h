@@ -20,6 +20,10 @@ struct StereoPyramids {
 };
 StereoPyramids BuildPyramids(const StereoView& images, const StereoOdometryOptions& options);
 
+/// The same image with brightness and contrast evened out, by mean and deviation of each pixel's surroundings: what
+/// remains of a scene when the light changes.
+ImagePyramid Evened(const ImagePyramid& image, const StereoOdometryOptions& options);
+
 /// Where points of one image are in another. `guess` is where to begin to look, `levels` how coarse: the patch may be
 /// off by some 2^levels * patch_px / 2 pixels.
 struct Followed {
