@@ -127,7 +127,7 @@ class StereoOdometry::Impl {
 
   OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
     const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
-    Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_);
+    Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, PixelNoise(camera_, frame, points_));
     if (lost_ > 0) covariance += GuessCovariance(velocity_, lost_);
 
     const bool keyframe = KeyframeIsDue(frame);

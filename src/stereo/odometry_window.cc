@@ -90,14 +90,6 @@ bool InFront(const StereoFrame& frame, const Vec3& point) {
   return (frame.T_odom_left.inverse() * point).z() > kNearest;
 }
 
-/// Of the coordinates of all sightings, robustly: 1.4826 times the median.
-double PixelNoise(std::vector<double> residuals) {
-  if (residuals.empty()) return 1;
-  const auto middle = residuals.begin() + residuals.size() / 2;
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return std::max(kMinPixelNoise, 1.4826 * *middle);
-}
-
 }  // namespace
 
 StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
@@ -140,10 +132,20 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, Stereo
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-void RefineWindow(const StereoCamera& camera, int fixed, std::vector<StereoFrame*> frames, OdometryPoints& points) {
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                  OdometryPoints& points) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
     for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
+  // Ceres eliminates points in the order of their addresses: in one array, that is the same in each run.
+  std::map<int, Vec3*> place_of;
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const auto& [id, point] : points) {
+    if (times_seen[id] < 2) continue;
+    places.push_back(point);
+    place_of[id] = &places.back();
+  }
 
   ceres::CauchyLoss loss(kLossPx);
   ceres::Problem problem(ProblemOptions());
@@ -154,11 +156,11 @@ void RefineWindow(const StereoCamera& camera, int fixed, std::vector<StereoFrame
     if (static_cast<int>(i) < fixed) problem.SetParameterBlockConstant(deltas[i].data());
     ordering->AddElementToGroup(deltas[i].data(), 1);
     for (const StereoSighting& sighting : frames[i]->sightings) {
-      Vec3& point = points.at(sighting.point);
-      if (times_seen[sighting.point] < 2 || !InFront(*frames[i], point)) continue;
+      const auto place = place_of.find(sighting.point);
+      if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
       problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frames[i]->T_odom_left), &loss, deltas[i].data(),
-                               point.data());
-      ordering->AddElementToGroup(point.data(), 0);
+                               place->second->data());
+      ordering->AddElementToGroup(place->second->data(), 0);
     }
   }
   ceres::Solver::Options options;
@@ -170,14 +172,26 @@ void RefineWindow(const StereoCamera& camera, int fixed, std::vector<StereoFrame
     frames[i]->T_odom_left *= Pose::Exp(deltas[i]);
     frames[i]->T_odom_left.normalise();
   }
+  for (const auto& [id, place] : place_of) points[id] = *place;
+}
+
+double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
+  double squares = 0;
+  int count = 0;
+  for (const StereoSighting& sighting : frame.sightings) {
+    const Reprojection r = Reproject(camera, frame.T_odom_left, sighting.pixel, points.at(sighting.point));
+    if (!r.in_front) continue;
+    squares += r.residual.squaredNorm();
+    count += std::isnan(sighting.pixel.right) ? 2 : 3;
+  }
+  return std::max(kMinPixelNoise, std::sqrt(squares / std::max(1, count)));
 }
 
 Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points) {
+                             const OdometryPoints& points, double noise_px) {
   std::map<int, StereoPixel> seen_before;
   for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting.pixel;
   Eigen::Matrix<double, 6, 6> information = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
-  std::vector<double> residuals;
   for (const StereoSighting& sighting : to.sightings) {
     const auto before = seen_before.find(sighting.point);
     if (before == seen_before.end()) continue;
@@ -185,14 +199,12 @@ Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from
     const Reprojection a = Reproject(camera, from.T_odom_left, before->second, point);
     const Reprojection b = Reproject(camera, to.T_odom_left, sighting.pixel, point);
     if (!a.in_front || !b.in_front) continue;
-    for (int k = 0; k < 3; ++k) residuals.push_back(std::abs(b.residual[k]));
-    // [A B; B' C] with the point last; its share of the information is what remains of A: A - B C^-1 B'.
+    // [A B; B' C] with the point last; without it remains A - B C^-1 B'.
     const Mat36 B = b.by_point.transpose() * b.by_pose;
     const Mat3 C = a.by_point.transpose() * a.by_point + b.by_point.transpose() * b.by_point;
     information += b.by_pose.transpose() * b.by_pose - B.transpose() * C.ldlt().solve(B);
   }
-  const double noise = PixelNoise(residuals);
-  return noise * noise * information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+  return noise_px * noise_px * information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
 }
 
 }  // namespace sslcd

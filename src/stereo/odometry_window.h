@@ -43,12 +43,16 @@ double StereoError(const StereoCamera& camera, const StereoFrame& frame, const S
 void RefinePose(const StereoCamera& camera, const OdometryPoints& points, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-void RefineWindow(const StereoCamera& camera, int fixed, std::vector<StereoFrame*> frames, OdometryPoints& points);
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                  OdometryPoints& points);
+
+/// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.
+double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
 
 /// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points that both see, whose
-/// places are known from these two frames alone; points are eliminated (Schur complement). The noise of a pixel is
-/// estimated from the residuals. Huge where there are too few points.
+/// places are known from these two frames alone; points are eliminated (Schur complement). Each coordinate has noise of
+/// `noise_px`, independently. Huge where there are too few points.
 Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points);
+                             const OdometryPoints& points, double noise_px);
 
 }  // namespace sslcd
