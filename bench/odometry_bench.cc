@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stereo odometry: how far off, how fast. usage: odometry_bench FOLDER[:POSES] ...
+// A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else POSES is needed).
+// Prints one row for each. Errors as KITTI's (eval/segment_error.h), over sub-paths of all lengths of 10, 20, ... 100
+// m, 200, ... 800 m that begin at any frame; times are those of AddFrame, reading the images left out: by the clock,
+// and of all processors together.
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "sslcd/eval/segment_error.h"
+#include "stereo/stereo_folder.h"
+
+namespace sslcd {
+namespace {
+
+double CpuSeconds() {
+  rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return t.tv_sec + 1e-6 * t.tv_usec; };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+void Measure(const std::string& folder, const std::string& poses) {
+  const StereoFolder input = OpenStereoFolder(folder, poses);
+  StereoOdometry odometry(input.camera, {});
+  std::vector<Pose> est, ref = input.truth;
+  int lost = 0, keyframes = 0;
+  double points = 0, wall = 0, cpu = 0;
+  for (std::size_t i = 0; i < input.left.size(); ++i) {
+    const cv::Mat left = cv::imread(input.left[i], cv::IMREAD_UNCHANGED);
+    const cv::Mat right = cv::imread(input.right[i], cv::IMREAD_UNCHANGED);
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = CpuSeconds();
+    const OdometryStep step = odometry.AddFrame({ViewOf(left), ViewOf(right)});
+    cpu += CpuSeconds() - cpu_start;
+    wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    est.push_back(step.T_odom_cam);
+    lost += step.status == OdometryStatus::kLost;
+    keyframes += step.keyframe;
+    points += step.points;
+  }
+  const std::size_t frames = est.size();
+  est.resize(std::min(est.size(), ref.size()));
+  ref.resize(est.size());
+  std::vector<double> lengths;
+  for (int k = 1; k <= 10; ++k) lengths.push_back(10 * k);
+  for (int k = 2; k <= 8; ++k) lengths.push_back(100 * k);
+  const SegmentError error = ComputeSegmentError(est, ref, lengths);
+  std::printf(
+      "%-40s frames %zu  lost %d  keyframes %d  points %.0f  translation %.3f %%  rotation %.5f deg/m  "
+      "wall %.1f ms  cpu %.1f ms\n",
+      folder.c_str(), frames, lost, keyframes, points / frames, 100 * error.translation,
+      error.rotation_rad_per_m * 180 / M_PI, 1e3 * wall / frames, 1e3 * cpu / frames);
+}
+
+}  // namespace
+}  // namespace sslcd
+
+int main(int argc, char** argv) try {
+  if (argc < 2) return std::fprintf(stderr, "usage: odometry_bench FOLDER[:POSES] ...\n"), 2;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t colon = argument.find(':');
+    sslcd::Measure(argument.substr(0, colon), colon == std::string::npos ? "" : argument.substr(colon + 1));
+  }
+  return 0;
+} catch (const std::exception& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 1;
+}

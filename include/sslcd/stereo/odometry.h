@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/core/image.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+struct StereoOdometryOptions {
+  int points = 400;               ///< image points followed, spread over the image; time grows with them
+  double min_corner = 0.01;       ///< a corner's least share of the strongest corner's smaller eigenvalue
+  int patch_px = 15;              ///< side of the patches that are compared; odd
+  double min_disparity_px = 0.5;  ///< points further away than that are not used
+  double max_row_error_px = 1.5;  ///< left and right of a point; more: not the same point, or images not rectified
+  double ransac_px = 2;           ///< a point fits a pose if it appears so near to where it should
+  int ransac_iterations = 200;
+  int min_tracked = 20;        ///< with fewer points that fit, the frame is lost
+  int window = 8;              ///< keyframes adjusted together, of which the oldest two stand still
+  double keyframe_px = 8;      ///< a keyframe is due when the points have moved that far (median) since the last one,
+  double keyframe_share = .8;  ///< ... or fewer than this share of its points are still followed
+  int patience = 2;            ///< frames in a row lost before the odometry starts anew from where it believes to be
+};
+void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
+
+/// How a frame got its pose.
+enum class OdometryStatus {
+  kFirst,    ///< it is the first one, the origin
+  kTracked,  ///< measured
+  kLost,     ///< guessed: the last step is taken once more
+};
+const char* ToString(OdometryStatus status);
+
+/// One frame of the odometry.
+struct OdometryStep {
+  Pose T_odom_cam;  ///< of the reference camera (see Camera::offset), in the axes that it had in the first frame
+  OdometryStatus status = OdometryStatus::kFirst;
+  const char* reason = "";  ///< why it is lost; empty: it is not
+  bool keyframe = false;    ///< new points were taken up here
+  int points = 0;           ///< points that fit the pose; of the first frame, and of one started anew, points found
+  /// Covariance of the step from the previous frame, of the right perturbation of T_previous_current,
+  /// [translation, rotation], in the current reference camera's axes. Of a step that was guessed, and of the one after
+  /// it, which takes the error of the guess back, what constant velocity may be off by. Zero for the first frame.
+  Pose::Matrix6 covariance = Pose::Matrix6::Zero();
+};
+
+/// Stereo visual odometry: the path of the camera from rectified image pairs alone. Corners of the last keyframe are
+/// found again in each new left image (Lucas-Kanade), and from there in the right one; the pose that most of them agree
+/// on (P3P in RANSAC), refined over all that fit; at keyframes, points and poses of a window adjusted together, each
+/// point by where it appears in all left and right images (bundle adjustment).
+/// After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011, and Leutenegger et al., Keyframe-based
+/// visual-inertial odometry using nonlinear optimization, IJRR 2015 (without its inertial part).
+///
+/// Frames come at even intervals: what is guessed assumes that the camera moves on as it did. One object per sequence,
+/// not thread-safe; the same images give the same bytes for any number of OpenCV threads. A pose that has been
+/// returned is not revised.
+class StereoOdometry {
+ public:
+  /// Throws Error(kBadInput) on a camera without focal length or baseline.
+  StereoOdometry(const StereoCamera& camera, const StereoOdometryOptions& options);
+  ~StereoOdometry();
+
+  /// Throws Error(kBadInput), and leaves everything as it was, where the images are no pair or have not the size of
+  /// the first one. Images in which there is nothing to see (black, no texture) are no error: such a frame is lost.
+  OdometryStep AddFrame(const StereoView& images);
+
+  /// A frame whose images are missing: it is lost, and has a pose nevertheless.
+  OdometryStep AddMissingFrame();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/stereo/odometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "sslcd/core/error.h"
+#include "stereo/odometry_images.h"
+#include "stereo/odometry_window.h"
+
+namespace sslcd {
+namespace {
+
+constexpr int kCoarse = 4, kFine = 1;  // levels to look through: for anything, for what is nearly known
+constexpr int kCoarsePoints = 120;     // enough to find out roughly where the camera is
+// Turns that are tried when the points are not where they should be: up to 15 degrees, in steps that
+// the coarsest patches bridge.
+constexpr int kTurns = 3;
+constexpr double kTurnRad = 0.09;
+constexpr int kFixedKeyframes = 2;
+constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
+
+const char* const kNothingToFollow = "nothing to follow: too few corners in the images";
+const char* const kNotFound = "too few points of the last keyframe were found again";
+const char* const kNoAgreement = "the points found again do not agree on a pose";
+const char* const kMissing = "its images are missing";
+
+cv::Point2f ToCv(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the step itself and
+/// something on top, for each.
+Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
+  const double translation = steps * (0.1 + 0.5 * step.translation().norm());
+  const double rotation = steps * (0.02 + 0.5 * step.so3().Log().norm());
+  Vec6 variances;
+  variances << Vec3::Constant(translation * translation), Vec3::Constant(rotation * rotation);
+  return variances.asDiagonal();
+}
+
+/// Points of the reference keyframe, and where they should be in another image.
+struct Expected {
+  std::vector<int> points;
+  std::vector<cv::Point2f> from, to;
+  std::vector<double> disparities;
+};
+
+}  // namespace
+
+class StereoOdometry::Impl {
+ public:
+  Impl(const StereoCamera& camera, const StereoOdometryOptions& options)
+      : camera_(camera), options_(options), T_left_ref_(Pose::Trans(camera.left.offset)) {
+    if (camera.left.fx > 0 && camera.left.fy > 0 && camera.baseline_m > 0) return;
+    throw Error(ErrorKind::kBadInput,
+                "stereo odometry needs focal lengths and a baseline that are not zero: "
+                "make the camera from P2 and P3 of calib.txt with MakeStereoCamera()");
+  }
+
+  OdometryStep AddFrame(const StereoView& images) {
+    CheckImages(images);
+    const cv::Size size(images.left.width, images.left.height);
+    if (size_.area() > 0 && size != size_)
+      throw Error(ErrorKind::kBadInput, "the images are " + std::to_string(size.width) + "x" +
+                                            std::to_string(size.height) + ", those of the first frame were " +
+                                            std::to_string(size_.width) + "x" + std::to_string(size_.height));
+    size_ = size;
+    const StereoPyramids current = BuildPyramids(images, options_);
+    if (keyframes_.empty()) return Start(current);
+    reason_ = "";
+    if (std::optional<StereoFrame> frame = Track(current)) return Accept(*frame, current);
+    OdometryStep step = Bridge(reason_);
+    if (lost_ > options_.patience) StartAnew(current);
+    return step;
+  }
+
+  OdometryStep AddMissingFrame() { return Bridge(kMissing); }
+
+ private:
+  OdometryStep Start(const StereoPyramids& current) {
+    if (!any_frame_) {
+      any_frame_ = true;
+      StartAnew(current);
+      OdometryStep step;
+      step.points = static_cast<int>(last_.sightings.size());
+      step.keyframe = !keyframes_.empty();
+      return step;
+    }
+    const OdometryStep step = Bridge(kNothingToFollow);
+    StartAnew(current);
+    return step;
+  }
+
+  /// A window of one keyframe, at the pose that the last frame has, if there is enough to see in it.
+  void StartAnew(const StereoPyramids& current) {
+    keyframes_.clear();
+    points_.clear();
+    StereoFrame frame{last_.T_odom_left, {}};
+    TakeUpPoints(current, frame);
+    if (static_cast<int>(frame.sightings.size()) < options_.min_tracked) return;
+    keyframes_.push_back(frame);
+    reference_images_ = current;
+    last_ = frame;
+  }
+
+  /// The last frame's velocity goes on.
+  OdometryStep Bridge(const char* reason) {
+    any_frame_ = true;
+    ++lost_;
+    last_ = {last_.T_odom_left * velocity_, {}};
+    OdometryStep step = Report(OdometryStatus::kLost, GuessCovariance(velocity_, lost_));
+    step.reason = reason;
+    return step;
+  }
+
+  OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
+    const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
+    Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, PixelNoise(camera_, frame, points_));
+    if (lost_ > 0) covariance += GuessCovariance(velocity_, lost_);
+
+    const bool keyframe = KeyframeIsDue(frame);
+    const int points = static_cast<int>(frame.sightings.size());
+    if (keyframe) AddKeyframe(frame, current);
+    // Over the frames that were lost, too: their poses were guesses.
+    const Vec6 moved = (T_last_tracked_.inverse() * frame.T_odom_left).Log() / (lost_ + 1);
+    velocity_ = Pose::Exp(moved);
+    T_last_tracked_ = frame.T_odom_left;
+    lost_ = 0;
+    last_ = frame;
+    OdometryStep step = Report(OdometryStatus::kTracked, covariance);
+    step.keyframe = keyframe;
+    step.points = points;
+    return step;
+  }
+
+  /// From the left camera to the reference camera.
+  OdometryStep Report(OdometryStatus status, const Pose::Matrix6& covariance) const {
+    OdometryStep step;
+    step.status = status;
+    const Pose T_ref_left = T_left_ref_.inverse();
+    step.T_odom_cam = T_ref_left * last_.T_odom_left * T_left_ref_;
+    // T_left Exp(d) = T_left_ref T_ref Exp(Adj(T_ref_left) d) T_ref_left
+    const Pose::Matrix6 adjoint = T_ref_left.Adj();
+    step.covariance = adjoint * covariance * adjoint.transpose();
+    return step;
+  }
+
+  std::optional<StereoFrame> Track(const StereoPyramids& current) {
+    std::optional<StereoFrame> frame = Track(reference_images_.left, current.left, current);
+    if (frame) return frame;
+    // Perhaps it is the light that has changed.
+    return Track(Evened(reference_images_.left, options_), Evened(current.left, options_), current);
+  }
+
+  std::optional<StereoFrame> Track(const ImagePyramid& reference, const ImagePyramid& left,
+                                   const StereoPyramids& current) {
+    const Pose T_expected = last_.T_odom_left * velocity_;
+    std::optional<Pose> pose = FindPose(reference, left, T_expected);
+    if (!pose) pose = FindPose(reference, left, last_.T_odom_left);
+    // The camera may have begun to turn, or ended.
+    for (int k = 1; k <= kTurns && !pose; ++k) {
+      pose = FindPose(reference, left, T_expected * Pose::RotY(k * kTurnRad));
+      if (!pose) pose = FindPose(reference, left, T_expected * Pose::RotY(-k * kTurnRad));
+    }
+    if (!pose) return std::nullopt;
+    StereoFrame frame = FindAll(reference, left, current, *pose);
+    RefinePose(camera_, points_, frame);
+    DropMisfits(frame);
+    if (static_cast<int>(frame.sightings.size()) >= options_.min_tracked) return frame;
+    reason_ = kNotFound;
+    return std::nullopt;
+  }
+
+  /// Where points of the reference keyframe appear to a camera there; at most so many, and only those inside the image.
+  Expected Expect(const Pose& T_odom_left, int at_most) const {
+    const StereoFrame& reference = keyframes_.back();
+    const Pose T_left_odom = T_odom_left.inverse();
+    const std::size_t each = std::max<std::size_t>(1, reference.sightings.size() / at_most);
+    Expected expected;
+    for (std::size_t i = 0; i < reference.sightings.size(); i += each) {
+      const StereoSighting& sighting = reference.sightings[i];
+      const Vec3 point = T_left_odom * points_.at(sighting.point);
+      if (!(point.z() > 0.1)) continue;
+      const StereoPixel pixel = ProjectStereo(camera_, point);
+      if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size_.width && pixel.row < size_.height)) continue;
+      expected.points.push_back(sighting.point);
+      expected.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
+      expected.to.push_back(ToCv(pixel.left, pixel.row));
+      expected.disparities.push_back(pixel.left - pixel.right);
+    }
+    return expected;
+  }
+
+  /// The pose that most points agree on when looked for around where they appear from `T_guess`.
+  std::optional<Pose> FindPose(const ImagePyramid& from, const ImagePyramid& to, const Pose& T_guess) {
+    const Expected expected = Expect(T_guess, kCoarsePoints);
+    const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, options_);
+    const StereoFrame& reference = keyframes_.back();
+    const Pose T_reference_odom = reference.T_odom_left.inverse();
+    std::vector<cv::Point3d> places;
+    std::vector<cv::Point2d> pixels;
+    for (std::size_t i = 0; i < expected.points.size(); ++i) {
+      if (!followed.found[i]) continue;
+      const Vec3 place = T_reference_odom * points_.at(expected.points[i]);
+      places.emplace_back(place.x(), place.y(), place.z());
+      pixels.emplace_back(followed.at[i]);
+    }
+    reason_ = kNotFound;
+    if (static_cast<int>(places.size()) < options_.min_tracked) return std::nullopt;
+
+    const Camera& left = camera_.left;
+    const cv::Matx33d K(left.fx, 0, left.cx, 0, left.fy, left.cy, 0, 0, 1);
+    cv::Vec3d rotation, translation;
+    std::vector<int> inliers;
+    cv::setRNGSeed(0);
+    reason_ = kNoAgreement;
+    const bool found =
+        cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation, false, options_.ransac_iterations,
+                           static_cast<float>(options_.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
+    const double needed = std::max<double>(options_.min_tracked, kMinInliers * places.size());
+    if (!found || inliers.size() < needed) return std::nullopt;
+    const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),
+                                Vec3(translation[0], translation[1], translation[2]));
+    return reference.T_odom_left * T_left_reference.inverse();
+  }
+
+  /// All points of the reference keyframe, in both images, looked for where they must be.
+  StereoFrame FindAll(const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
+                      const Pose& T_odom_left) const {
+    const Expected expected = Expect(T_odom_left, std::numeric_limits<int>::max());
+    const Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, options_);
+    std::vector<cv::Point2f> guess = left.at;
+    for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
+    const Followed right = Follow(current.left, current.right, left.at, guess, kFine, options_);
+    StereoFrame frame{T_odom_left, {}};
+    for (std::size_t i = 0; i < left.at.size(); ++i) {
+      if (!left.found[i]) continue;
+      StereoPixel pixel{left.at[i].x, left.at[i].y, right.at[i].x};
+      if (!right.found[i] || !IsPair(left.at[i], right.at[i])) pixel.right = NAN;
+      frame.sightings.push_back({expected.points[i], pixel});
+    }
+    return frame;
+  }
+
+  bool IsPair(const cv::Point2f& left, const cv::Point2f& right) const {
+    return std::abs(left.y - right.y) <= options_.max_row_error_px && left.x - right.x >= options_.min_disparity_px;
+  }
+
+  void DropMisfits(StereoFrame& frame) const {
+    const auto misfit = [&](const StereoSighting& sighting) {
+      return !(StereoError(camera_, frame, sighting, points_.at(sighting.point)) <= options_.ransac_px);
+    };
+    auto& sightings = frame.sightings;
+    sightings.erase(std::remove_if(sightings.begin(), sightings.end(), misfit), sightings.end());
+  }
+
+  bool KeyframeIsDue(const StereoFrame& frame) const {
+    const StereoFrame& reference = keyframes_.back();
+    if (frame.sightings.size() < options_.keyframe_share * reference.sightings.size()) return true;
+    std::map<int, StereoPixel> then;
+    for (const StereoSighting& sighting : reference.sightings) then[sighting.point] = sighting.pixel;
+    std::vector<double> ways;
+    for (const StereoSighting& sighting : frame.sightings) {
+      const StereoPixel& was = then.at(sighting.point);
+      ways.push_back(std::hypot(sighting.pixel.left - was.left, sighting.pixel.row - was.row));
+    }
+    return Median(ways) > options_.keyframe_px;
+  }
+
+  void AddKeyframe(StereoFrame& frame, const StereoPyramids& current) {
+    TakeUpPoints(current, frame);
+    keyframes_.push_back(frame);
+    if (static_cast<int>(keyframes_.size()) > options_.window) keyframes_.pop_front();
+    std::vector<StereoFrame*> window;
+    for (StereoFrame& keyframe : keyframes_) window.push_back(&keyframe);
+    RefineWindow(camera_, std::min<int>(kFixedKeyframes, static_cast<int>(window.size()) - 1), window, points_);
+    DropMisfits(keyframes_.back());
+    ForgetPoints();
+    reference_images_ = current;
+    frame = keyframes_.back();
+  }
+
+  /// New points where the frame has none yet, placed by their disparity.
+  void TakeUpPoints(const StereoPyramids& current, StereoFrame& frame) {
+    std::vector<cv::Point2f> taken;
+    for (const StereoSighting& sighting : frame.sightings)
+      taken.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
+    const std::vector<cv::Point2f> corners = SpreadCorners(current, taken, options_);
+    const Followed right = FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (!right.found[i] || !IsPair(corners[i], right.at[i])) continue;
+      const StereoPixel pixel{corners[i].x, corners[i].y, right.at[i].x};
+      points_[next_point_] = frame.T_odom_left * Triangulate(camera_, pixel);
+      frame.sightings.push_back({next_point_++, pixel});
+    }
+  }
+
+  /// Points that no keyframe of the window sees.
+  void ForgetPoints() {
+    std::set<int> seen;
+    for (const StereoFrame& keyframe : keyframes_)
+      for (const StereoSighting& sighting : keyframe.sightings) seen.insert(sighting.point);
+    for (auto it = points_.begin(); it != points_.end();)
+      it = seen.count(it->first) ? std::next(it) : points_.erase(it);
+  }
+
+  const StereoCamera camera_;
+  const StereoOdometryOptions options_;
+  const Pose T_left_ref_;
+  cv::Size size_;
+  bool any_frame_ = false;
+  std::deque<StereoFrame> keyframes_;  // the last one is the reference: its points are followed
+  StereoPyramids reference_images_;
+  OdometryPoints points_;
+  int next_point_ = 0;
+  StereoFrame last_;     // without sightings: it is lost
+  Pose T_last_tracked_;  // of the left camera
+  Pose velocity_;        // T_before_now, a frame
+  int lost_ = 0;         // frames in a row
+  const char* reason_ = "";
+};
+
+StereoOdometry::StereoOdometry(const StereoCamera& camera, const StereoOdometryOptions& options)
+    : impl_(std::make_unique<Impl>(camera, options)) {}
+StereoOdometry::~StereoOdometry() = default;
+OdometryStep StereoOdometry::AddFrame(const StereoView& images) { return impl_->AddFrame(images); }
+OdometryStep StereoOdometry::AddMissingFrame() { return impl_->AddMissingFrame(); }
+
+}  // namespace sslcd

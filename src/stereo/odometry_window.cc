@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/odometry_window.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sslcd {
+namespace {
+
+using Mat3 = Eigen::Matrix3d;
+using Mat36 = Eigen::Matrix<double, 3, 6>;
+using Vec3Map = Eigen::Map<Vec3>;
+template <int columns>
+using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor>>;
+
+constexpr double kNearest = 0.1;       // [m] in front of the camera
+constexpr double kLossPx = 1;          // residuals beyond count for less and less
+constexpr double kMinPixelNoise = .1;  // [px] no matter how well everything seems to fit
+
+/// Residual [px] of one sighting (column left, row, column right), with derivatives.
+struct Reprojection {
+  bool in_front = false;
+  Vec3 residual = Vec3::Zero();
+  Mat36 by_pose;  // of a right perturbation of T_odom_left
+  Mat3 by_point;
+};
+
+Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, const StereoPixel& pixel,
+                       const Vec3& point) {
+  Reprojection out;
+  const Mat3 R_left_odom = T_odom_left.so3().inverse().matrix();
+  const Vec3 p = R_left_odom * (point - T_odom_left.translation());
+  if (!(p.z() > kNearest)) return out;
+  out.in_front = true;
+  const StereoPixel seen = ProjectStereo(camera, p);
+  out.residual << seen.left - pixel.left, seen.row - pixel.row, seen.right - pixel.right;
+  const double iz = 1 / p.z(), fx = camera.left.fx, fy = camera.left.fy;
+  Mat3 by_p;
+  by_p << fx * iz, 0, -fx * p.x() * iz * iz,  //
+      0, fy * iz, -fy * p.y() * iz * iz,      //
+      fx * iz, 0, -fx * (p.x() - camera.baseline_m) * iz * iz;
+  if (std::isnan(pixel.right)) out.residual.z() = 0, by_p.row(2).setZero();
+  // p(T Exp(d)) = Exp(-d) p, to first order p - rho + p x phi.
+  out.by_pose << -by_p, by_p * lie::SO3<double>::hat(p);
+  out.by_point = by_p * R_left_odom;
+  return out;
+}
+
+/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed.
+class StereoCost final : public ceres::SizedCostFunction<3, 6, 3> {
+ public:
+  StereoCost(const StereoCamera& camera, const StereoPixel& pixel, const Pose& T_odom_left)
+      : camera_(camera), pixel_(pixel), T_odom_left_(T_odom_left) {}
+
+  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
+    const Vec6 delta = Eigen::Map<const Vec6>(blocks[0]);
+    const Reprojection r =
+        Reproject(camera_, T_odom_left_ * Pose::Exp(delta), pixel_, Eigen::Map<const Vec3>(blocks[1]));
+    if (!r.in_front) return false;
+    Vec3Map{residual} = r.residual;
+    if (jacobians && jacobians[0]) RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
+    if (jacobians && jacobians[1]) RowMajorMap<3>{jacobians[1]} = r.by_point;
+    return true;
+  }
+
+ private:
+  const StereoCamera& camera_;
+  const StereoPixel pixel_;
+  const Pose T_odom_left_;
+};
+
+ceres::Problem::Options ProblemOptions() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+void Solve(ceres::Solver::Options options, ceres::Problem& problem) {
+  options.function_tolerance = 1e-4;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+}
+
+bool InFront(const StereoFrame& frame, const Vec3& point) {
+  return (frame.T_odom_left.inverse() * point).z() > kNearest;
+}
+
+}  // namespace
+
+StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
+  const Camera& left = camera.left;
+  const double column = left.fx * p.x() / p.z() + left.cx;
+  return {column, left.fy * p.y() / p.z() + left.cy, column - left.fx * camera.baseline_m / p.z()};
+}
+
+Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
+  const Camera& left = camera.left;
+  const double z = left.fx * camera.baseline_m / (pixel.left - pixel.right);
+  return {(pixel.left - left.cx) / left.fx * z, (pixel.row - left.cy) / left.fy * z, z};
+}
+
+double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
+                   const Vec3& point) {
+  const Reprojection r = Reproject(camera, frame.T_odom_left, sighting.pixel, point);
+  return r.in_front ? r.residual.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
+}
+
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, StereoFrame& frame) {
+  ceres::CauchyLoss loss(kLossPx);
+  ceres::Problem problem(ProblemOptions());
+  Vec6 delta = Vec6::Zero();
+  std::vector<Vec3> places;  // Ceres keeps their addresses
+  places.reserve(frame.sightings.size());
+  for (const StereoSighting& sighting : frame.sightings) {
+    const Vec3& point = points.at(sighting.point);
+    if (!InFront(frame, point)) continue;
+    places.push_back(point);
+    problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frame.T_odom_left), &loss, delta.data(),
+                             places.back().data());
+    problem.SetParameterBlockConstant(places.back().data());
+  }
+  if (places.empty()) return;
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 10;
+  Solve(options, problem);
+  frame.T_odom_left *= Pose::Exp(delta);
+}
+
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                  OdometryPoints& points) {
+  std::map<int, int> times_seen;
+  for (const StereoFrame* frame : frames)
+    for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
+  // Ceres eliminates points in the order of their addresses: in one array, that is the same in each run.
+  std::map<int, Vec3*> place_of;
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const auto& [id, point] : points) {
+    if (times_seen[id] < 2) continue;
+    places.push_back(point);
+    place_of[id] = &places.back();
+  }
+
+  ceres::CauchyLoss loss(kLossPx);
+  ceres::Problem problem(ProblemOptions());
+  std::vector<Vec6> deltas(frames.size(), Vec6::Zero());
+  auto* ordering = new ceres::ParameterBlockOrdering;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    problem.AddParameterBlock(deltas[i].data(), 6);
+    if (static_cast<int>(i) < fixed) problem.SetParameterBlockConstant(deltas[i].data());
+    ordering->AddElementToGroup(deltas[i].data(), 1);
+    for (const StereoSighting& sighting : frames[i]->sightings) {
+      const auto place = place_of.find(sighting.point);
+      if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
+      problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frames[i]->T_odom_left), &loss, deltas[i].data(),
+                               place->second->data());
+      ordering->AddElementToGroup(place->second->data(), 0);
+    }
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_ordering.reset(ordering);
+  options.max_num_iterations = 8;
+  Solve(options, problem);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i]->T_odom_left *= Pose::Exp(deltas[i]);
+    frames[i]->T_odom_left.normalise();
+  }
+  for (const auto& [id, place] : place_of) points[id] = *place;
+}
+
+double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
+  double squares = 0;
+  int count = 0;
+  for (const StereoSighting& sighting : frame.sightings) {
+    const Reprojection r = Reproject(camera, frame.T_odom_left, sighting.pixel, points.at(sighting.point));
+    if (!r.in_front) continue;
+    squares += r.residual.squaredNorm();
+    count += std::isnan(sighting.pixel.right) ? 2 : 3;
+  }
+  return std::max(kMinPixelNoise, std::sqrt(squares / std::max(1, count)));
+}
+
+Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
+                             const OdometryPoints& points, double noise_px) {
+  std::map<int, StereoPixel> seen_before;
+  for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting.pixel;
+  Eigen::Matrix<double, 6, 6> information = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
+  for (const StereoSighting& sighting : to.sightings) {
+    const auto before = seen_before.find(sighting.point);
+    if (before == seen_before.end()) continue;
+    const Vec3& point = points.at(sighting.point);
+    const Reprojection a = Reproject(camera, from.T_odom_left, before->second, point);
+    const Reprojection b = Reproject(camera, to.T_odom_left, sighting.pixel, point);
+    if (!a.in_front || !b.in_front) continue;
+    // [A B; B' C] with the point last; without it remains A - B C^-1 B'.
+    const Mat36 B = b.by_point.transpose() * b.by_pose;
+    const Mat3 C = a.by_point.transpose() * a.by_point + b.by_point.transpose() * b.by_point;
+    information += b.by_pose.transpose() * b.by_pose - B.transpose() * C.ldlt().solve(B);
+  }
+  return noise_px * noise_px * information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+}
+
+}  // namespace sslcd

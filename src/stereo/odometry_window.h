@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// Where a point appears: column and row in the left image, column in the right one (NaN: not found there). [px]
+struct StereoPixel {
+  double left = 0, row = 0, right = 0;
+};
+
+/// A point seen in a frame. `point` is its number among all points of the odometry.
+struct StereoSighting {
+  int point = 0;
+  StereoPixel pixel;
+};
+
+/// A frame and what is seen in it. Poses and points are those of the left camera, in the axes of the first one.
+struct StereoFrame {
+  Pose T_odom_left;
+  std::vector<StereoSighting> sightings;
+};
+
+using OdometryPoints = std::map<int, Vec3>;
+
+/// Where a camera at the origin sees a point in front of it.
+StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& point_left);
+
+/// The point of which both images show where it is; disparity > 0.
+Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
+
+/// How far the sighting is from where its point should appear, the largest of its coordinates. Infinite for a point
+/// that is not in front of the camera. [px]
+double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
+                   const Vec3& point);
+
+/// Moves the frame to where its sightings fit the points best (robust least squares); the points stay.
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, StereoFrame& frame);
+
+/// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                  OdometryPoints& points);
+
+/// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.
+double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
+
+/// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points that both see, whose
+/// places are known from these two frames alone; points are eliminated (Schur complement). Each coordinate has noise of
+/// `noise_px`, independently. Huge where there are too few points.
+Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
+                             const OdometryPoints& points, double noise_px);
+
+}  // namespace sslcd
