@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sslcd/stereo/lift.h"
+#include "stereo/object_scan.h"
+
+namespace sslcd {
+
+/// A side of a box: a place that the object's image touches, or one that it reaches and may go beyond (the image's
+/// border, something in front).
+struct BoxSides {
+  bool left_open = false, top_open = false, right_open = false, bottom_open = false;
+};
+
+struct FitInput {
+  Box2d box;
+  BoxSides sides;
+  std::vector<ScanPoint> scan;
+  ClassPrior prior;
+};
+
+/// A cuboid that stands on the ground, in the ground's axes: x to the right, z forward along the ground, below the
+/// camera the origin; y up.
+struct CuboidFit {
+  Pose T_cam_object;  ///< in the left camera
+  Vec3 dims{0, 0, 0};
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, in the left camera [m^2]
+  double yaw_sigma = 0;
+  Vec3 dims_sigma{0, 0, 0};
+  double cost = 0;      ///< half the sum of squared, whitened residuals
+  double worst_px = 0;  ///< largest distance of a closed side of the box from that of the cuboid
+  double scan_px = 0;   ///< median distance of the scan's disparities
+};
+
+/// Maximum a posteriori of position, yaw, size, height of the ground and the disparities' common error. None where no
+/// start converges.
+std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundPlane& ground,
+                                   const LiftOptions& options);
+
+}  // namespace sslcd

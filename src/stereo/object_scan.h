@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/stereo/ground_plane.h"
+#include "stereo/disparity.h"
+
+namespace sslcd {
+
+/// The contour of an object, as a laser scanner would see it: the disparity of its lower body, column by column.
+struct ScanPoint {
+  double u = 0, v = 0;   ///< the middle of the pixels it is made of [px]
+  double disparity = 0;  ///< their median [px]
+};
+
+struct ScanRules {
+  double low_m = 0, high_m = 0;  ///< heights above the ground that are looked at: below glass, above the shadow
+  double depth_m = 0;            ///< the visible side of an object spans no more than this
+  double columns = 40;           ///< points, at most
+};
+
+/// Without what is not the object: pixels that belong to `nearer` boxes too, unless hardly any others are left; what
+/// lies behind, and what stands in front: the points lie within `depth_m` of each other, where most of the pixels are.
+std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Box2d>& nearer,
+                                  const StereoCamera& camera, const GroundPlane& ground, const ScanRules& rules);
+
+}  // namespace sslcd
