@@ -32,20 +32,16 @@ std::array<Vec3, 6> Quarter(const ClassPrior& prior) {
 
 class Problem {
  public:
-  Problem(const FitInput& input, const StereoCamera& camera, const GroundPlane& ground, const LiftOptions& options)
+  Problem(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground, const LiftOptions& options)
       : input_(input),
         camera_(camera.left),
         ground_(ground),
         options_(options),
         quarter_(Quarter(input.prior)),
         bf_(camera.baseline_m * camera.left.fx) {
-    const Vec3 forward = (Vec3::UnitZ() - ground.up.z() * ground.up).normalized();
-    axes_.col(0) = forward.cross(ground.up);  // right = up x back
-    axes_.col(1) = ground.up;
-    axes_.col(2) = forward;
     for (const ScanPoint& point : input.scan) {
       const Vec3 ray((point.u - camera_.cx) / camera_.fx, (point.v - camera_.cy) / camera_.fy, 1);
-      const Vec3 level = axes_.transpose() * ray;
+      const Vec3 level = ground_.axes.transpose() * ray;
       rays_.emplace_back(level.x(), level.z());
     }
   }
@@ -108,9 +104,21 @@ class Problem {
     return p;
   }
 
-  const Eigen::Matrix3d& axes() const { return axes_; }
-  Vec3 CentreInCamera(const Parameters& p) const {
-    return axes_ * Vec3(p[kX], p[kBase] + 0.5 * p[kHeight] - ground_.height_m, p[kZ]);
+  /// Two things do not stand in one place.
+  double Crowding(const Parameters& p) const {
+    constexpr int kAlong = 9, kAcross = 5;
+    constexpr double kCost = 20;  // of standing where something stands, for all of it
+    int taken = 0;
+    const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
+    for (int i = 0; i < kAlong; ++i) {
+      for (int j = 0; j < kAcross; ++j) {
+        const double along = ((i + 0.5) / kAlong - 0.5) * p[kLength], across = ((j + 0.5) / kAcross - 0.5) * p[kWidth];
+        const double x = p[kX] + c * along - s * across, z = p[kZ] + s * along + c * across;
+        taken += std::any_of(input_.taken.begin(), input_.taken.end(),
+                             [&](const Footprint& other) { return other.Contains(x, z, 0); });
+      }
+    }
+    return kCost * taken / (kAlong * kAcross);
   }
   double BoxDistance(const Parameters& p) const {
     const Box2d seen = Silhouette(p);
@@ -158,9 +166,8 @@ class Problem {
       for (int sign = 0; sign < 4; ++sign) {
         const double along = (sign & 1 ? 1 : -1) * part.x() * p[kLength];
         const double across = (sign & 2 ? 1 : -1) * part.y() * p[kWidth];
-        const Vec3 level(p[kX] + c * along - s * across, p[kBase] + part.z() * p[kHeight] - ground_.height_m,
-                         p[kZ] + s * along + c * across);
-        const Vec3 point = axes_ * level;
+        const Vec3 point = ground_.ToCamera(
+            {p[kX] + c * along - s * across, p[kBase] + part.z() * p[kHeight], p[kZ] + s * along + c * across});
         const double z = std::max(point.z(), 0.3);
         const double u = camera_.fx * point.x() / z + camera_.cx, v = camera_.fy * point.y() / z + camera_.cy;
         seen = {std::min(seen.left, u), std::min(seen.top, v), std::max(seen.right, u), std::max(seen.bottom, v)};
@@ -171,11 +178,10 @@ class Problem {
 
   const FitInput& input_;
   const Camera& camera_;
-  const GroundPlane& ground_;
+  const GroundFrame& ground_;
   const LiftOptions& options_;
   std::array<Vec3, 6> quarter_;
   double bf_;
-  Eigen::Matrix3d axes_;  // columns right, up, forward in the camera
   std::vector<Vec2> rays_;
 };
 
@@ -232,55 +238,73 @@ Solution Solve(const Problem& problem, Parameters p, int iterations) {
   return solution;
 }
 
+Pose PoseOf(const Parameters& p, const GroundFrame& ground) {
+  Eigen::Matrix3d object;  // columns: along the length, to the left, up
+  object.col(0) = ground.axes.col(0) * std::cos(p[kYaw]) + ground.axes.col(2) * std::sin(p[kYaw]);
+  object.col(2) = ground.axes.col(1);
+  object.col(1) = object.col(2).cross(object.col(0));
+  return {lie::SO3<double>::FromMatrix(object), ground.ToCamera({p[kX], p[kBase] + 0.5 * p[kHeight], p[kZ]})};
+}
+
+/// The best one's covariance and the scatter of all that explain what is seen nearly as well, by their likelihood.
+Normal Covariance(const std::vector<Solution>& solutions) {
+  const Solution& best = solutions.front();
+  Normal scatter = Normal::Zero();
+  double weights = 0;
+  for (const Solution& solution : solutions) {
+    const double weight = std::exp(best.cost - solution.cost);
+    Parameters off = solution.p - best.p;
+    off[kYaw] = WrapAngle(off[kYaw], kPi);
+    scatter += weight * off * off.transpose();
+    weights += weight;
+  }
+  return best.information.ldlt().solve(Normal::Identity()) + scatter / weights;
+}
+
+double Median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
 }  // namespace
 
-std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundPlane& ground,
+std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground,
                                    const LiftOptions& options) {
   if (input.scan.empty()) return std::nullopt;
   const Problem problem(input, camera, ground, options);
   constexpr int kStarts = 12;
   std::vector<Solution> solutions;
-  for (int i = 0; i < kStarts; ++i) solutions.push_back(Solve(problem, problem.Start(i * kPi / kStarts), 12));
-  std::sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
-  if (!std::isfinite(solutions.front().cost)) return std::nullopt;
-  const Solution best = Solve(problem, solutions.front().p, 20);
-  const Parameters& p = best.p;
-  if (!(p[kLength] > 0.1 && p[kWidth] > 0.1 && p[kHeight] > 0.1)) return std::nullopt;
-
-  const Normal covariance = best.information.ldlt().solve(Normal::Identity());
+  for (int i = 0; i < kStarts; ++i) {
+    Solution solution = Solve(problem, problem.Start(i * kPi / kStarts), 15);
+    solution.cost += problem.Crowding(solution.p);
+    const bool sound = solution.p.segment<3>(kLength).minCoeff() > 0.1 && std::isfinite(solution.cost);
+    if (sound) solutions.push_back(solution);
+  }
+  if (solutions.empty()) return std::nullopt;
+  std::stable_sort(solutions.begin(), solutions.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  const Parameters& p = solutions.front().p;
+  const Normal covariance = Covariance(solutions);
   if (!covariance.allFinite()) return std::nullopt;
+
   CuboidFit fit;
-  const Eigen::Matrix3d& axes = problem.axes();
-  Eigen::Matrix3d object;  // columns: length, left, up
-  object.col(0) = axes.col(0) * std::cos(p[kYaw]) + axes.col(2) * std::sin(p[kYaw]);
-  object.col(2) = axes.col(1);
-  object.col(1) = object.col(2).cross(object.col(0));
-  fit.T_cam_object = Pose(lie::SO3<double>::FromMatrix(object), problem.CentreInCamera(p));
-  fit.dims = {p[kLength], p[kWidth], p[kHeight]};
+  fit.scan = input.scan;
+  fit.T_cam_object = PoseOf(p, ground);
+  fit.dims = p.segment<3>(kLength);
+  fit.footprint = {p[kX], p[kZ], p[kYaw], p[kLength], p[kWidth]};
   Eigen::Matrix<double, 3, kParameters> centre = Eigen::Matrix<double, 3, kParameters>::Zero();
-  centre.col(kX) = axes.col(0);
-  centre.col(kZ) = axes.col(2);
-  centre.col(kBase) = axes.col(1);
-  centre.col(kHeight) = 0.5 * axes.col(1);
+  centre.col(kX) = ground.axes.col(0);
+  centre.col(kZ) = ground.axes.col(2);
+  centre.col(kBase) = ground.axes.col(1);
+  centre.col(kHeight) = 0.5 * ground.axes.col(1);
   fit.covariance = centre * covariance * centre.transpose();
   fit.dims_sigma = covariance.diagonal().segment<3>(kLength).cwiseMax(0).cwiseSqrt();
-  // Other headings that explain what is seen, each with its likelihood.
-  double weights = 0, spread = 0;
-  for (const Solution& solution : solutions) {
-    const double weight = std::exp(best.cost - solution.cost);
-    const double turn = WrapAngle(solution.p[kYaw] - p[kYaw], kPi);
-    weights += weight;
-    spread += weight * turn * turn;
-  }
-  fit.yaw_sigma = std::sqrt(std::max(covariance(kYaw, kYaw), 0.) + spread / weights);
-  fit.cost = best.cost;
-  fit.worst_px = problem.BoxDistance(p);
+  fit.yaw_sigma = std::sqrt(std::max(covariance(kYaw, kYaw), 0.));
+  fit.box_px = problem.BoxDistance(p);
   Eigen::VectorXd residuals(problem.residuals());
   problem.Residuals(p, residuals);
   std::vector<double> scan(input.scan.size());
   for (std::size_t i = 0; i < scan.size(); ++i) scan[i] = std::abs(residuals[i]) * options.disparity_sigma_px;
-  std::nth_element(scan.begin(), scan.begin() + scan.size() / 2, scan.end());
-  fit.scan_px = scan[scan.size() / 2];
+  fit.scan_px = Median(std::move(scan));
   return fit;
 }
 

@@ -20,24 +20,25 @@ struct FitInput {
   BoxSides sides;
   std::vector<ScanPoint> scan;
   ClassPrior prior;
+  std::vector<Footprint> taken;  ///< ground on which others stand
 };
 
-/// A cuboid that stands on the ground, in the ground's axes: x to the right, z forward along the ground, below the
-/// camera the origin; y up.
 struct CuboidFit {
   Pose T_cam_object;  ///< in the left camera
   Vec3 dims{0, 0, 0};
+  Footprint footprint;
+  std::vector<ScanPoint> scan;                           ///< what it was fitted to
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, in the left camera [m^2]
   double yaw_sigma = 0;
   Vec3 dims_sigma{0, 0, 0};
-  double cost = 0;      ///< half the sum of squared, whitened residuals
-  double worst_px = 0;  ///< largest distance of a closed side of the box from that of the cuboid
-  double scan_px = 0;   ///< median distance of the scan's disparities
+  double box_px = 0;   ///< largest distance of a closed side of the box from the cuboid's
+  double scan_px = 0;  ///< median distance of the scan's disparities from the cuboid's
 };
 
-/// Maximum a posteriori of position, yaw, size, height of the ground and the disparities' common error. None where no
-/// start converges.
-std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundPlane& ground,
+/// Maximum a posteriori of position, yaw, size, height of the ground and the disparities' common error, from twelve
+/// headings; ground that is taken counts against those that end there. The covariance is that of all headings that
+/// explain what is seen, each with its likelihood. None where no start converges.
+std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground,
                                    const LiftOptions& options);
 
 }  // namespace sslcd

@@ -25,19 +25,16 @@ double Overlap(double low_a, double high_a, double low_b, double high_b) {
   return std::max(0., std::min(high_a, high_b) - std::max(low_a, low_b));
 }
 
-/// On flat ground, the one whose lower side is further down.
-bool IsNearer(const Box2d& box, const Box2d& than) { return box.bottom > than.bottom; }
-
 /// Sides at the image's border, and those where a box begins that stands nearer.
-BoxSides OpenSides(const Box2d& box, const std::vector<Box2d>& all, const ImageView& image, double tolerance_px) {
+BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image, double tolerance_px) {
   constexpr double kShare = 0.25;  // of a side, hidden
   BoxSides open;
   open.left_open = box.left < tolerance_px;
   open.top_open = box.top < tolerance_px;
   open.right_open = box.right > image.width - 1 - tolerance_px;
   open.bottom_open = box.bottom > image.height - 1 - tolerance_px;
-  for (const Box2d& other : all) {
-    if (!IsNearer(other, box)) continue;
+  for (const Nearer& object : nearer) {
+    const Box2d& other = object.box;
     const bool beside = Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
     const bool below = Overlap(box.left, box.right, other.left, other.right) > kShare * (box.right - box.left);
     const auto covers = [&](double u) { return u > other.left - tolerance_px && u < other.right + tolerance_px; };
@@ -83,48 +80,76 @@ LiftedBox Finish(const CuboidFit& fit, const ImageDetection& image, const Stereo
   return lifted;
 }
 
+/// What all boxes of a frame share.
+struct Scene {
+  const ImageView& image;
+  const GreyPair& grey;
+  const StereoCamera& camera;
+  const GroundFrame& ground;
+  const LiftOptions& options;
+};
+
+/// What can be said against a box before its pixels are looked at.
+std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& box, const LiftOptions& options) {
+  if (options.classes.count(detection.label) == 0) return LiftStatus::kUnknownLabel;
+  if (!IsFinite(detection.box) || !(box.Area() > 0)) return LiftStatus::kBadBox;
+  if (!(box.bottom - box.top >= options.min_height_px)) return LiftStatus::kTooSmall;
+  return std::nullopt;
+}
+
+/// A cuboid for a box, or why not.
+LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer, const ClassPrior& prior,
+                CuboidFit& answer) {
+  constexpr std::size_t kFewest = 4;  // columns
+  const double max_disparity = scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
+  FitInput input;
+  input.box = box;
+  input.prior = prior;
+  input.sides = OpenSides(box, nearer, scene.image, scene.options.box_sigma_px);
+  input.scan =
+      ScanObject(Match(scene.grey, box, max_disparity), box, nearer, scene.camera, scene.ground, RulesFor(prior));
+  if (input.scan.size() < kFewest) return LiftStatus::kNoDepth;
+  for (const Nearer& other : nearer) {
+    if (other.footprint) input.taken.push_back(*other.footprint);
+  }
+  const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
+  if (!fit) return LiftStatus::kPoorFit;
+  const double range = fit->T_cam_object.translation().norm();
+  if (!(range >= scene.options.min_range_m && range <= scene.options.max_range_m)) return LiftStatus::kOutOfRange;
+  answer = *fit;
+  return LiftStatus::kLifted;
+}
+
 }  // namespace
 
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
                                  const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
   CheckImages(images);
   const GreyPair grey{Grey(images.left), Grey(images.right)};
-  const double bf = camera.baseline_m * camera.left.fx;
   std::vector<LiftedBox> lifted(boxes.size());
-  std::vector<Box2d> usable;
-  for (const ImageDetection& box : boxes) {
-    if (IsFinite(box.box)) usable.push_back(Clipped(box.box, images.left));
-  }
-  const GroundPlane ground = EstimateGround(grey, camera, usable, options.ground);
+  std::vector<std::size_t> order;
+  std::vector<Box2d> clipped(boxes.size());
+  std::vector<Box2d> objects;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const auto prior = options.classes.find(boxes[i].label);
-    const Box2d box = Clipped(boxes[i].box, images.left);
-    if (prior == options.classes.end()) {
-      lifted[i].status = LiftStatus::kUnknownLabel;
-      continue;
-    }
-    if (!IsFinite(boxes[i].box) || !(box.Area() > 0)) continue;
-    if (box.bottom - box.top < options.min_height_px) {
-      lifted[i].status = LiftStatus::kTooSmall;
-      continue;
-    }
-    const DisparityPatch patch = Match(grey, box, bf / options.min_range_m);
-    FitInput input{box, OpenSides(box, usable, images.left, options.box_sigma_px), {}, prior->second};
-    std::vector<Box2d> nearer;
-    for (const Box2d& other : usable) {
-      if (IsNearer(other, box)) nearer.push_back(other);
-    }
-    input.scan = ScanObject(patch, box, nearer, camera, ground, RulesFor(prior->second));
-    if (input.scan.size() < 4) {
-      lifted[i].status = LiftStatus::kNoDepth;
-      continue;
-    }
-    const std::optional<CuboidFit> fit = FitCuboid(input, camera, ground, options);
-    if (!fit) {
-      lifted[i].status = LiftStatus::kPoorFit;
-      continue;
-    }
-    lifted[i] = Finish(*fit, boxes[i], camera);
+    clipped[i] = Clipped(boxes[i].box, images.left);
+    if (IsFinite(clipped[i]) && clipped[i].Area() > 0) objects.push_back(clipped[i]);
+    const std::optional<LiftStatus> refusal = Refusal(boxes[i], clipped[i], options);
+    if (refusal) lifted[i].status = *refusal;
+    if (!refusal) order.push_back(i);
+  }
+  const GroundFrame ground(EstimateGround(grey, camera, objects, options.ground));
+  const Scene scene{images.left, grey, camera, ground, options};
+  // The nearest first, on flat ground the lowest: what is known of it tells what it hides.
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return clipped[a].bottom > clipped[b].bottom; });
+  std::vector<Nearer> nearer;
+  for (std::size_t i : order) {
+    CuboidFit fit;
+    lifted[i].status = Lift(scene, clipped[i], nearer, options.classes.at(boxes[i].label), fit);
+    nearer.push_back({clipped[i], fit.scan, std::nullopt});
+    if (lifted[i].status != LiftStatus::kLifted) continue;
+    lifted[i] = Finish(fit, boxes[i], camera);
+    nearer.back().footprint = fit.footprint;
   }
   return lifted;
 }

@@ -18,14 +18,30 @@ float Median(std::vector<float>& values) {
   return *middle;
 }
 
-bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
-  return std::any_of(boxes.begin(), boxes.end(), [&](const Box2d& box) {
-    return u >= box.left && u <= box.right && v >= box.top && v <= box.bottom;
+/// The scan's point nearest to the column, if any is near.
+const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_px) {
+  const auto after =
+      std::lower_bound(scan.begin(), scan.end(), u, [](const ScanPoint& p, double at) { return p.u < at; });
+  const ScanPoint* best = nullptr;
+  for (auto point = after == scan.begin() ? after : after - 1; point != scan.end() && point <= after; ++point) {
+    if (std::abs(point->u - u) < (best ? std::abs(best->u - u) : reach_px)) best = &*point;
+  }
+  return best;
+}
+
+bool IsHidden(const std::vector<Nearer>& nearer, double u, double v, const Vec3& point, double depth, double bf) {
+  constexpr double kMargin = 0.2;  // [m]
+  return std::any_of(nearer.begin(), nearer.end(), [&](const Nearer& other) {
+    const Box2d& box = other.box;
+    if (u < box.left || u > box.right || v < box.top || v > box.bottom) return false;
+    const ScanPoint* there = At(other.scan, u, std::max(0.1 * (box.right - box.left), 4.));
+    if (there && depth < bf / there->disparity * 1.03 + kMargin) return true;  // its disparities scatter
+    return other.footprint ? other.footprint->Contains(point.x(), point.z(), kMargin) : !there;
   });
 }
 
-std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box, const std::vector<Box2d>& hidden_by,
-                            const StereoCamera& camera, const GroundPlane& ground, const ScanRules& rules) {
+std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box, const std::vector<Nearer>& nearer,
+                            const StereoCamera& camera, const GroundFrame& ground, const ScanRules& rules) {
   const Camera& left = camera.left;
   const double bf = camera.baseline_m * left.fx;
   const double width = std::max((box.right - box.left) / rules.columns, 2.);
@@ -38,8 +54,8 @@ std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box, const
       const double u = patch.x0 + patch.step_x * x;
       if (!(row[x] > 0) || u < box.left || u > box.right) continue;
       const double z = bf / row[x];
-      const double height = ground.HeightOf(z * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1));
-      if (height < rules.low_m || height > rules.high_m || Covers(hidden_by, u, v)) continue;
+      const Vec3 point = ground.FromCamera({z * (u - left.cx) / left.fx, z * (v - left.cy) / left.fy, z});
+      if (point.y() < rules.low_m || point.y() > rules.high_m || IsHidden(nearer, u, v, point, z, bf)) continue;
       Column& column = columns[static_cast<std::size_t>((u - box.left) / width)];
       column.disparities.push_back(row[x]);
       column.u_sum += u;
@@ -68,13 +84,10 @@ std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
 
 }  // namespace
 
-std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Box2d>& nearer,
-                                  const StereoCamera& camera, const GroundPlane& ground, const ScanRules& rules) {
-  constexpr double kEnough = 0.15;  // of the columns
+std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Nearer>& nearer,
+                                  const StereoCamera& camera, const GroundFrame& ground, const ScanRules& rules) {
   const double bf = camera.baseline_m * camera.left.fx;
-  std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
-  if (!nearer.empty() && static_cast<double>(all.size()) < kEnough * rules.columns)
-    all = Medians(Columns(patch, box, {}, camera, ground, rules), bf);
+  const std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
   // The stretch of depth that holds most pixels is the object.
   double most = 0, nearest = 0;
   for (const Weighed& start : all) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sslcd/stereo/ground_plane.h"
 #include "stereo/disparity.h"
+#include "stereo/ground_frame.h"
 
 namespace sslcd {
 
@@ -20,9 +22,17 @@ struct ScanRules {
   double columns = 40;           ///< points, at most
 };
 
-/// Without what is not the object: pixels that belong to `nearer` boxes too, unless hardly any others are left; what
-/// lies behind, and what stands in front: the points lie within `depth_m` of each other, where most of the pixels are.
-std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Box2d>& nearer,
-                                  const StereoCamera& camera, const GroundPlane& ground, const ScanRules& rules);
+/// What stands nearer, and may hide some of the object.
+struct Nearer {
+  Box2d box;
+  std::vector<ScanPoint> scan;         ///< by `u`; empty: not known
+  std::optional<Footprint> footprint;  ///< none: not known
+};
+
+/// Without what is not the object: pixels as far away as the scan of a `nearer` object is there, or in its box where it
+/// has none; what lies behind, and what else stands in front: the points lie within `depth_m` of each other, where most
+/// of the pixels are.
+std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Nearer>& nearer,
+                                  const StereoCamera& camera, const GroundFrame& ground, const ScanRules& rules);
 
 }  // namespace sslcd
