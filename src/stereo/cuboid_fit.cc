@@ -120,14 +120,6 @@ class Problem {
     }
     return kCost * taken / (kAlong * kAcross);
   }
-  double BoxDistance(const Parameters& p) const {
-    const Box2d seen = Silhouette(p);
-    const auto side = [](double beyond, bool open) { return std::abs(open ? std::min(beyond, 0.) : beyond); };
-    return std::max({side(input_.box.left - seen.left, input_.sides.left_open),
-                     side(seen.right - input_.box.right, input_.sides.right_open),
-                     side(input_.box.top - seen.top, input_.sides.top_open),
-                     side(seen.bottom - input_.box.bottom, input_.sides.bottom_open)});
-  }
 
  private:
   static constexpr double kCauchy = 2;
@@ -299,12 +291,13 @@ std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& ca
   fit.covariance = centre * covariance * centre.transpose();
   fit.dims_sigma = covariance.diagonal().segment<3>(kLength).cwiseMax(0).cwiseSqrt();
   fit.yaw_sigma = std::sqrt(std::max(covariance(kYaw, kYaw), 0.));
-  fit.box_px = problem.BoxDistance(p);
+  fit.cost = solutions.front().cost;
   Eigen::VectorXd residuals(problem.residuals());
   problem.Residuals(p, residuals);
-  std::vector<double> scan(input.scan.size());
-  for (std::size_t i = 0; i < scan.size(); ++i) scan[i] = std::abs(residuals[i]) * options.disparity_sigma_px;
-  fit.scan_px = Median(std::move(scan));
+  const auto scan = static_cast<Eigen::Index>(input.scan.size());
+  fit.box_error = residuals.segment<4>(scan).cwiseAbs().maxCoeff();
+  const Eigen::VectorXd distances = residuals.head(scan).cwiseAbs();
+  fit.scan_error = Median({distances.begin(), distances.end()});
   return fit;
 }
 

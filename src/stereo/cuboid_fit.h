@@ -31,8 +31,9 @@ struct CuboidFit {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the centre, in the left camera [m^2]
   double yaw_sigma = 0;
   Vec3 dims_sigma{0, 0, 0};
-  double box_px = 0;   ///< largest distance of a closed side of the box from the cuboid's
-  double scan_px = 0;  ///< median distance of the scan's disparities from the cuboid's
+  double cost = 0;        ///< half the sum of squared, whitened residuals, and what taken ground costs
+  double box_error = 0;   ///< distance of a closed side of the box from the cuboid's, the largest [sigmas]
+  double scan_error = 0;  ///< distance of the scan's disparities from the cuboid's, the median [sigmas]
 };
 
 /// Maximum a posteriori of position, yaw, size, height of the ground and the disparities' common error, from twelve

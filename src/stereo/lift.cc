@@ -33,6 +33,8 @@ BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const Im
   open.top_open = box.top < tolerance_px;
   open.right_open = box.right > image.width - 1 - tolerance_px;
   open.bottom_open = box.bottom > image.height - 1 - tolerance_px;
+  // What lies beyond the left or right border is nearer, maybe: it would reach further up and down.
+  if (open.left_open || open.right_open) open.top_open = open.bottom_open = true;
   for (const Nearer& object : nearer) {
     const Box2d& other = object.box;
     const bool beside = Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
@@ -100,23 +102,34 @@ std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& 
 /// A cuboid for a box, or why not.
 LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer, const ClassPrior& prior,
                 CuboidFit& answer) {
-  constexpr std::size_t kFewest = 4;  // columns
+  constexpr double kElsewhere = 1;                   // the cost of a column that is not the object's
+  constexpr double kBoxError = 5, kScanError = 2.5;  // [sigmas]
   const double max_disparity = scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
+  const auto scans =
+      ScanObject(Match(scene.grey, box, max_disparity), box, nearer, scene.camera, scene.ground, RulesFor(prior));
+  if (scans.empty()) return LiftStatus::kNoDepth;
   FitInput input;
   input.box = box;
   input.prior = prior;
   input.sides = OpenSides(box, nearer, scene.image, scene.options.box_sigma_px);
-  input.scan =
-      ScanObject(Match(scene.grey, box, max_disparity), box, nearer, scene.camera, scene.ground, RulesFor(prior));
-  if (input.scan.size() < kFewest) return LiftStatus::kNoDepth;
   for (const Nearer& other : nearer) {
     if (other.footprint) input.taken.push_back(*other.footprint);
   }
-  const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
-  if (!fit) return LiftStatus::kPoorFit;
-  const double range = fit->T_cam_object.translation().norm();
+  std::optional<CuboidFit> best;
+  double least = 0;
+  for (const std::vector<ScanPoint>& scan : scans) {
+    input.scan = scan;
+    const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
+    if (!fit) continue;
+    const double cost = fit->cost - kElsewhere * static_cast<double>(scan.size());
+    if (best && cost >= least) continue;
+    best = fit;
+    least = cost;
+  }
+  if (!best || best->box_error > kBoxError || best->scan_error > kScanError) return LiftStatus::kPoorFit;
+  const double range = best->T_cam_object.translation().norm();
   if (!(range >= scene.options.min_range_m && range <= scene.options.max_range_m)) return LiftStatus::kOutOfRange;
-  answer = *fit;
+  answer = *best;
   return LiftStatus::kLifted;
 }
 

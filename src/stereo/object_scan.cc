@@ -82,28 +82,44 @@ std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
   return medians;
 }
 
-}  // namespace
-
-std::vector<ScanPoint> ScanObject(const DisparityPatch& patch, const Box2d& box, const std::vector<Nearer>& nearer,
-                                  const StereoCamera& camera, const GroundFrame& ground, const ScanRules& rules) {
-  const double bf = camera.baseline_m * camera.left.fx;
-  const std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
-  // The stretch of depth that holds most pixels is the object.
+/// Takes the stretch of depth that has most pixels out of `all`.
+std::vector<ScanPoint> TakeStretch(std::vector<Weighed>& all, double length) {
   double most = 0, nearest = 0;
   for (const Weighed& start : all) {
     double pixels = 0;
     for (const Weighed& other : all) {
-      if (other.depth >= start.depth && other.depth <= start.depth + rules.depth_m) pixels += other.pixels;
+      if (other.depth >= start.depth && other.depth <= start.depth + length) pixels += other.pixels;
     }
     if (pixels <= most) continue;
     most = pixels;
     nearest = start.depth;
   }
   std::vector<ScanPoint> points;
+  std::vector<Weighed> others;
   for (const Weighed& candidate : all) {
-    if (candidate.depth >= nearest && candidate.depth <= nearest + rules.depth_m) points.push_back(candidate.point);
+    if (candidate.depth >= nearest && candidate.depth <= nearest + length) {
+      points.push_back(candidate.point);
+    } else {
+      others.push_back(candidate);
+    }
   }
+  all = std::move(others);
   return points;
+}
+
+}  // namespace
+
+std::vector<std::vector<ScanPoint>> ScanObject(const DisparityPatch& patch, const Box2d& box,
+                                               const std::vector<Nearer>& nearer, const StereoCamera& camera,
+                                               const GroundFrame& ground, const ScanRules& rules) {
+  const double bf = camera.baseline_m * camera.left.fx;
+  std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
+  std::vector<std::vector<ScanPoint>> answers;
+  for (int i = 0; i < 2; ++i) {
+    std::vector<ScanPoint> points = TakeStretch(all, rules.depth_m);
+    if (points.size() >= rules.fewest) answers.push_back(std::move(points));
+  }
+  return answers;
 }
 
 }  // namespace sslcd
