@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY]
+// SEQUENCE: `sslcd_sim halv --case CASE --seed SEED --render --render-truth`; BOXES: scripts/instance_boxes.py or a
+// detector's; every EVERYth frame. Each box is that object's whose visible part it covers best; the truth is the world
+// itself.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/error.h"
+#include "sslcd/eval/iou3d.h"
+#include "sslcd/io/boxes_reader.h"
+#include "sslcd/io/calib_reader.h"
+#include "sslcd/io/pose_reader.h"
+#include "sslcd/perception/opencv_image.h"
+#include "sslcd/sim/halv.h"
+#include "sslcd/stereo/lift.h"
+
+namespace sslcd {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct Judged {
+  double range, radial, lateral, vertical, yaw, length, width, height, iou;
+  DetectionSigmas sigmas;
+};
+
+cv::Mat Read(const std::string& folder, const char* kind, int frame, int flags) {
+  char name[32];
+  std::snprintf(name, sizeof name, "/%s/%06d.png", kind, frame);
+  const cv::Mat image = cv::imread(folder + name, flags);
+  if (image.empty()) throw Error(ErrorKind::kBadInput, folder + name + ": no image");
+  return image;
+}
+
+/// What is visible of each object, by WorldObject::id.
+std::map<int, Box2d> VisibleBoxes(const cv::Mat& instances) {
+  std::map<int, Box2d> boxes;
+  for (int y = 0; y < instances.rows; ++y) {
+    const auto* row = instances.ptr<std::uint16_t>(y);
+    for (int x = 0; x < instances.cols; ++x) {
+      if (row[x] == 0) continue;
+      const double u = x, v = y;
+      Box2d& box = boxes.try_emplace(row[x] - 1, Box2d{u, v, u, v}).first->second;
+      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u), std::max(box.bottom, v)};
+    }
+  }
+  return boxes;
+}
+
+/// The object that the box is of: the one whose visible box it covers best; -1: none of them.
+int IdentityOf(const std::map<int, Box2d>& visible, const Box2d& box) {
+  int best = -1;
+  double most = 0.5;
+  for (const auto& [identity, other] : visible) {
+    const double iou = Iou(box, other);
+    if (iou > most) most = iou, best = identity;
+  }
+  return best;
+}
+
+Judged Judge(const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
+  const Vec3 centre = truth.translation(), found = lifted.detection.T_cam_object.translation();
+  const Vec3 error = RayFrame(centre) * (found - centre);
+  const GravityFrame gravity;
+  const Cuboid a = ToCuboid(lifted.detection.T_cam_object, lifted.detection.dims, gravity);
+  const Cuboid b = ToCuboid(truth, dims, gravity);
+  const Vec3 size = lifted.detection.dims - dims;
+  return {centre.norm(), error.x(), error.y(), error.z(),   WrapAngle(a.yaw - b.yaw, kPi),
+          size.x(),      size.y(),  size.z(),  Iou3d(a, b), lifted.sigmas};
+}
+
+template <class Of>
+double Quantile(const std::vector<Judged>& judged, double share, Of of) {
+  std::vector<double> values;
+  for (const Judged& j : judged) values.push_back(of(j));
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
+  const auto median = [&](auto of) { return Quantile(judged, 0.5, [&](const Judged& j) { return std::abs(of(j)); }); };
+  const auto typical = [&](auto of) { return 1.48 * median(of); };  // a standard deviation, of what is no outlier
+  double iou = 0;
+  for (const Judged& j : judged) iou += j.iou / static_cast<double>(judged.size());
+  std::printf("| %s | %d | %.2f | %.3f | %+.2f %.2f %.2f %.2f | %.1f %.1f | %.2f %.2f %.2f | %.2f %.2f %.2f %.2f |\n",
+              name, boxes, judged.size() / std::max(1., double(boxes)), iou,
+              Quantile(judged, 0.5, [](const Judged& j) { return j.radial; }),
+              median([](const Judged& j) { return j.radial; }), median([](const Judged& j) { return j.lateral; }),
+              median([](const Judged& j) { return j.vertical; }),
+              median([](const Judged& j) { return j.yaw * 180 / kPi; }),
+              Quantile(judged, 0.9, [](const Judged& j) { return std::abs(j.yaw) * 180 / kPi; }),
+              median([](const Judged& j) { return j.length; }), median([](const Judged& j) { return j.width; }),
+              median([](const Judged& j) { return j.height; }),
+              typical([](const Judged& j) { return j.radial / j.sigmas.radial; }),
+              typical([](const Judged& j) { return j.lateral / j.sigmas.lateral; }),
+              typical([](const Judged& j) { return j.vertical / j.sigmas.vertical; }),
+              typical([](const Judged& j) { return j.yaw / j.sigmas.yaw; }));
+}
+
+int Run(int argc, char** argv) {
+  if (argc < 5) throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY]");
+  const std::string folder = argv[1];
+  const auto boxes = ReadBoxes(argv[2]);
+  sim::HalvScene scene;
+  scene.case_number = std::atoi(argv[3]);
+  const sim::World world = sim::MakeHalvWorld(std::strtoull(argv[4], nullptr, 10), scene).world;
+  const int every = argc > 5 ? std::max(1, std::atoi(argv[5])) : 1;
+  const Calibration calibration = ReadCalibration(folder + "/calib.txt");
+  const StereoCamera camera = MakeStereoCamera(*calibration.left, *calibration.right);
+  LiftOptions options;
+  options.ground.height_m = world.camera_height_m + 0.2;  // not quite known
+
+  const std::vector<double> edges{0, 8, 12, 18, 25, 40, 80};
+  std::vector<std::vector<Judged>> bins(edges.size() - 1);
+  std::vector<int> counts(bins.size());
+  std::vector<Judged> near, all;
+  int near_boxes = 0, all_boxes = 0, frames = 0;
+  double ms = 0;
+  std::map<std::string, int> statuses;
+  for (const auto& [frame, list] : boxes) {
+    if (frame % every != 0) continue;
+    const cv::Mat left = Read(folder, "image_2", frame, cv::IMREAD_COLOR);
+    const cv::Mat right = Read(folder, "image_3", frame, cv::IMREAD_COLOR);
+    const auto visible = VisibleBoxes(Read(folder, "instance_2", frame, cv::IMREAD_UNCHANGED));
+    const std::clock_t start = std::clock();
+    const std::vector<LiftedBox> lifted = LiftBoxes({ViewOf(left), ViewOf(right)}, camera, list, options);
+    ms += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;  // of processor
+    ++frames;
+    const Pose T_cam_world = world.truth.poses[frame].inverse();
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const int identity = IdentityOf(visible, list[i].box);
+      if (identity < 0) continue;
+      const sim::WorldObject& object = world.objects[identity];
+      const Pose truth = T_cam_world * object.PoseAt(frame);
+      const double range = truth.translation().norm();
+      const std::size_t bin = std::upper_bound(edges.begin(), edges.end(), range) - edges.begin() - 1;
+      if (bin >= bins.size()) continue;
+      ++statuses[ToString(lifted[i].status)];
+      ++counts[bin];
+      ++all_boxes;
+      near_boxes += range <= 25;
+      if (std::getenv("LIFT_DUMP")) {
+        const Box2d& b = list[i].box;
+        std::printf("D %d %d %s %d %.1f %.1f %.1f %.1f", frame, identity, list[i].label.c_str(), int(lifted[i].status),
+                    b.left, b.top, b.right, b.bottom);
+        const double ty = GravityFrame().YawOf(truth.rotation());
+        std::printf(" T %.2f %.2f %.2f yaw %.2f dims %.2f %.2f %.2f", truth.translation().x(), truth.translation().y(),
+                    truth.translation().z(), ty, object.dims.x(), object.dims.y(), object.dims.z());
+        if (lifted[i].status == LiftStatus::kLifted) {
+          const auto& d = lifted[i].detection;
+          const Judged j = Judge(lifted[i], truth, object.dims);
+          std::printf(
+              " L %.2f %.2f %.2f yaw %.2f dims %.2f %.2f %.2f iou %.2f err %.2f %.2f %.2f %.2f sig %.2f %.2f %.2f %.2f",
+              d.T_cam_object.translation().x(), d.T_cam_object.translation().y(), d.T_cam_object.translation().z(),
+              GravityFrame().YawOf(d.T_cam_object.rotation()), d.dims.x(), d.dims.y(), d.dims.z(), j.iou, j.radial,
+              j.lateral, j.vertical, j.yaw, j.sigmas.radial, j.sigmas.lateral, j.sigmas.vertical, j.sigmas.yaw);
+        }
+        std::printf("\n");
+      }
+      if (lifted[i].status != LiftStatus::kLifted) continue;
+      const Judged judged = Judge(lifted[i], truth, object.dims);
+      bins[bin].push_back(judged);
+      all.push_back(judged);
+      if (range <= 25) near.push_back(judged);
+    }
+  }
+  std::printf(
+      "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, 90 %% [deg] | "
+      "length, width, "
+      "height [m] | errors over sigmas: along, across, up, yaw |\n|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%.0f-%.0f", edges[i], edges[i + 1]);
+    Print(name, bins[i], counts[i]);
+  }
+  Print("0-25", near, near_boxes);
+  Print("all", all, all_boxes);
+  for (const auto& [status, count] : statuses) std::printf("%s: %d\n", status.c_str(), count);
+  std::printf("%d frames, %.1f boxes and %.1f ms each\n", frames, all_boxes / std::max(1., double(frames)),
+              ms / std::max(1, frames));
+  return 0;
+}
+
+}  // namespace
+}  // namespace sslcd
+
+int main(int argc, char** argv) {
+  try {
+    return sslcd::Run(argc, argv);
+  } catch (const sslcd::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}

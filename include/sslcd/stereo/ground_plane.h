@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/core/image.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// What is known of the ground before an image is looked at, and how it is looked for.
+struct GroundOptions {
+  double height_m = 1.5, height_sigma_m = 0.3;  ///< of the camera above the ground
+  double tilt_sigma_rad = 0.03;                 ///< of the camera against the ground, each of roll and pitch
+  double disparity_sigma_px = 0.5;              ///< of a pixel on the ground; more than thrice as much is not ground
+  int samples = 2000;                           ///< pixels looked at, at most
+  int trials = 200;                             ///< of RANSAC
+  int seed = 1;                                 ///< of RANSAC
+};
+void DescribeFields(FieldVisitor& visitor, GroundOptions& options);
+
+/// The plane `up . p + height = 0` in the left camera's frame.
+struct GroundPlane {
+  Vec3 up{0, -1, 0};    ///< unit vector
+  double height_m = 0;  ///< of the camera above it
+  double support = 0;   ///< share of the pixels looked at that lie on it; 0: nothing but the prior
+  double HeightOf(const Vec3& point_cam) const { return up.dot(point_cam) + height_m; }
+};
+
+/// The ground in front of the camera: a plane in disparity (d = -f b up.ray / height is linear in up / height), found
+/// by RANSAC in the lower part of the images outside of `objects`, then adjusted together with the prior. Where there
+/// is no evidence the prior is the answer. Throws Error(kBadInput) as CheckImages does.
+GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
+                           const GroundOptions& options);
+
+}  // namespace sslcd

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/stereo/ground_plane.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "stereo/grey.h"
+#include "stereo/ground_search.h"
+
+namespace sslcd {
+namespace {
+
+/// q = up / height; the disparity of a pixel on the ground is row . q.
+struct Sample {
+  Vec3 row;
+  double disparity;
+  int u, v;
+};
+
+constexpr double kGate = 3;  // standard deviations
+
+bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
+  return std::any_of(boxes.begin(), boxes.end(), [&](const Box2d& box) {
+    return u >= box.left && u <= box.right && v >= box.top && v <= box.bottom;
+  });
+}
+
+/// What is known of the pixels below the horizon.
+std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& camera, const std::vector<Box2d>& objects,
+                                  const GroundOptions& options) {
+  const Camera& left = camera.left;
+  const double width = grey.left.cols, height = grey.left.rows;
+  const double horizon = left.cy + options.tilt_sigma_rad * left.fy;
+  if (!(horizon < height - 1)) return {};
+  const double bf = camera.baseline_m * left.fx;
+  const double nearest = options.height_m * left.fy / (height - left.cy);
+  const double scale = std::min(1., 640 / width);  // coarse pixels will do: there are many
+  const DisparityPatch patch = MatchInside(grey, {0, horizon, width, height}, 1.3 * bf / nearest, scale, scale);
+  if (patch.values.empty()) return {};
+  std::vector<Sample> samples;
+  for (int y = 0; y < patch.values.rows; ++y) {
+    for (int x = 0; x < patch.values.cols; ++x) {
+      const double disparity = patch.values.at<float>(y, x);
+      if (!(disparity > 0)) continue;
+      const int u = static_cast<int>(patch.x0 + patch.step_x * x), v = static_cast<int>(patch.y0 + patch.step_y * y);
+      if (Covers(objects, u, v)) continue;
+      samples.push_back({-bf * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1), disparity, u, v});
+    }
+  }
+  return samples;
+}
+
+/// Within what the prior allows.
+bool IsPlausible(const Vec3& q, const GroundOptions& options) {
+  const double height = 1 / q.norm();
+  const Vec3 up = q * height;
+  return std::abs(height - options.height_m) <= kGate * options.height_sigma_m &&
+         std::hypot(up.x(), up.z()) <= kGate * options.tilt_sigma_rad && up.y() < 0;
+}
+
+bool IsOn(const Vec3& q, const Sample& sample, const GroundOptions& options) {
+  return std::abs(sample.row.dot(q) - sample.disparity) < kGate * options.disparity_sigma_px;
+}
+
+Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior, const GroundOptions& options) {
+  std::mt19937 random(static_cast<unsigned>(options.seed));
+  const std::size_t every = 1 + samples.size() / static_cast<std::size_t>(options.samples);
+  const auto support = [&](const Vec3& q) {
+    int count = 0;
+    for (std::size_t i = 0; i < samples.size(); i += every) count += IsOn(q, samples[i], options);
+    return count;
+  };
+  Vec3 best = prior;
+  int most = support(prior);
+  for (int trial = 0; trial < options.trials; ++trial) {
+    Eigen::Matrix3d rows;
+    Vec3 disparities;
+    for (int i = 0; i < 3; ++i) {
+      const Sample& sample = samples[random() % samples.size()];
+      rows.row(i) = sample.row;
+      disparities[i] = sample.disparity;
+    }
+    const Vec3 q = rows.partialPivLu().solve(disparities);
+    if (!q.allFinite() || !IsPlausible(q, options)) continue;
+    const int count = support(q);
+    if (count <= most) continue;
+    most = count;
+    best = q;
+  }
+  return best;
+}
+
+/// Information and right-hand side of the prior: roll and pitch turn `up` by their sine; a height that is off by dh
+/// changes q by dh / height^2.
+struct Equations {
+  Eigen::Matrix3d information;
+  Vec3 right;
+  explicit Equations(const GroundOptions& options) {
+    const double tilt = options.tilt_sigma_rad / options.height_m;
+    const double stretch = options.height_sigma_m / (options.height_m * options.height_m);
+    const Vec3 diagonal = Vec3(tilt, stretch, tilt).array().square().inverse();
+    information = diagonal.asDiagonal();
+    right = diagonal.cwiseProduct(Vec3(0, -1, 0) / options.height_m);
+  }
+  void Add(const Vec3& row, double value, double weight) {
+    information += weight * row * row.transpose();
+    right += weight * value * row;
+  }
+  Vec3 Solution() const { return information.ldlt().solve(right); }
+};
+
+Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
+  for (int round = 0; round < 3; ++round) {
+    Equations equations(options);
+    for (const Sample& sample : samples) {
+      if (IsOn(q, sample, options))
+        equations.Add(sample.row, sample.disparity, 1 / (options.disparity_sigma_px * options.disparity_sigma_px));
+    }
+    q = equations.Solution();
+  }
+  return q;
+}
+
+/// Without the brightness of the surroundings, in which the two cameras may differ.
+cv::Mat Detail(const cv::Mat& grey) {
+  cv::Mat image, fine, coarse;
+  grey.convertTo(image, CV_32F);
+  cv::GaussianBlur(image, fine, {5, 5}, 1);
+  cv::blur(image, coarse, {21, 21});
+  return fine - coarse;
+}
+
+/// Semi-global matching lags behind on a slope, by a third of a pixel on the ground; so the plane that it has found is
+/// laid over the images themselves: least squares of their difference (Lucas and Kanade 1981, with a plane's three
+/// unknowns), Cauchy's weights.
+Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
+  constexpr double kNoise = 6;  // grey levels
+  constexpr int kRounds = 8;
+  const cv::Mat left = Detail(grey.left), right = Detail(grey.right);
+  std::vector<Sample> ground;
+  for (const Sample& sample : samples) {
+    if (IsOn(q, sample, options)) ground.push_back(sample);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    Equations equations(options);
+    for (const Sample& sample : ground) {
+      const double disparity = sample.row.dot(q), at = sample.u - disparity;
+      if (!(at >= 1 && at < right.cols - 3)) continue;
+      const int x = static_cast<int>(at);
+      const float part = static_cast<float>(at - x);
+      const float* row = right.ptr<float>(sample.v) + x;
+      const double there = (1 - part) * row[0] + part * row[1];
+      const double slope = 0.5 * ((1 - part) * (row[1] - row[-1]) + part * (row[2] - row[0]));
+      // To first order right(u - d) falls by `slope` for each pixel that d grows.
+      const double error = there - left.at<float>(sample.v, sample.u);
+      const double weight = slope * slope / (kNoise * kNoise + error * error);
+      if (weight > 0) equations.Add(sample.row, disparity + error / slope, weight);
+    }
+    const Vec3 next = equations.Solution();
+    const double change = (next - q).norm() / q.norm();
+    q = next;
+    if (change < 1e-5) break;
+  }
+  return q;
+}
+
+}  // namespace
+
+void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
+  visitor.Real("height_m", options.height_m, 0.05, 20, "height of the camera above the ground, as far as known");
+  visitor.Real("height_sigma_m", options.height_sigma_m, 1e-3, 10, "its standard deviation");
+  visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-4, 0.5,
+               "standard deviation of the camera's roll and pitch against the ground");
+  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.05, 10,
+               "standard deviation of the disparity of a pixel on the ground");
+  visitor.Integer("samples", options.samples, 10, 1000000, "pixels looked at, at most");
+  visitor.Integer("trials", options.trials, 1, 100000, "trials of RANSAC");
+  visitor.Integer("seed", options.seed, 0, 2147483647, "seed of RANSAC");
+}
+
+GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, const std::vector<Box2d>& objects,
+                           const GroundOptions& options) {
+  constexpr std::size_t kFewest = 100;
+  const std::vector<Sample> samples = GroundSamples(grey, camera, objects, options);
+  Vec3 q = Vec3(0, -1, 0) / options.height_m;
+  GroundPlane plane;
+  if (samples.size() >= kFewest) {
+    q = LeastSquares(samples, BestOfTrials(samples, q, options), options);
+    const Vec3 aligned = Align(grey, samples, q, options);
+    if (IsPlausible(aligned, options)) q = aligned;
+    const auto on = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return IsOn(q, s, options); });
+    plane.support = static_cast<double>(on) / static_cast<double>(samples.size());
+  }
+  plane.height_m = 1 / q.norm();
+  plane.up = q * plane.height_m;
+  return plane;
+}
+
+GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
+                           const GroundOptions& options) {
+  CheckImages(images);
+  return EstimateGround(GreyPair{Grey(images.left), Grey(images.right)}, camera, objects, options);
+}
+
+}  // namespace sslcd

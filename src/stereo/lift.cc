@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/stereo/lift.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sslcd/core/error.h"
+#include "stereo/cuboid_fit.h"
+#include "stereo/grey.h"
+#include "stereo/ground_search.h"
+
+namespace sslcd {
+namespace {
+
+bool IsFinite(const Box2d& box) {
+  return std::isfinite(box.left) && std::isfinite(box.top) && std::isfinite(box.right) && std::isfinite(box.bottom);
+}
+
+Box2d Clipped(const Box2d& box, const ImageView& image) {
+  return {std::max(box.left, 0.), std::max(box.top, 0.), std::min<double>(box.right, image.width - 1),
+          std::min<double>(box.bottom, image.height - 1)};
+}
+
+double Overlap(double low_a, double high_a, double low_b, double high_b) {
+  return std::max(0., std::min(high_a, high_b) - std::max(low_a, low_b));
+}
+
+/// Sides at the image's border, and those where a box begins that stands nearer.
+BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image, double tolerance_px) {
+  constexpr double kShare = 0.25;  // of a side, hidden
+  BoxSides open;
+  open.left_open = box.left < tolerance_px;
+  open.top_open = box.top < tolerance_px;
+  open.right_open = box.right > image.width - 1 - tolerance_px;
+  open.bottom_open = box.bottom > image.height - 1 - tolerance_px;
+  // What lies beyond the left or right border is nearer, maybe: it would reach further up and down.
+  if (open.left_open || open.right_open) open.top_open = open.bottom_open = true;
+  for (const Nearer& object : nearer) {
+    const Box2d& other = object.box;
+    const bool beside = Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
+    const bool below = Overlap(box.left, box.right, other.left, other.right) > kShare * (box.right - box.left);
+    const auto covers = [&](double u) { return u > other.left - tolerance_px && u < other.right + tolerance_px; };
+    open.left_open |= beside && covers(box.left);
+    open.right_open |= beside && covers(box.right);
+    open.bottom_open |= below && other.top < box.bottom;
+  }
+  return open;
+}
+
+/// Fine for what is small in the image, coarse for what is large: about as many pixels for each box.
+DisparityPatch Match(const GreyPair& grey, const Box2d& box, double max_disparity) {
+  const double height = box.bottom - box.top;
+  const double scale = height > 240 ? 0.5 : 1;
+  const double pad = 4;
+  return MatchInside(grey, {box.left - pad, box.top - pad, box.right + pad, box.bottom + pad}, max_disparity,
+                     height < 80 ? 2 : scale, scale);
+}
+
+/// Below the glass, above what lies on the ground; no deeper than a side seen at an angle.
+ScanRules RulesFor(const ClassPrior& prior) {
+  ScanRules rules;
+  rules.low_m = 0.12 * prior.height_m;
+  rules.high_m = 0.62 * prior.height_m;
+  rules.depth_m = prior.length_m;
+  return rules;
+}
+
+LiftedBox Finish(const CuboidFit& fit, const ImageDetection& image, const StereoCamera& camera) {
+  LiftedBox lifted;
+  lifted.status = LiftStatus::kLifted;
+  lifted.detection.label = image.label;
+  lifted.detection.score = image.score;
+  lifted.detection.box = image.box;
+  const Vec3 centre = fit.T_cam_object.translation();
+  lifted.detection.T_cam_object = Pose(fit.T_cam_object.rotation(), centre - camera.left.offset);
+  lifted.detection.dims = fit.dims;
+  lifted.covariance = fit.covariance;
+  const Eigen::Matrix3d rows = RayFrame(centre);
+  const Vec3 variance = (rows * fit.covariance * rows.transpose()).diagonal().cwiseMax(0);
+  lifted.sigmas = {std::sqrt(variance.x()), std::sqrt(variance.y()), std::sqrt(variance.z()), fit.yaw_sigma};
+  lifted.dims_sigma = fit.dims_sigma;
+  return lifted;
+}
+
+/// What all boxes of a frame share.
+struct Scene {
+  const ImageView& image;
+  const GreyPair& grey;
+  const StereoCamera& camera;
+  const GroundFrame& ground;
+  const LiftOptions& options;
+};
+
+/// What can be said against a box before its pixels are looked at.
+std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& box, const LiftOptions& options) {
+  if (options.classes.count(detection.label) == 0) return LiftStatus::kUnknownLabel;
+  if (!IsFinite(detection.box) || !(box.Area() > 0)) return LiftStatus::kBadBox;
+  if (!(box.bottom - box.top >= options.min_height_px)) return LiftStatus::kTooSmall;
+  return std::nullopt;
+}
+
+/// A cuboid for a box, or why not.
+LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer, const ClassPrior& prior,
+                CuboidFit& answer) {
+  constexpr double kElsewhere = 1;                   // the cost of a column that is not the object's
+  constexpr double kBoxError = 5, kScanError = 2.5;  // [sigmas]
+  const double max_disparity = scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
+  const auto scans =
+      ScanObject(Match(scene.grey, box, max_disparity), box, nearer, scene.camera, scene.ground, RulesFor(prior));
+  if (scans.empty()) return LiftStatus::kNoDepth;
+  FitInput input;
+  input.box = box;
+  input.prior = prior;
+  input.sides = OpenSides(box, nearer, scene.image, scene.options.box_sigma_px);
+  for (const Nearer& other : nearer) {
+    if (other.footprint) input.taken.push_back(*other.footprint);
+  }
+  std::optional<CuboidFit> best;
+  double least = 0;
+  for (const std::vector<ScanPoint>& scan : scans) {
+    input.scan = scan;
+    const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
+    if (!fit) continue;
+    const double cost = fit->cost - kElsewhere * static_cast<double>(scan.size());
+    if (best && cost >= least) continue;
+    best = fit;
+    least = cost;
+  }
+  if (!best || best->box_error > kBoxError || best->scan_error > kScanError) return LiftStatus::kPoorFit;
+  const double range = best->T_cam_object.translation().norm();
+  if (!(range >= scene.options.min_range_m && range <= scene.options.max_range_m)) return LiftStatus::kOutOfRange;
+  answer = *best;
+  return LiftStatus::kLifted;
+}
+
+}  // namespace
+
+std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
+                                 const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
+  CheckImages(images);
+  const GreyPair grey{Grey(images.left), Grey(images.right)};
+  std::vector<LiftedBox> lifted(boxes.size());
+  std::vector<std::size_t> order;
+  std::vector<Box2d> clipped(boxes.size());
+  std::vector<Box2d> objects;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    clipped[i] = Clipped(boxes[i].box, images.left);
+    if (IsFinite(clipped[i]) && clipped[i].Area() > 0) objects.push_back(clipped[i]);
+    const std::optional<LiftStatus> refusal = Refusal(boxes[i], clipped[i], options);
+    if (refusal) lifted[i].status = *refusal;
+    if (!refusal) order.push_back(i);
+  }
+  const GroundFrame ground(EstimateGround(grey, camera, objects, options.ground));
+  const Scene scene{images.left, grey, camera, ground, options};
+  // The nearest first, on flat ground the lowest: what is known of it tells what it hides.
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return clipped[a].bottom > clipped[b].bottom; });
+  std::vector<Nearer> nearer;
+  for (std::size_t i : order) {
+    CuboidFit fit;
+    lifted[i].status = Lift(scene, clipped[i], nearer, options.classes.at(boxes[i].label), fit);
+    nearer.push_back({clipped[i], fit.scan, std::nullopt});
+    if (lifted[i].status != LiftStatus::kLifted) continue;
+    lifted[i] = Finish(fit, boxes[i], camera);
+    nearer.back().footprint = fit.footprint;
+  }
+  return lifted;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/stereo/lift.h"
+
+namespace sslcd {
+
+std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
+  // Usual sizes on European roads; KITTI's labels.
+  return {{"Car", {4.3, 1.8, 1.53, 0.45, 0.12, 0.12, 0.18, 0.5}},
+          {"Van", {5.1, 1.95, 2.1, 0.6, 0.12, 0.25, 0.16, 0.8}},
+          {"Truck", {7, 2.4, 3, 2, 0.2, 0.4, 0.16, 0.95}},
+          {"Bus", {11, 2.55, 3.2, 2, 0.1, 0.4, 0.16, 0.98}},
+          {"Pedestrian", {0.7, 0.6, 1.75, 0.2, 0.15, 0.12, 0, 0.6}},
+          {"Cyclist", {1.75, 0.6, 1.75, 0.15, 0.12, 0.12, 0.2, 0.3}}};
+}
+
+void DescribeFields(FieldVisitor& visitor, ClassPrior& prior) {
+  visitor.Real("length_m", prior.length_m, 0.05, 50, "usual length");
+  visitor.Real("width_m", prior.width_m, 0.05, 50, "usual width");
+  visitor.Real("height_m", prior.height_m, 0.05, 50, "usual height");
+  visitor.Real("length_sigma_m", prior.length_sigma_m, 1e-3, 50, "standard deviation of the length");
+  visitor.Real("width_sigma_m", prior.width_sigma_m, 1e-3, 50, "standard deviation of the width");
+  visitor.Real("height_sigma_m", prior.height_sigma_m, 1e-3, 50, "standard deviation of the height");
+  visitor.Real("overhang", prior.overhang, 0, 0.5, "from either end to the axle; 0: no wheels [share of the length]");
+  visitor.Real("roof", prior.roof, 0, 1, "the part that is as high as the object [share of the length]");
+}
+
+void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
+  visitor.Section("classes", "what is usual, by label; boxes of other labels are not lifted", [&](FieldVisitor& inner) {
+    for (auto& [label, prior] : options.classes) inner.Nested(label.c_str(), prior, "size and outline");
+  });
+  visitor.Nested("ground", options.ground, "the plane that objects stand on");
+  visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nothing is nearer than this");
+  visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "objects beyond are not lifted");
+  visitor.Real("min_height_px", options.min_height_px, 1, 10000, "boxes that are less high are not lifted");
+  visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100, "standard deviation of each side of a box");
+  visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10, "what the object's own shape adds to it");
+  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10, "of the disparity of a column of pixels");
+  visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10, "what all columns of an object share");
+  visitor.Real("ground_sigma_m", options.ground_sigma_m, 1e-4, 10, "of the ground under an object against the plane");
+  visitor.Real("ground_sigma_rad", options.ground_sigma_rad, 0, 1, "of the plane's slope");
+}
+
+const char* ToString(LiftStatus status) {
+  switch (status) {
+    case LiftStatus::kLifted: return "lifted";
+    case LiftStatus::kUnknownLabel: return "unknown label";
+    case LiftStatus::kBadBox: return "bad box";
+    case LiftStatus::kTooSmall: return "too small";
+    case LiftStatus::kNoDepth: return "no depth";
+    case LiftStatus::kOutOfRange: return "out of range";
+    case LiftStatus::kPoorFit: return "poor fit";
+  }
+  return "";
+}
+
+}  // namespace sslcd
