@@ -168,8 +168,9 @@ std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& c
     lifted[i].status = Lift(scene, clipped[i], nearer, options.classes.at(boxes[i].label), fit);
     nearer.push_back({clipped[i], fit.scan, std::nullopt});
     if (lifted[i].status != LiftStatus::kLifted) continue;
-    lifted[i] = Finish(fit, boxes[i], camera);
     nearer.back().footprint = fit.footprint;
+    lifted[i] = Finish(fit, boxes[i], camera);
+    if (fit.yaw_sigma > options.max_yaw_sigma_rad) lifted[i].status = LiftStatus::kAmbiguous;
   }
   return lifted;
 }
