@@ -148,24 +148,6 @@ int Run(int argc, char** argv) {
       ++counts[bin];
       ++all_boxes;
       near_boxes += range <= 25;
-      if (std::getenv("LIFT_DUMP")) {
-        const Box2d& b = list[i].box;
-        std::printf("D %d %d %s %d %.1f %.1f %.1f %.1f", frame, identity, list[i].label.c_str(), int(lifted[i].status),
-                    b.left, b.top, b.right, b.bottom);
-        const double ty = GravityFrame().YawOf(truth.rotation());
-        std::printf(" T %.2f %.2f %.2f yaw %.2f dims %.2f %.2f %.2f", truth.translation().x(), truth.translation().y(),
-                    truth.translation().z(), ty, object.dims.x(), object.dims.y(), object.dims.z());
-        if (lifted[i].status == LiftStatus::kLifted) {
-          const auto& d = lifted[i].detection;
-          const Judged j = Judge(lifted[i], truth, object.dims);
-          std::printf(
-              " L %.2f %.2f %.2f yaw %.2f dims %.2f %.2f %.2f iou %.2f err %.2f %.2f %.2f %.2f sig %.2f %.2f %.2f %.2f",
-              d.T_cam_object.translation().x(), d.T_cam_object.translation().y(), d.T_cam_object.translation().z(),
-              GravityFrame().YawOf(d.T_cam_object.rotation()), d.dims.x(), d.dims.y(), d.dims.z(), j.iou, j.radial,
-              j.lateral, j.vertical, j.yaw, j.sigmas.radial, j.sigmas.lateral, j.sigmas.vertical, j.sigmas.yaw);
-        }
-        std::printf("\n");
-      }
       if (lifted[i].status != LiftStatus::kLifted) continue;
       const Judged judged = Judge(lifted[i], truth, object.dims);
       bins[bin].push_back(judged);

@@ -4,6 +4,7 @@
 whose sides scatter. For `sslcd_sim halv --render --render-truth` folders (docs/halv_sim.md, docs/formats.md).
 
 instance_boxes.py SEQUENCE OUT.txt [--labels Car,Van,Truck] [--min-height 20] [--min-pixels 400] [--sigma-px 0] [--seed 1]
+                  [--every 1]
 """
 import argparse
 import collections
@@ -26,8 +27,15 @@ def labels_of(sequence):
 def boxes_of(instances, min_height, min_pixels):
     """(identity, left, top, right, bottom) of what is visible of each object: the outer edges of its pixels, whose
     centres lie at whole numbers."""
-    for value in np.unique(instances[instances > 0]):
-        rows, columns = np.nonzero(instances == value)
+    where = np.flatnonzero(instances)
+    values = instances.ravel()[where]
+    order = np.argsort(values, kind="stable")
+    starts = np.flatnonzero(np.diff(values[order], prepend=0))
+    for pixels in np.split(where[order], starts[1:]):
+        if len(pixels) == 0:
+            continue
+        value = instances.ravel()[pixels[0]]
+        rows, columns = np.divmod(pixels, instances.shape[1])
         # A wing mirror beyond a pole is no part of the box: the outermost half per cent on each side is left out.
         left, right = np.percentile(columns, [0.25, 99.75])
         top, bottom = np.percentile(rows, [0.25, 99.75])
@@ -44,11 +52,12 @@ def main():
     parser.add_argument("--min-pixels", type=int, default=400)
     parser.add_argument("--sigma-px", type=float, default=0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--every", type=int, default=1, help="every so many frames")
     args = parser.parse_args()
     labels = labels_of(args.sequence)
     wanted = set(args.labels.split(","))
     random = np.random.default_rng(args.seed)
-    images = sorted((args.sequence / "instance_2").glob("*.png"))
+    images = sorted((args.sequence / "instance_2").glob("*.png"))[:: args.every]
     if not images:
         sys.exit(f"{args.sequence}: no instance_2/*.png; render it with --render-truth")
     with args.out.open("w") as out:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "sslcd/core/error.h"
 #include "stereo/cuboid_fit.h"
@@ -138,6 +139,12 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
                                  const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
   CheckImages(images);
+  const Camera& left = camera.left;
+  if (left.width > 0 && (left.width != images.left.width || left.height != images.left.height))
+    throw Error(ErrorKind::kBadInput, "the images are " + std::to_string(images.left.width) + "x" +
+                                          std::to_string(images.left.height) + ", the camera's " +
+                                          std::to_string(left.width) + "x" + std::to_string(left.height) +
+                                          ": give the calibration of these images");
   const GreyPair grey{Grey(images.left), Grey(images.right)};
   std::vector<LiftedBox> lifted(boxes.size());
   std::vector<std::size_t> order;
@@ -161,8 +168,9 @@ std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& c
     lifted[i].status = Lift(scene, clipped[i], nearer, options.classes.at(boxes[i].label), fit);
     nearer.push_back({clipped[i], fit.scan, std::nullopt});
     if (lifted[i].status != LiftStatus::kLifted) continue;
-    lifted[i] = Finish(fit, boxes[i], camera);
     nearer.back().footprint = fit.footprint;
+    lifted[i] = Finish(fit, boxes[i], camera);
+    if (fit.yaw_sigma > options.max_yaw_sigma_rad) lifted[i].status = LiftStatus::kAmbiguous;
   }
   return lifted;
 }

@@ -13,6 +13,21 @@ std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
           {"Cyclist", {1.75, 0.6, 1.75, 0.15, 0.12, 0.12, 0.2, 0.3}}};
 }
 
+DetectionNoise LiftNoise() {
+  DetectionNoise noise;
+  noise.radial_m = 0.1;
+  noise.radial_per_m = 0.035;
+  noise.lateral_m = 0.12;
+  noise.lateral_per_m = 0.012;
+  noise.vertical_m = 0.04;
+  noise.vertical_per_m = 0.0005;
+  noise.yaw_rad = 0.1;
+  noise.yaw_per_m = 0.01;
+  noise.size_relative = 0.1;
+  noise.initial_scale = 1;
+  return noise;
+}
+
 void DescribeFields(FieldVisitor& visitor, ClassPrior& prior) {
   visitor.Real("length_m", prior.length_m, 0.05, 50, "usual length");
   visitor.Real("width_m", prior.width_m, 0.05, 50, "usual width");
@@ -32,6 +47,8 @@ void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
   visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nothing is nearer than this");
   visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "objects beyond are not lifted");
   visitor.Real("min_height_px", options.min_height_px, 1, 10000, "boxes that are less high are not lifted");
+  visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
+               "boxes whose heading stays less certain than this are not lifted");
   visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100, "standard deviation of each side of a box");
   visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10, "what the object's own shape adds to it");
   visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10, "of the disparity of a column of pixels");
@@ -49,6 +66,7 @@ const char* ToString(LiftStatus status) {
     case LiftStatus::kNoDepth: return "no depth";
     case LiftStatus::kOutOfRange: return "out of range";
     case LiftStatus::kPoorFit: return "poor fit";
+    case LiftStatus::kAmbiguous: return "ambiguous heading";
   }
   return "";
 }

@@ -28,6 +28,7 @@ struct LiftOptions {
   GroundOptions ground;
   double min_range_m = 2, max_range_m = 40;  ///< from the camera to the object's visible side
   double min_height_px = 14;                 ///< boxes that are less high are not lifted
+  double max_yaw_sigma_rad = 0.8;            ///< nor those whose heading stays less certain than this
   double box_sigma_px = 2;                   ///< of each side of a box, the detector's error ...
   double shape_sigma_m = 0.06;               ///< ... and what the object's own shape adds
   double disparity_sigma_px = 0.4;           ///< of one column of pixels on the object
@@ -48,18 +49,23 @@ enum class LiftStatus {
   kNoDepth,       ///< too few pixels of an object whose disparity is known: no texture, sky, hidden
   kOutOfRange,    ///< nearer than min_range_m or further than max_range_m
   kPoorFit,       ///< no cuboid of the class explains box and disparities
+  kAmbiguous,     ///< several headings do, see max_yaw_sigma_rad
 };
 const char* ToString(LiftStatus status);
 
-/// A box and, where `status` is kLifted, the cuboid that it shows.
+/// A box and, where `status` is kLifted or kAmbiguous, the cuboid that it shows.
 struct LiftedBox {
   LiftStatus status = LiftStatus::kBadBox;
   Detection detection;  ///< label, score, box of the image detection; pose in the reference camera, yaw modulo pi
-  // Of the fit; what its model leaves out is in LiftNoise().
+  // Of the fit, the other headings that explain what is seen included; LiftNoise() is what to expect on average.
   DetectionSigmas sigmas;    ///< of the position in the ray's frame, and of the yaw [m, rad]
   Vec3 dims_sigma{0, 0, 0};  ///< of length, width, height [m]
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the position in the camera's axes [m^2]
 };
+
+/// What a mapper should take such detections' noise for: measured on rendered images at a baseline of 12 cm
+/// (docs/results.md). The mapper learns a factor on each component; with another baseline it has to.
+DetectionNoise LiftNoise();
 
 /// Cuboids from 2D boxes and a rectified pair, one answer a box and in its order. For each box: semi-global matching
 /// inside of it, the contour of the lower body by columns (as a laser scanner would see it), and the cuboid that best
@@ -67,6 +73,9 @@ struct LiftedBox {
 /// What one side does not show (the length, seen from behind) is the prior's. Front and back are not told apart.
 ///
 /// Sides at the image's border, and those where a nearer box begins, only say that the object reaches so far at least.
+/// Boxes are lifted from the nearest to the furthest: a nearer object tells which pixels are its own, and where nothing
+/// else can stand. The order of the boxes changes nothing.
+///
 /// Never throws for a box. Throws Error(kBadInput) for images as CheckImages does, and for images of another size than
 /// the camera's, where that is known.
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/disparity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stereo_scene.h"
+
+namespace sslcd {
+namespace {
+
+TEST(MatchInside, FindsAWallAtAnyScale) {
+  StereoScene scene;
+  scene.Add(0, 9, 0, {30, 2, 12});  // its near side is 8 m away
+  scene.Render();
+  const double truth = 450 * 0.3 / 8;
+  for (double scale : {0.5, 1., 2.}) {
+    const DisparityPatch patch =
+        MatchInside({scene.left, scene.right}, {300, 60, 420, 150}, 40, scale, std::min(scale, 1.));
+    ASSERT_FALSE(patch.values.empty());
+    EXPECT_NEAR(patch.x0, 300, 1.1);
+    EXPECT_NEAR(patch.x0 + patch.step_x * patch.values.cols, 420, 2.1);
+    int close = 0;
+    for (int y = 0; y < patch.values.rows; ++y) {
+      for (int x = 0; x < patch.values.cols; ++x)
+        close += std::abs(patch.values.at<float>(y, x) - truth) < 0.35 * std::max(1., 1 / scale);
+    }
+    EXPECT_GT(close, 0.85 * static_cast<double>(patch.values.total())) << scale;
+  }
+}
+
+TEST(MatchInside, NothingIsKnownWithoutPixelsOrTexture) {
+  StereoScene scene;
+  scene.Render();
+  for (const Box2d& box : {Box2d{-100, 10, -50, 60}, Box2d{700, 10, 800, 60}, Box2d{50, 50, 50, 60}, Box2d{}})
+    EXPECT_TRUE(MatchInside({scene.left, scene.right}, box, 40, 1, 1).values.empty());
+  const cv::Mat black(scene.left.size(), CV_8U, cv::Scalar(0));
+  const DisparityPatch patch = MatchInside({black, black}, {200, 100, 300, 200}, 40, 1, 1);
+  for (int y = 0; y < patch.values.rows; ++y) {
+    for (int x = 0; x < patch.values.cols; ++x) EXPECT_FALSE(patch.values.at<float>(y, x) > 0);
+  }
+}
+
+}  // namespace
+}  // namespace sslcd
