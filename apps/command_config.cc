@@ -9,11 +9,16 @@
 namespace sslcd::apps {
 namespace {
 
-Describe Fields(Options& options) {
-  return [&options](FieldVisitor& visitor) { DescribeFields(visitor, options); };
+Describe Fields(Configuration& configuration) {
+  return [&configuration](FieldVisitor& visitor) { DescribeFields(visitor, configuration); };
 }
 
 }  // namespace
+
+void DescribeFields(FieldVisitor& visitor, Configuration& configuration) {
+  DescribeFields(visitor, configuration.options);
+  visitor.Nested("vision", configuration.vision, "frames from images: detections and odometry");
+}
 
 void ConfigArguments::AddTo(CLI::App& command) {
   command.add_option("--config", file, "YAML file; what it does not name keeps its default");
@@ -22,18 +27,19 @@ void ConfigArguments::AddTo(CLI::App& command) {
   command.add_option("--set", settings, "section.key=value; may be given several times")->allow_extra_args(false);
 }
 
-Options ConfigArguments::Load() const {
+Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& adapt) const {
   // The mode decides the defaults that the file and the settings then change, wherever it is named.
-  Options options;
+  Configuration all;
   const auto apply = [&] {
-    if (!file.empty()) LoadConfigFile(file, Fields(options));
-    ApplySettings(settings, Fields(options));
-    if (!mode.empty()) options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
+    if (!file.empty()) LoadConfigFile(file, Fields(all));
+    ApplySettings(settings, Fields(all));
+    if (!mode.empty()) all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
   };
   apply();
-  options = DefaultOptions(options.mode);
+  all = {DefaultOptions(all.options.mode), VisionOptions()};
+  if (adapt) adapt(all);
   apply();
-  return options;
+  return all;
 }
 
 Command AddCheckConfigCommand(CLI::App& app, Console& console) {
@@ -41,8 +47,8 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console) {
   const auto file = std::make_shared<std::string>();
   command->add_option("FILE", *file, "YAML file")->required();
   return [file, &console] {
-    Options options;
-    LoadConfigFile(*file, Fields(options));
+    Configuration all;
+    LoadConfigFile(*file, Fields(all));
     console.Say(*file + ": ok");
     return 0;
   };
@@ -55,8 +61,8 @@ Command AddDumpConfigCommand(CLI::App& app, Console&) {
   arguments->AddTo(*command);
   command->add_flag("--markdown", *markdown, "as the tables of docs/configuration.md");
   return [arguments, markdown] {
-    Options options = arguments->Load();
-    const std::string text = *markdown ? ConfigReference(Fields(options)) : DumpConfig(Fields(options), true);
+    Configuration all = arguments->Load();
+    const std::string text = *markdown ? ConfigReference(Fields(all)) : DumpConfig(Fields(all), true);
     std::fputs(text.c_str(), stdout);
     return 0;
   };

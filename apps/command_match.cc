@@ -96,7 +96,7 @@ std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>&
 }
 
 int Match(const MatchArguments& a, const Console& console) {
-  const Options options = a.config.Load();
+  const Options options = a.config.Load().options;
   const std::vector<LayoutPair> pairs = ReadLayoutPairs(a.pairs);
   const std::vector<Answer> answers = MatchAll(pairs, options, a.threads, console);
   if (a.out.empty()) {

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "evaluation.h"
+#include "from_images.h"
 #include "image_loader.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -22,8 +23,9 @@ struct RunArguments {
   DatasetRequest request;
   std::string format = "auto", score = "auto", out;
   ConfigArguments config;
+  ImageArguments images;
   bool json = false;
-  int threads = 1;
+  int threads = HardwareThreads();
 };
 
 void AddOptions(CLI::App& command, RunArguments& a) {
@@ -32,7 +34,9 @@ void AddOptions(CLI::App& command, RunArguments& a) {
       ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
   command.add_option("--detections", a.request.detections, "file or folder, relative to DATASET or the current folder");
-  command.add_option("--odometry", a.request.odometry, "poses, likewise");
+  command.add_option("--odometry", a.request.odometry,
+                     "poses, likewise; or 'stereo': from the images, as where there is no file");
+  a.images.AddTo(command);
   command.add_option("--groundtruth", a.request.groundtruth, "poses, likewise; for the metrics only");
   command.add_option("--score", a.score, "what the score column holds; guessed where not given")
       ->check(CLI::IsMember({"auto", "probability", "logit"}));
@@ -45,6 +49,8 @@ void AddOptions(CLI::App& command, RunArguments& a) {
 }
 
 Dataset Load(RunArguments& a, const Console& console) {
+  ChooseOdometry(a.request);
+  if (a.images.detects()) a.request.detections_policy = PartPolicy::kIgnored;
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
                                       : a.score == "probability" ? ScoreKind::kProbability
@@ -56,7 +62,7 @@ Dataset Load(RunArguments& a, const Console& console) {
                      " detections";
   if (dataset.rows_dropped > 0) line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
   console.Say(line);
-  if (dataset.rows_read == 0)
+  if (dataset.rows_read == 0 && !a.images.detects())
     Log(LogLevel::kWarning, "no detections: the map will be empty and the trajectory the odometry's");
   return dataset;
 }
@@ -78,18 +84,18 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
                                                 {"loops refused", std::to_string(result.loops.size() - accepted)},
                                                 {"odometry scale", Number("%.4f", result.scale)}};
   for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
-  std::vector<std::vector<std::string>> times = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};
-  for (const auto& [stage, t] : result.timing.Summary())
-    times.push_back(
-        {stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
-  return AlignedTable(rows) + "\n\n" + AlignedTable(times);
+  return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
 }
 
 int Run(RunArguments& a, const Console& console) {
   if (a.out.empty()) a.out = "runs/latest";
-  Options options = a.config.Load();
+  Configuration configuration = a.images.Load(a.config);
+  const Options& options = configuration.options;
   MakeWritableFolder(a.out);  // rather now than after the run
-  const Dataset dataset = Load(a, console);
+  Dataset dataset = Load(a, console);
+  const int total = static_cast<int>(dataset.frames.size());
+  std::optional<ImageFrontend> frontend =
+      a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
 
   RunHooks hooks;
@@ -97,8 +103,23 @@ int Run(RunArguments& a, const Console& console) {
   hooks.stop = [] { return Interrupted(); };
   hooks.with_image = WithImage;
   CatchInterrupt();
-  const RunResult result = RunSequence(dataset.frames, context, options, hooks);
-  console.EndProgress();
+  RunResult result;
+  std::vector<Frame> made;  // as the frontend has completed them
+  if (frontend) {
+    const auto next = [&] {
+      std::optional<Frame> frame = frontend->Next();
+      if (frame) made.push_back(*frame);
+      return frame;
+    };
+    result = RunSequence(next, total, context, options, hooks);
+    const FrontendReport report = frontend->Finish();
+    result.timing.Append(report.timing);
+    console.EndProgress();
+    console.Say(FrontendTable(report) + "\n");
+  } else {
+    result = RunSequence(dataset.frames, context, options, hooks);
+    console.EndProgress();
+  }
 
   RunOutputs outputs;
   outputs.trajectory = result.trajectory;
@@ -107,14 +128,14 @@ int Run(RunArguments& a, const Console& console) {
   outputs.graph = result.graph;
   outputs.loops = result.loops;
   outputs.timing = result.timing;
-  outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, options); }, false);
+  outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
   EvaluationInput evaluation;
   evaluation.estimate = result.trajectory;
   evaluation.frames = result.frames;
   evaluation.groundtruth = dataset.groundtruth;
   evaluation.odometry = result.odometry;
   evaluation.map = &outputs.map;
-  evaluation.detections = &dataset.frames;
+  evaluation.detections = frontend ? &made : &dataset.frames;
   evaluation.labels_path = LabelsOf(a, dataset);
   if (!result.frames.empty()) outputs.metrics = Evaluate(evaluation);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);

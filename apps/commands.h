@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console.h"
+#include "sslcd/frontend/options.h"
 #include "sslcd/pipeline/options.h"
 
 namespace sslcd::apps {
@@ -13,6 +14,7 @@ namespace sslcd::apps {
 /// Each adds a subcommand to `app`; the returned function carries it out and gives the exit code.
 using Command = std::function<int()>;
 Command AddRunCommand(CLI::App& app, Console& console);
+Command AddDetectCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
@@ -21,14 +23,21 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);
 Command AddVersionCommand(CLI::App& app);
 
+/// Everything a configuration file may hold: the library's options and, in `vision`, how frames come from images.
+struct Configuration {
+  Options options;
+  VisionOptions vision;
+};
+void DescribeFields(FieldVisitor& visitor, Configuration& configuration);
+
 /// --config, --mode and --set, shared by several subcommands.
 struct ConfigArguments {
   std::string file, mode;
   std::vector<std::string> settings;
 
   void AddTo(CLI::App& command);
-  /// Defaults of the mode, then the file, then the settings. Throws Error(kBadConfig).
-  Options Load() const;
+  /// Defaults of the mode, as `adapt` changes them, then the file, then the settings. Throws Error(kBadConfig).
+  Configuration Load(const std::function<void(Configuration&)>& adapt = {}) const;
 };
 
 }  // namespace sslcd::apps

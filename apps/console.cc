@@ -82,6 +82,14 @@ std::string Number(const char* format, double value) {
   return buffer;
 }
 
+std::string TimingText(const TimingTable& timing) {
+  std::vector<std::vector<std::string>> rows = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};
+  for (const auto& [stage, t] : timing.Summary())
+    rows.push_back(
+        {stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
+  return AlignedTable(rows);
+}
+
 void CatchInterrupt() { std::signal(SIGINT, OnInterrupt); }
 
 bool Interrupted() { return g_interrupted != 0; }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/timing.h"
+
 namespace sslcd::apps {
 
 /// How much the tools say. Results go to stdout, everything else to stderr.
@@ -22,6 +24,9 @@ struct Console {
   /// A line of human-readable result; nothing when quiet.
   void Say(const std::string& line) const;
 };
+
+/// One row a stage: calls, and times in ms.
+std::string TimingText(const TimingTable& timing);
 
 /// Rows of cells as aligned columns, the first one left-aligned.
 std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);

@@ -18,4 +18,13 @@ bool WithImage(const std::string& path, const std::function<void(const ImageView
   return true;
 }
 
+Image LoadImage(const std::string& path) {
+  const cv::Mat image = cv::imread(path, cv::IMREAD_ANYCOLOR);  // eight bits
+  if (image.empty()) return {};
+  Image copy{{}, image.cols, image.rows, image.channels()};
+  for (int row = 0; row < image.rows; ++row)
+    copy.pixels.insert(copy.pixels.end(), image.ptr(row), image.ptr(row) + image.cols * image.elemSize());
+  return copy;
+}
+
 }  // namespace sslcd::apps

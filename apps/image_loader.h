@@ -4,11 +4,14 @@
 #include <functional>
 #include <string>
 
-#include "sslcd/perception/colour.h"
+#include "sslcd/core/image.h"
 
 namespace sslcd::apps {
 
-/// Loads an image with OpenCV and hands it on; false (and a warning) when it cannot be read.
+/// RunHooks::with_image: reads an image file and hands it on; false, with a warning, where that fails.
 bool WithImage(const std::string& path, const std::function<void(const ImageView&)>& use);
+
+/// FrontendHooks::load: an image file, in colour or grey as it is; empty where that fails.
+Image LoadImage(const std::string& path);
 
 }  // namespace sslcd::apps

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
       "5 no solution, 130 interrupted.");
   Console console;
   const std::map<std::string, Command> commands = {{"run", AddRunCommand(app, console)},
+                                                   {"detect", AddDetectCommand(app, console)},
                                                    {"eval", AddEvalCommand(app, console)},
                                                    {"match", AddMatchCommand(app, console)},
                                                    {"graph", AddGraphCommand(app, console)},

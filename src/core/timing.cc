@@ -7,6 +7,11 @@
 
 namespace sslcd {
 
+void TimingTable::Append(const TimingTable& other) {
+  for (const auto& [stage, samples] : other.samples_)
+    samples_[stage].insert(samples_[stage].end(), samples.begin(), samples.end());
+}
+
 std::map<std::string, StageTimes> TimingTable::Summary() const {
   std::map<std::string, StageTimes> summary;
   for (const auto& [stage, unsorted] : samples_) {

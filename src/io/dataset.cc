@@ -52,6 +52,16 @@ std::array<int, 2> PngSize(const std::string& path) {
   return {size_at(16), size_at(20)};
 }
 
+/// The image of a frame; empty: there is none.
+std::string ImageOf(const std::string& folder, int digits, int frame) {
+  if (folder.empty()) return "";
+  std::string number = std::to_string(frame);
+  number.insert(0, std::max<std::size_t>(number.size(), digits) - number.size(), '0');
+  for (const char* ending : {".png", ".jpg"})
+    if (IsFile(folder + "/" + number + ending)) return folder + "/" + number + ending;
+  return "";
+}
+
 class Loader {
  public:
   explicit Loader(const DatasetRequest& request) : request_(request), layout_(FindDatasetLayout(request)) {}
@@ -68,15 +78,16 @@ class Loader {
       const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
       calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib);
     }
-    AddFrames();
+    layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
     AddImages();
-    AddDetections();
+    if (!layout_.detections.empty()) AddDetections();
     AddGroundtruth();
     return std::move(out_);
   }
 
  private:
   void AddFrames();
+  void AddFramesWithoutPoses();
   void AddImages();
   void AddDetections();
   void AddAppearance();
@@ -139,20 +150,37 @@ void Loader::AddFrames() {
   }
 }
 
+void Loader::AddFramesWithoutPoses() {
+  out_.up_axis = up_axis_.value_or(Vec3(0, -1, 0));
+  std::vector<double> stamps;
+  if (!layout_.times.empty()) {
+    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
+  } else if (!layout_.images.empty()) {
+    for (std::size_t i = 0; i < FileNames(layout_.images).size(); ++i)
+      stamps.push_back(kKittiFrameStep * static_cast<double>(i));
+  }
+  if (stamps.empty())
+    throw Error(ErrorKind::kBadInput, {request_.path},
+                "no frames: odometry from images needs times.txt or a folder of left images (image_2)");
+  if (const auto warning = GapWarning(stamps)) Warn(*warning);
+  frames_in_file_ = stamps.size();
+  const std::size_t limit = request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : stamps.size();
+  out_.frames.resize(std::min(stamps.size(), limit));
+  for (std::size_t i = 0; i < out_.frames.size(); ++i) {
+    out_.frames[i].index = static_cast<int>(i);
+    out_.frames[i].stamp = stamps[i];
+  }
+}
+
 void Loader::AddImages() {
   out_.camera = calibration_.left;
   out_.camera_right = calibration_.right;
   std::array<int, 2> size{};
   if (layout_.format == DatasetFormat::kKittiTracking) size = {kKittiTrackingWidth, kKittiTrackingHeight};
-  if (!layout_.images.empty()) {
-    for (Frame& frame : out_.frames) {
-      std::string number = std::to_string(frame.index);
-      number.insert(0, std::max<std::size_t>(number.size(), layout_.image_digits) - number.size(), '0');
-      const std::string path = layout_.images + "/" + number + ".png";
-      if (!IsFile(path)) continue;
-      frame.image_left = path;
-      if (frame.index == 0) size = PngSize(path);
-    }
+  for (Frame& frame : out_.frames) {
+    frame.image_left = ImageOf(layout_.images, layout_.image_digits, frame.index);
+    frame.image_right = ImageOf(layout_.images_right, layout_.image_digits, frame.index);
+    if (frame.index == 0 && !frame.image_left.empty()) size = PngSize(frame.image_left);
   }
   for (std::optional<Camera>* camera : {&out_.camera, &out_.camera_right}) {
     if (*camera && (*camera)->width == 0) (*camera)->width = size[0], (*camera)->height = size[1];

@@ -111,6 +111,7 @@ DatasetLayout SequenceLayout(const std::string& folder) {
   layout.embeddings = IfFile(folder + "/embeddings.npy");
   layout.colours = IfFile(folder + "/colours.npy");
   layout.images = IfFolder(folder + "/image_2");
+  layout.images_right = IfFolder(folder + "/image_3");
   return layout;
 }
 
@@ -137,6 +138,7 @@ DatasetLayout TrackingLayout(const std::string& root, const std::string& wanted)
   layout.groundtruth = IfFile(root + "/oxts/" + layout.name + ".txt");
   layout.calib = IfFile(root + "/calib/" + layout.name + ".txt");
   layout.images = IfFolder(root + "/image_02/" + layout.name);
+  layout.images_right = IfFolder(root + "/image_03/" + layout.name);
   return layout;
 }
 
@@ -148,6 +150,7 @@ DatasetLayout RawLayout(const std::string& root) {
   layout.detections = IfFile(root + "/tracklet_labels.xml");
   layout.times = IfFile(root + "/oxts/timestamps.txt");
   layout.images = IfFolder(root + "/image_02/data");
+  layout.images_right = IfFolder(root + "/image_03/data");
   layout.image_digits = 10;
   for (const std::string& folder : {root + "/..", root}) {
     if (IsFile(folder + "/calib_cam_to_cam.txt")) layout.calib = folder;
@@ -194,15 +197,23 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
     default: layout = SequenceLayout(root); break;
   }
   const std::string sequence = by_name ? layout.name : request.sequence;
-  if (!request.odometry.empty()) {
+  const bool ignore_odometry = request.odometry_policy == PartPolicy::kIgnored;
+  if (!request.odometry.empty() || ignore_odometry) {
     // A raw drive's GPS/IMU poses are its ground truth as soon as it has another odometry.
     if (format == DatasetFormat::kKittiRaw) layout.groundtruth = layout.odometry;
-    layout.odometry = Resolve(root, request.odometry, sequence, "odometry");
+    layout.odometry = ignore_odometry ? "" : Resolve(root, request.odometry, sequence, "odometry");
   }
-  if (!request.detections.empty()) layout.detections = Resolve(root, request.detections, sequence, "detections");
+  if (request.detections_policy == PartPolicy::kIgnored)
+    layout.detections = layout.embeddings = layout.colours = "";
+  else if (!request.detections.empty())
+    layout.detections = Resolve(root, request.detections, sequence, "detections");
   if (!request.groundtruth.empty()) layout.groundtruth = Resolve(root, request.groundtruth, sequence, "groundtruth");
-  if (layout.odometry.empty()) FailMissing(root, layout, "odometry", true);
-  if (layout.detections.empty()) FailMissing(root, layout, "detections", false);
+  const auto missing = [&layout](const std::string& path, PartPolicy policy) {
+    const bool images = !layout.images.empty() && !layout.images_right.empty();
+    return path.empty() && policy != PartPolicy::kIgnored && !(policy == PartPolicy::kIfThere && images);
+  };
+  if (missing(layout.odometry, request.odometry_policy)) FailMissing(root, layout, "odometry", true);
+  if (missing(layout.detections, request.detections_policy)) FailMissing(root, layout, "detections", false);
   return layout;
 }
 

@@ -11,14 +11,14 @@ namespace sslcd {
 struct DatasetLayout {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string name;
-  std::string odometry;     ///< always set: pose file, or oxts packets (file or folder)
-  std::string detections;   ///< always set: detections file or folder, or tracklet_labels.xml
+  std::string odometry;     ///< pose file, or oxts packets (file or folder); empty only if made from the images
+  std::string detections;   ///< file or folder, or tracklet_labels.xml; empty only if made from the images
   std::string groundtruth;  ///< pose file or oxts packets
   std::string times;        ///< times.txt, or timestamps.txt of a raw drive
   std::string calib;        ///< calib.txt; for a raw drive the folder of calib_cam_to_cam.txt
   std::string sequence_yaml, embeddings, colours;
-  std::string images;    ///< folder of the left colour images
-  int image_digits = 6;  ///< in the images' names
+  std::string images, images_right;  ///< folders of the left and right colour images
+  int image_digits = 6;              ///< in the images' names
 };
 
 /// Finds out the format and the parts. Throws Error when the folder is none of the known kinds, when the sequence is

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/pipeline/run.h"
 
+#include <algorithm>
+
 namespace sslcd {
 namespace {
+
+bool LacksColour(const Frame& frame) {
+  return !frame.image_left.empty() && std::any_of(frame.detections.begin(), frame.detections.end(), [](const auto& d) {
+    return d.box && d.colour.empty();
+  });
+}
 
 // Colour vectors for the detections that have a box and no colour yet; false when the image could not be read.
 bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
@@ -40,29 +48,35 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
 
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
                       const RunHooks& hooks) {
+  std::size_t next = 0;
+  const auto source = [&]() -> std::optional<Frame> {
+    return next < frames.size() ? std::optional<Frame>(frames[next++]) : std::nullopt;
+  };
+  return RunSequence(source, static_cast<int>(frames.size()), context, options, hooks);
+}
+
+RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context, const Options& options,
+                      const RunHooks& hooks) {
   RunResult result;
   Mapper mapper(options, context);
-  const int total = static_cast<int>(frames.size());
-  for (int i = 0; i < total; ++i) {
+  while (true) {
     if (hooks.stop && hooks.stop()) {
       result.stopped = true;
       break;
     }
-    Frame frame = frames[i];
-    if (hooks.with_image && !frame.image_left.empty() && !frame.detections.empty()) {
+    std::optional<Frame> frame = next();
+    if (!frame) break;
+    if (hooks.with_image && LacksColour(*frame)) {
       const ScopedTimer timer(mapper.timing(), "colour");
-      result.images_failed += AddColours(frame, options.colour, hooks) ? 0 : 1;
+      result.images_failed += AddColours(*frame, options.colour, hooks) ? 0 : 1;
     }
-    result.filter += mapper.AddFrame(frame).filter;
-    if (hooks.progress) hooks.progress(i + 1, total);
+    result.filter += mapper.AddFrame(*frame).filter;
+    result.frames.push_back(frame->index);
+    result.odometry.stamps.push_back(frame->stamp);
+    result.odometry.poses.push_back(frame->T_odom_cam);
+    if (hooks.progress) hooks.progress(static_cast<int>(result.frames.size()), total);
   }
   if (options.refine.enabled) result.refinement = mapper.Refine();
-
-  for (std::size_t i = 0; i < mapper.frames().size(); ++i) {
-    result.frames.push_back(frames[i].index);
-    result.odometry.stamps.push_back(frames[i].stamp);
-    result.odometry.poses.push_back(frames[i].T_odom_cam);
-  }
   result.trajectory = mapper.CameraTrajectory();
   result.graph = GraphOf(mapper, options.ba.odometry);
   result.loops = mapper.LoopClosures();

@@ -29,7 +29,7 @@ struct Frame {
   double stamp = 0;  ///< [s]
   Pose T_odom_cam;   ///< odometry: drifting, metrically slightly wrong
   std::vector<Detection> detections;
-  std::string image_left;  ///< path of the image; empty: none
+  std::string image_left, image_right;  ///< paths of the images; empty: none
 };
 
 }  // namespace sslcd

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace sslcd {
 
@@ -11,6 +12,18 @@ struct ImageView {
   int width = 0, height = 0;  ///< [px]
   std::size_t stride = 0;     ///< bytes from one row to the next
   int channels = 3;           ///< 3: interleaved B G R; 1: grey
+};
+
+/// An image of our own, rows without gaps. No pixels: there is none.
+struct Image {
+  std::vector<unsigned char> pixels;
+  int width = 0, height = 0, channels = 3;
+
+  bool empty() const { return pixels.empty(); }
+  ImageView view() const {
+    return {pixels.data(), width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(channels),
+            channels};
+  }
 };
 
 /// Two images of one moment, rectified: a point lies in the same row of both.

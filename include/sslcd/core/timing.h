@@ -20,6 +20,8 @@ class TimingTable {
  public:
   void Add(const std::string& stage, double milliseconds) { samples_[stage].push_back(milliseconds); }
 
+  void Append(const TimingTable& other);
+
   /// One entry a stage, by name. Percentiles are those of the nearest rank.
   std::map<std::string, StageTimes> Summary() const;
 

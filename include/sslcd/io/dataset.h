@@ -28,6 +28,14 @@ enum class DatasetFormat {
 const char* ToString(DatasetFormat format);
 std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text);
 
+/// How much a part is wanted that can be made from images, too. Where there is no odometry, the frames' poses are the
+/// identity, and there are as many as stamps, else as left images; without detections, theirs are none.
+enum class PartPolicy {
+  kNeeded,   ///< an error where there is none
+  kIfThere,  ///< none is no error where there are left and right images
+  kIgnored,  ///< not read
+};
+
 /// What to load. Empty paths mean the standard place of the format; others are tried relative to `path`, then to the
 /// current folder. Where one leads to a folder that holds SEQUENCE.txt, that file is meant.
 struct DatasetRequest {
@@ -39,6 +47,7 @@ struct DatasetRequest {
   std::string groundtruth;
   DetectionReadOptions detection_options;
   int max_frames = 0;  ///< only the first so many; 0: all
+  PartPolicy odometry_policy = PartPolicy::kNeeded, detections_policy = PartPolicy::kNeeded;
 };
 
 /// A sequence in memory. Ground truth is for evaluation only and never enters the frames, with one named exception: a
@@ -52,7 +61,7 @@ struct Dataset {
   Vec3 up_axis{0, -1, 0};  ///< unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
   LabelTable labels;
   std::optional<Trajectory> groundtruth;                         ///< rows without stamps got those of the frames
-  std::string odometry_path, detections_path, groundtruth_path;  ///< as found; groundtruth_path empty: none
+  std::string odometry_path, detections_path, groundtruth_path;  ///< as found; empty: there is none
   PoseFormat odometry_format = PoseFormat::kAuto;                ///< kKitti for GPS/IMU packets
   int rows_read = 0;                                             ///< detection rows; the following are among them
   int rows_dropped = 0;                                          ///< not finite, or sizes that are not positive

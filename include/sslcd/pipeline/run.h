@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,9 +39,17 @@ struct RunResult {
   bool stopped = false;  ///< the stop hook ended it early
 };
 
+/// Hands out the frames of a sequence in order; none: that was the last one. May throw.
+using FrameSource = std::function<std::optional<Frame>()>;
+
 /// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop). Deterministic.
 /// Throws what Mapper::AddFrame throws.
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
+                      const RunHooks& hooks = {});
+
+/// The same for frames that come one by one, e.g. made from images (frontend/image_frontend.h). `total` is for the
+/// progress only.
+RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context, const Options& options,
                       const RunHooks& hooks = {});
 
 }  // namespace sslcd

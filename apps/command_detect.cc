@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "from_images.h"
+#include "overlay.h"
+#include "sslcd/core/log.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/sequence_writer.h"
+
+namespace sslcd::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DetectArguments {
+  DatasetRequest request;
+  std::string format = "auto", out;
+  ConfigArguments config;
+  ImageArguments images;
+  bool force = false, overlays = false;
+  int threads = HardwareThreads();
+};
+
+void AddOptions(CLI::App& command, DetectArguments& a) {
+  command.add_option("DATASET", a.request.path, "folder with image_2, image_3 and calib.txt")->required();
+  command.add_option("--format", a.format, "layout of the folder; guessed where not given")
+      ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
+  command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
+  command.add_option("--odometry", a.request.odometry,
+                     "poses to go with the detections; or 'stereo': from the images, as where there is no file");
+  a.images.AddTo(command);
+  a.config.AddTo(command);
+  command.add_option("--out", a.out, "folder to write: a sequence for sslcd_run run")->required();
+  command.add_flag("--force", a.force, "write into a folder that is not empty");
+  command.add_flag("--overlays", a.overlays, "and OUT/overlays: the left images with boxes and cuboids");
+  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
+      ->check(CLI::PositiveNumber);
+}
+
+int Detect(DetectArguments& a, const Console& console) {
+  const Configuration configuration = a.images.Load(a.config);
+  a.request.format = *ParseDatasetFormat(a.format);
+  a.request.detections_policy = PartPolicy::kIgnored;
+  ChooseOdometry(a.request);
+  Dataset dataset = LoadDataset(a.request);
+  for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
+  const int total = static_cast<int>(dataset.frames.size());
+
+  const fs::path out = a.out;
+  const Camera camera = dataset.camera.value_or(Camera());
+  std::function<void(const Frame&, const ImageView&)> watch;
+  if (a.overlays)
+    watch = [&](const Frame& frame, const ImageView& left) {
+      std::string number = std::to_string(frame.index);
+      number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
+      WriteOverlay((out / "overlays" / (number + ".jpg")).string(), frame, left, camera);
+    };
+  ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
+  PrepareSequenceFolder(out, a.force);
+  if (a.overlays) MakeWritableFolder((out / "overlays").string());
+
+  SequenceFiles files;
+  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  files.up_axis = dataset.up_axis;
+  files.labels = dataset.labels;
+  CatchInterrupt();
+  while (!Interrupted()) {
+    std::optional<Frame> frame = frontend.Next();
+    if (!frame) break;
+    files.odometry.stamps.push_back(frame->stamp);
+    files.odometry.poses.push_back(frame->T_odom_cam);
+    files.detections.push_back(std::move(frame->detections));
+    console.Progress("frame", static_cast<int>(files.detections.size()), total);
+  }
+  console.EndProgress();
+  const FrontendReport report = frontend.Finish();
+  if (Interrupted()) {
+    Log(LogLevel::kWarning, "interrupted: nothing but overlays is written");
+    return 130;
+  }
+  WriteSequenceFiles(out, files);
+  console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
+              "; map it with: sslcd_run run " + a.out);
+  return 0;
+}
+
+}  // namespace
+
+Command AddDetectCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("detect", "make detections, embeddings and odometry from stereo images");
+  const auto arguments = std::make_shared<DetectArguments>();
+  AddOptions(*command, *arguments);
+  command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  command->add_flag("-v,--verbose", console.verbose, "print more");
+  return [arguments, &console] {
+    console.InstallLog();
+    return Detect(*arguments, console);
+  };
+}
+
+}  // namespace sslcd::apps

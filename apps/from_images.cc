@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "from_images.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "console.h"
+#include "image_loader.h"
+#include "sslcd/core/error.h"
+#include "sslcd/core/log.h"
+#include "sslcd/detectors/model_description.h"
+#include "sslcd/io/boxes_reader.h"
+
+namespace sslcd::apps {
+
+void ImageArguments::AddTo(CLI::App& command) {
+  command.add_option("--detector", detector, "make detections from the images: YAML description of a 2D or 3D detector");
+  command.add_option("--boxes", boxes, "... or from 2D boxes: rows 'frame label score left top right bottom'");
+  command.add_option("--embedder", embedder, "YAML description of a re-identification model");
+}
+
+Configuration ImageArguments::Load(const ConfigArguments& config) const {
+  Configuration all = config.Load();
+  const auto name_models = [this](Configuration& c) {
+    if (!detector.empty()) c.vision.detector = detector;
+    if (!embedder.empty()) c.vision.embedder = embedder;
+  };
+  name_models(all);
+  const bool lifts = !boxes.empty() || (!all.vision.detector.empty() &&
+                                        TaskOf(LoadModelDescription(all.vision.detector).output.layout) ==
+                                            ModelTask::kDetect2d);
+  if (detects() && lifts) all = config.Load([](Configuration& c) { c.options.noise = LiftNoise(); });
+  name_models(all);
+  return all;
+}
+
+std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Configuration& configuration, bool detections,
+                                                  int threads,
+                                                  std::function<void(const Frame&, const ImageView&)> watch) const {
+  ImageSequence sequence;
+  sequence.odometry = dataset.odometry_path.empty();
+  sequence.detections = detections;
+  if (!sequence.odometry && !detections) return std::nullopt;
+  if (!dataset.camera || !dataset.camera_right)
+    throw Error(ErrorKind::kBadInput, {dataset.name}, "needs calib.txt with P2 and P3 to make anything from its images");
+  sequence.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  if (detections && !boxes.empty()) sequence.boxes = ReadBoxes(boxes);
+  if (sequence.odometry) Log(LogLevel::kInfo, "no odometry: made from the images (--odometry names a file)");
+  sequence.frames = std::move(dataset.frames);
+  ImageFrontend frontend(std::move(sequence), configuration.vision, configuration.options.colour,
+                         {LoadImage, std::move(watch)}, threads);
+  frontend.AddLabels(dataset.labels);
+  return frontend;
+}
+
+void ChooseOdometry(DatasetRequest& request) {
+  request.odometry_policy = PartPolicy::kIfThere;
+  if (request.odometry != "stereo") return;
+  request.odometry.clear();
+  request.odometry_policy = PartPolicy::kIgnored;
+}
+
+std::string FrontendTable(const FrontendReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(report.frames)},
+                                                {"without images", std::to_string(report.images_failed)},
+                                                {"odometry guessed", std::to_string(report.lost)}};
+  for (const auto& [status, count] : report.lift)
+    rows.push_back({std::string("boxes ") + ToString(status), std::to_string(count)});
+  rows.push_back({"detections", std::to_string(report.detections)});
+  return AlignedTable(rows);
+}
+
+int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+}  // namespace sslcd::apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "commands.h"
+#include "sslcd/frontend/image_frontend.h"
+#include "sslcd/io/dataset.h"
+
+namespace sslcd::apps {
+
+/// What `run` and `detect` are told about making frames from images.
+struct ImageArguments {
+  std::string detector, embedder, boxes;
+
+  void AddTo(CLI::App& command);
+  bool detects() const { return !detector.empty() || !boxes.empty(); }
+
+  /// The configuration with these in it; cuboids lifted from 2D boxes bring their own noise as a default.
+  Configuration Load(const ConfigArguments& config) const;
+
+  /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if `detections`.
+  /// Takes the frames out of `dataset`, and adds labels to it. None: nothing is lacking.
+  std::optional<ImageFrontend> Make(Dataset& dataset, const Configuration& configuration, bool detections, int threads,
+                                    std::function<void(const Frame&, const ImageView&)> watch = {}) const;
+};
+
+/// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is one.
+void ChooseOdometry(DatasetRequest& request);
+
+/// What became of images and boxes: for people.
+std::string FrontendTable(const FrontendReport& report);
+
+/// What the machine has, for --threads.
+int HardwareThreads();
+
+}  // namespace sslcd::apps

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/detection.h"
+#include "sslcd/core/image.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/timing.h"
+#include "sslcd/frontend/options.h"
+#include "sslcd/perception/colour.h"
+
+namespace sslcd {
+
+/// 2D boxes of a sequence: frame number -> boxes.
+using BoxesByFrame = std::map<int, std::vector<ImageDetection>>;
+
+/// What the host does. Called from other threads where there is more than one, but never two calls of one at a time.
+struct FrontendHooks {
+  std::function<Image(const std::string& path)> load;           ///< reads an image file; an empty image where that fails
+  std::function<void(const Frame&, const ImageView&)> watch{};  ///< each complete frame with its left image, in order
+};
+
+/// What is to be made from images.
+struct ImageSequence {
+  std::vector<Frame> frames;  ///< with paths of both images, and whatever is known already
+  StereoCamera camera;
+  bool odometry = false;              ///< make T_odom_cam, by stereo odometry
+  bool detections = true;             ///< make detections, by VisionOptions::detector, or from these:
+  std::optional<BoxesByFrame> boxes;  ///< instead of a detector
+};
+
+/// What became of a sequence.
+struct FrontendReport {
+  int frames = 0;
+  int images_failed = 0;           ///< frames that lack an image, or have one that cannot be read
+  int lost = 0;                    ///< frames whose odometry had to be guessed, those among them
+  std::map<LiftStatus, int> lift;  ///< boxes, by what became of them
+  int detections = 0;
+  TimingTable timing;
+};
+
+/// Complete frames from stereo images: odometry, detections with boxes, colours and embeddings. With more than one
+/// thread images are read, odometry, detections and whatever the caller does with the frames are made at the same time,
+/// each on a thread of its own, and a sequence takes as long as the slowest of them. The frames are the same.
+///
+/// A frame one of whose images is missing or cannot be read is kept: its odometry is guessed (StereoOdometry) and it has
+/// no detections. A warning names it.
+class ImageFrontend {
+ public:
+  /// Throws Error where a model cannot be loaded, there is nothing to make detections from, or no frame has images.
+  ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour,
+                FrontendHooks hooks, int threads);
+  ImageFrontend(ImageFrontend&&) noexcept;
+  ~ImageFrontend();
+
+  /// The next complete frame; none: that was the last one. Throws Error, with the frame's image, where both images are
+  /// there but are no pair, or have the wrong number of channels, and where a model fails.
+  std::optional<Frame> Next();
+
+  /// Labels whose front and back lifting does not tell apart become Symmetry::kPi, but for those in the table.
+  void AddLabels(LabelTable& labels) const;
+
+  /// Of the frames handed out. Ends the sequence.
+  FrontendReport Finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sslcd

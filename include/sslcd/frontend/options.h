@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/inference/session.h"
+#include "sslcd/stereo/lift.h"
+#include "sslcd/stereo/odometry.h"
+
+namespace sslcd {
+
+/// How frames are made from images.
+struct VisionOptions {
+  std::string detector;  ///< description of a 2D or 3D detector (docs/models.md); empty: boxes come from a file
+  std::string embedder;  ///< description of a re-identification model; empty: no embeddings
+  InferenceOptions inference;
+  LiftOptions lift;  ///< of 2D boxes to cuboids
+  StereoOdometryOptions odometry;
+  int ahead = 4;  ///< frames that wait between two stages that run at the same time
+};
+void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
+
+}  // namespace sslcd

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/detection.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/trajectory.h"
+
+namespace sslcd {
+
+/// A sequence folder (docs/formats.md) in memory.
+struct SequenceFiles {
+  std::string comment;  ///< first line of sequence.yaml; empty: none
+  std::optional<StereoCamera> camera;
+  Trajectory odometry;                             ///< one pose a frame, with stamps
+  std::vector<std::vector<Detection>> detections;  ///< of each frame
+  Vec3 up_axis{0, -1, 0};
+  LabelTable labels;
+};
+
+/// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score), sequence.yaml, and where there
+/// are such things calib.txt, embeddings.npy (a detection without one has a row of zeros) and colours.npy (all have one,
+/// or there is no file: the reader would fill gaps from images). What an earlier run left of these is removed. Each file
+/// appears complete or not at all. Throws Error(kOutput).
+void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
+
+/// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not set, Error(kOutput)
+/// when it cannot be made.
+void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
+
+}  // namespace sslcd

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/frontend/image_frontend.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "frontend/background.h"
+#include "frontend/object_finder.h"
+#include "sslcd/core/error.h"
+#include "sslcd/core/log.h"
+
+namespace sslcd {
+namespace {
+
+/// A frame on its way through the stages.
+struct Item {
+  Frame frame;
+  Image left, right;
+  std::vector<std::string> warnings;
+  bool complete() const { return !left.empty(); }
+  StereoView view() const { return {left.view(), right.view()}; }
+};
+
+// An error in a frame's images, with their names.
+template <class F>
+void Naming(const Frame& frame, const F& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    throw Error(error.kind(), {frame.image_left}, error.what());
+  }
+}
+
+}  // namespace
+
+struct ImageFrontend::Impl {
+  ImageSequence sequence;
+  VisionOptions options;
+  FrontendHooks hooks;
+  std::optional<StereoOdometry> odometry;
+  std::optional<ObjectFinder> finder;
+
+  std::size_t next_frame = 0;
+  int rows = 0;
+  // One report for each stage: they run at the same time.
+  FrontendReport loaded, tracked, found;
+
+  Source<Item> stages;
+  std::vector<std::unique_ptr<Background<Item>>> running;  // the last one is asked first
+
+  std::optional<Item> Load() {
+    if (next_frame == sequence.frames.size()) return std::nullopt;
+    Item item;
+    item.frame = std::move(sequence.frames[next_frame++]);
+    const ScopedTimer timer(loaded.timing, "image loading");
+    ++loaded.frames;
+    for (const auto& [path, image] : {std::pair(&item.frame.image_left, &item.left), {&item.frame.image_right, &item.right}})
+      if (!path->empty()) *image = hooks.load(*path);
+    if (item.left.empty() || item.right.empty()) {
+      ++loaded.images_failed;
+      const bool right = !item.left.empty();
+      const std::string& path = right ? item.frame.image_right : item.frame.image_left;
+      item.warnings.push_back((path.empty() ? "frame " + std::to_string(item.frame.index) + " has no " +
+                                                  (right ? "right" : "left") + " image"
+                                            : path + ": no image that can be read") +
+                              "; the frame goes without detections" + (odometry ? ", its pose is guessed" : ""));
+      item.left = item.right = {};
+    }
+    return item;
+  }
+
+  std::optional<Item> Track(std::optional<Item> item) {
+    if (!item) return item;
+    const ScopedTimer timer(tracked.timing, "stereo odometry");
+    OdometryStep step;
+    if (item->complete())
+      Naming(item->frame, [&] { step = odometry->AddFrame(item->view()); });
+    else
+      step = odometry->AddMissingFrame();
+    item->frame.T_odom_cam = step.T_odom_cam;
+    if (step.status == OdometryStatus::kLost) {
+      ++tracked.lost;
+      if (item->complete())
+        item->warnings.push_back(item->frame.image_left + ": odometry lost (" + step.reason + "), its pose is guessed");
+    }
+    return item;
+  }
+
+  std::optional<Item> Find(std::optional<Item> item) {
+    if (!item) return item;
+    Frame& frame = item->frame;
+    if (item->complete()) {
+      Naming(frame, [&] { frame.detections = finder->Find(frame.index, item->view(), found); });
+      for (Detection& detection : frame.detections) detection.row = rows++;
+      found.detections += static_cast<int>(frame.detections.size());
+      if (hooks.watch) hooks.watch(frame, item->left.view());
+    }
+    item->left = item->right = {};
+    return item;
+  }
+
+  // Puts what has been built so far on a thread of its own.
+  void InBackground() {
+    running.push_back(
+        std::make_unique<Background<Item>>(std::move(stages), static_cast<std::size_t>(options.ahead)));
+    stages = [stage = running.back().get()] { return stage->Next(); };
+  }
+};
+
+ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour,
+                             FrontendHooks hooks, int threads)
+    : impl_(std::make_unique<Impl>()) {
+  Impl& m = *impl_;
+  if (std::none_of(sequence.frames.begin(), sequence.frames.end(),
+                   [](const Frame& frame) { return !frame.image_left.empty() && !frame.image_right.empty(); }))
+    throw Error(ErrorKind::kBadInput, "no frame has a left and a right image (image_2/000000.png, image_3/000000.png)");
+  m.sequence = std::move(sequence);
+  m.options = options;
+  m.hooks = std::move(hooks);
+  if (m.sequence.odometry) m.odometry.emplace(m.sequence.camera, options.odometry);
+  if (m.sequence.detections) m.finder.emplace(m.sequence.camera, options, colour, std::move(m.sequence.boxes));
+
+  const bool parallel = threads > 1;
+  m.stages = [&m] { return m.Load(); };
+  if (parallel) m.InBackground();
+  if (m.odometry) {
+    m.stages = [&m, before = std::move(m.stages)] { return m.Track(before()); };
+    if (parallel) m.InBackground();
+  }
+  if (m.finder) {
+    m.stages = [&m, before = std::move(m.stages)] { return m.Find(before()); };
+    if (parallel) m.InBackground();
+  }
+}
+
+ImageFrontend::ImageFrontend(ImageFrontend&&) noexcept = default;
+
+ImageFrontend::~ImageFrontend() {
+  if (impl_) Finish();
+}
+
+std::optional<Frame> ImageFrontend::Next() {
+  if (!impl_->stages) return std::nullopt;
+  std::optional<Item> item = impl_->stages();
+  if (!item) return std::nullopt;
+  for (const std::string& warning : item->warnings) Log(LogLevel::kWarning, warning);
+  return std::move(item->frame);
+}
+
+void ImageFrontend::AddLabels(LabelTable& labels) const {
+  if (!impl_->finder || !impl_->finder->lifts()) return;
+  for (const auto& [label, prior] : impl_->options.lift.classes)
+    if (labels.entries().count(label) == 0) labels.Set(label, {Symmetry::kPi});
+}
+
+FrontendReport ImageFrontend::Finish() {
+  impl_->stages = {};
+  while (!impl_->running.empty()) impl_->running.pop_back();
+  FrontendReport report = impl_->found;
+  report.frames = impl_->loaded.frames;
+  report.images_failed = impl_->loaded.images_failed;
+  report.lost = impl_->tracked.lost;
+  report.timing.Append(impl_->loaded.timing);
+  report.timing.Append(impl_->tracked.timing);
+  return report;
+}
+
+}  // namespace sslcd
