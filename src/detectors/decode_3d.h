@@ -41,7 +41,7 @@ std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs, const
                                        int height);
 
 /// Heads of the kind of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map with offset, depth, size
-/// and rotation in 2 or 4 bins. Boxes have no area.
+/// and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
 std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs, const ModelOutput& output, int width);
 
 /// The cuboid in the reference camera's frame, without label, score and box.
