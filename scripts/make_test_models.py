@@ -198,7 +198,7 @@ def write_priors(name, mean, std):
     np.save(FOLDER / f"stereo3d_std_{name}.npy", std.reshape(-1, 6).astype(np.float32))
 
 
-def stereo3d():  # without its top 64 x 32, at the same size, black on the right up to 80 x 32
+def anchors3d(name, images):  # without its top 64 x 32, at the same size, black on the right up to 80 x 32
     rng = np.random.default_rng(5)
     scales, ratios, base, stride, width, height = [1.0, 1.5], [0.5, 1.0, 2.0], 12.0, 16, 80, 32
     columns, rows, anchors, classes = width // stride, height // stride, len(scales) * len(ratios), 3
@@ -208,7 +208,7 @@ def stereo3d():  # without its top 64 x 32, at the same size, black on the right
     # A car, a truck, two cars that overlap, one of an anchor never seen, something unwanted, a car too low for the road.
     logits[[3, 15, 21, 22, 29, 28, 45], [0, 2, 0, 0, 0, 1, 0]] = [2.0, 1.5, 1.2, 1.4, 2.5, 3.0, 1.8]
     logits[:, classes] = rng.uniform(-1, 1, shape)
-    write_model("stereo3d", {"left": [1, 3, height, width], "right": [1, 3, height, width]},
+    write_model(name, {image: [1, 3, height, width] for image in images},
                 {"scores": (logits[None], (1,) + logits.shape), "boxes": (values[None], (1,) + values.shape)})
     mean = {c: rng.uniform([8, -.2, -.2, 1.4, 1.3, 3], [14, .2, .2, 2, 2, 5], (len(scales), len(ratios), 6)) for c in LABELS}
     std = {c: rng.uniform(.2, .9, (len(scales), len(ratios), 6)) for c in LABELS}
@@ -217,7 +217,9 @@ def stereo3d():  # without its top 64 x 32, at the same size, black on the right
         write_priors(label, mean[c], std[c])
         mean[c], std[c] = mean[c].astype(np.float32).astype(float), std[c].astype(np.float32).astype(float)
 
-    shift = shift_of([(64 / 80, BGR), (16 / 80, (0, 0, 0))]) + 2 * shift_of([(64 / 80, RIGHT_BGR), (16 / 80, (0, 0, 0))])
+    shift = shift_of([(64 / 80, BGR), (16 / 80, (0, 0, 0))])
+    if len(images) == 2:
+        shift += 2 * shift_of([(64 / 80, RIGHT_BGR), (16 / 80, (0, 0, 0))])
     candidates = []
     for y in range(rows):
         for x in range(columns):
@@ -239,7 +241,15 @@ def stereo3d():  # without its top 64 x 32, at the same size, black on the right
                     centre = px + v[4] * .1 * pw, py + v[5] * .1 * ph + TOP
                     box = np.clip(box + [0, TOP, 0, TOP], 0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
                     candidates.append(found(score[c], c, box, *cuboid(centre, z, alpha, (w, h, l))))
-    write_boxes("stereo3d", best(candidates, 0.5, 0.4))
+    write_boxes(name, best(candidates, 0.5, 0.4))
+
+
+def stereo3d():
+    anchors3d("stereo3d", ["left", "right"])
+
+
+def mono3d():
+    anchors3d("mono3d", ["image"])
 
 
 def monoflex(name, bins):  # 64 x 48 to 32 x 24, cells of 4
@@ -308,7 +318,7 @@ def bad_models():
 
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for write in (yolo_v5, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, monoflex_2,
+    for write in (yolo_v5, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, mono3d, monoflex_2,
                   monoflex_4, embedding, bad_models):
         write()
 

@@ -33,14 +33,15 @@ std::map<int, AnchorPriors> LoadAnchorPriors(const ModelOutput& output);
 /// The camera that would see the input as its image; the offset stays the left camera's.
 Camera CameraOfInput(const Camera& left, const InputMap& map);
 
-/// VisualDet3D's Stereo3D (Liu et al., YOLOStereo3D, ICRA 2021): logits of each class and of "alpha points forward" for
-/// each anchor, and 12 regression values. `camera` is that of the input.
-std::vector<ClassCuboid> DecodeStereo3d(const std::vector<Tensor>& outputs, const ModelOutput& output,
-                                        const std::map<int, AnchorPriors>& priors, const Camera& camera, int width,
-                                        int height);
+/// VisualDet3D's Stereo3D (Liu et al., YOLOStereo3D, ICRA 2021) and Yolo3D (Ground-aware monocular 3D detection, RA-L
+/// 2021): for each anchor logits of each class and of "alpha, not alpha + pi", and 12 regression values. `camera` is
+/// that of the input.
+std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs, const ModelOutput& output,
+                                       const std::map<int, AnchorPriors>& priors, const Camera& camera, int width,
+                                       int height);
 
 /// Heads of the kind of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map with offset, depth, size
-/// and rotation in 2 or 4 bins. Boxes have no area.
+/// and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
 std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs, const ModelOutput& output, int width);
 
 /// The cuboid in the reference camera's frame, without label, score and box.

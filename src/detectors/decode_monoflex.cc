@@ -33,13 +33,15 @@ bool IsPeak(const Maps& heat, int channel, int y, int x) {
   return true;
 }
 
-/// 8 channels: two bins around -pi/2 and pi/2, each [no, yes, sin, cos] (as RTM3D). 16 channels: four bins around 0,
-/// pi/2, pi and -pi/2, first [no, yes] of each, then [sin, cos] of each (as MonoFlex). The surest bin decides.
+/// 2 channels: sin, cos. 8 channels: two bins around -pi/2 and pi/2, each [no, yes, sin, cos] (as RTM3D). 16 channels:
+/// four bins around 0, pi/2, pi and -pi/2, first [no, yes] of each, then [sin, cos] of each (as MonoFlex). The surest
+/// bin decides.
 double Alpha(const Maps& rotation, int channels, int y, int x) {
   struct Bin {
     double centre;
     int yes, sin;  // channels
   };
+  if (channels == 2) return std::atan2(rotation(0, y, x), rotation(1, y, x));
   static constexpr std::array<Bin, 2> kTwo = {{{-kPi / 2, 1, 2}, {kPi / 2, 5, 6}}};
   static constexpr std::array<Bin, 4> kFour = {{{0, 1, 8}, {kPi / 2, 3, 10}, {kPi, 5, 12}, {-kPi / 2, 7, 14}}};
   const Bin* bins = channels == 8 ? kTwo.data() : kFour.data();
@@ -54,9 +56,10 @@ void CheckMaps(const std::vector<Tensor>& outputs) {
     if (map.shape[2] != outputs[0].shape[2] || map.shape[3] != outputs[0].shape[3])
       throw Error(ErrorKind::kBadInput, "monoflex: one map is " + ToString(map.shape) + ", the heat map " +
                                             ToString(outputs[0].shape) + ": they need the same height and width");
-  if (outputs[4].shape[1] != 8 && outputs[4].shape[1] != 16)
+  const std::int64_t channels = outputs[4].shape[1];
+  if (channels != 2 && channels != 8 && channels != 16)
     throw Error(ErrorKind::kBadInput, "monoflex: the rotation map is " + ToString(outputs[4].shape) +
-                                          ", the layout expects 1x8x?x? or 1x16x?x?");
+                                          ", the layout expects 1x2x?x?, 1x8x?x? or 1x16x?x?");
 }
 
 }  // namespace

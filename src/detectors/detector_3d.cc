@@ -38,9 +38,8 @@ struct Detector3d::Impl {
 
   std::vector<ClassCuboid> Decode(const std::vector<Tensor>& outputs, const Camera& camera) const {
     const ModelOutput& output = model.description().output;
-    return output.layout == ModelLayout::kStereo3d
-               ? DecodeStereo3d(outputs, output, priors, camera, model.width(), model.height())
-               : DecodeMonoFlex(outputs, output, model.width());
+    return HasAnchors(output.layout) ? DecodeAnchors(outputs, output, priors, camera, model.width(), model.height())
+                                     : DecodeMonoFlex(outputs, output, model.width());
   }
 };
 
@@ -52,7 +51,7 @@ Detector3d::~Detector3d() = default;
 Detector3d Detector3d::Load(const std::string& model_yaml, const InferenceOptions& options) {
   auto impl = std::make_unique<Impl>(Impl{Model(model_yaml, ModelTask::kDetect3d, options), {}});
   const ModelOutput& output = impl->model.description().output;
-  if (output.layout == ModelLayout::kStereo3d) impl->priors = LoadAnchorPriors(output);
+  if (HasAnchors(output.layout)) impl->priors = LoadAnchorPriors(output);
   return Detector3d(std::move(impl));
 }
 

@@ -39,7 +39,8 @@ std::vector<TensorShape> LayoutShapes(const ModelOutput& output, int width, int 
     case ModelLayout::kYoloV10: return {{1, -1, 6}};
     case ModelLayout::kBoxesScoresLabels: return {{1, -1, 4}, {1, -1}, {1, -1}};
     case ModelLayout::kFastestDet: return {{1, 5 + classes, -1, -1}};
-    case ModelLayout::kStereo3d: {
+    case ModelLayout::kStereo3d:
+    case ModelLayout::kMono3d: {
       const ModelAnchors& anchors = output.anchors;
       const auto cells = [&](int size) { return static_cast<std::int64_t>(std::ceil(size / anchors.stride_px)); };
       const auto per_cell = static_cast<std::int64_t>(anchors.scales.size() * anchors.ratios.size());

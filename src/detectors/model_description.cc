@@ -27,7 +27,7 @@ void Check(const ModelDescription& model, const std::string& path) {
         number >= output.class_count)
       refuse("'labels' has class " + std::to_string(number) + ", but 'class_count' is " +
              std::to_string(output.class_count));
-    if (output.layout == ModelLayout::kStereo3d &&
+    if (HasAnchors(output.layout) &&
         (!output.anchors.mean_files.count(number) || !output.anchors.std_files.count(number)))
       refuse("'anchors' needs a file in 'mean_files' and in 'std_files' for class " + std::to_string(number));
   }
@@ -62,10 +62,10 @@ void DescribeFields(FieldVisitor& visitor, ModelAnchors& anchors) {
 }
 
 void DescribeFields(FieldVisitor& visitor, ModelOutput& output) {
-  visitor.Enum(
-      "layout", output.layout,
-      {"yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet", "stereo3d", "monoflex", "embedding"},
-      "what the model's numbers mean");
+  visitor.Enum("layout", output.layout,
+               {"yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet", "stereo3d", "mono3d", "monoflex",
+                "embedding"},
+               "what the model's numbers mean");
   visitor.Names("names", output.names, "the model's names for the layout's tensors; left out: in the model's order");
   visitor.Integer("class_count", output.class_count, 1, 100000, "how many classes the model tells apart");
   visitor.Names("labels", output.labels, "class number -> label; classes that are not listed are dropped");
@@ -73,7 +73,7 @@ void DescribeFields(FieldVisitor& visitor, ModelOutput& output) {
   visitor.Real("nms_iou", output.nms_iou, 0, 1, "of two boxes of one label that overlap more, the better one stays");
   visitor.Enum("box_format", output.box_format, {"corners", "centre"}, "boxes_scores_labels: what a box's numbers are");
   visitor.Flag("normalised_boxes", output.normalised_boxes, "boxes_scores_labels: boxes in 0..1 instead of pixels");
-  visitor.Nested("anchors", output.anchors, "stereo3d: anchors and what is known about them");
+  visitor.Nested("anchors", output.anchors, "stereo3d, mono3d: anchors and what is known about them");
 }
 
 void DescribeFields(FieldVisitor& visitor, ModelDescription& description) {
@@ -103,9 +103,12 @@ ModelTask TaskOf(ModelLayout layout) {
   switch (layout) {
     case ModelLayout::kEmbedding: return ModelTask::kEmbed;
     case ModelLayout::kStereo3d:
+    case ModelLayout::kMono3d:
     case ModelLayout::kMonoFlex: return ModelTask::kDetect3d;
     default: return ModelTask::kDetect2d;
   }
 }
+
+bool HasAnchors(ModelLayout layout) { return layout == ModelLayout::kStereo3d || layout == ModelLayout::kMono3d; }
 
 }  // namespace sslcd

@@ -84,12 +84,23 @@ class MonoFlexMaps : public testing::Test {
 
 TEST_F(MonoFlexMaps, FindsNothingInNothing) { EXPECT_TRUE(DecodeMonoFlex(maps, output, 12).empty()); }
 
+TEST_F(MonoFlexMaps, RotationWithoutBins) {
+  maps[0].values[4] = 0.9f;
+  maps[4] = Map(2, 2, 3, 0);
+  maps[4].values[4] = -0.5f;  // sin
+  const std::vector<ClassCuboid> found = DecodeMonoFlex(maps, output, 12);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_DOUBLE_EQ(found[0].alpha_rad, -std::acos(-1.) / 2);
+  EXPECT_DOUBLE_EQ(found[0].centre_x, 4) << "cell 1 of 4 px";
+  EXPECT_DOUBLE_EQ(found[0].centre_y, 4);
+}
+
 TEST_F(MonoFlexMaps, RefusesMapsThatDoNotFitTogether) {
   maps[2] = Map(1, 4, 3, 10);
   ExpectError([&] { DecodeMonoFlex(maps, output, 12); }, {"1x1x4x3", "1x1x2x3"});
   maps[2] = Map(1, 2, 3, 10);
   maps[4] = Map(9, 2, 3, 0);
-  ExpectError([&] { DecodeMonoFlex(maps, output, 12); }, {"1x9x2x3", "1x8x?x? or 1x16x?x?"});
+  ExpectError([&] { DecodeMonoFlex(maps, output, 12); }, {"1x9x2x3", "1x2x?x?, 1x8x?x? or 1x16x?x?"});
 }
 
 TEST(Detector3d, RefusesWhatItCannotUse) {

@@ -86,7 +86,7 @@ TEST_P(Golden3d, FindsWhatNumPyFinds) {
   EXPECT_EQ(count, found.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(, Golden3d, testing::Values("stereo3d", "monoflex", "monoflex_4"),
+INSTANTIATE_TEST_SUITE_P(, Golden3d, testing::Values("stereo3d", "mono3d", "monoflex", "monoflex_4"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(Golden, Embeddings) {

@@ -37,11 +37,12 @@ enum class ModelLayout {
   kBoxesScoresLabels,  ///< SSD and DETR: three outputs
   kFastestDet,         ///< 1 x (5 + classes) x H x W
   kStereo3d,           ///< VisualDet3D's Stereo3D: scores and regression of each anchor
+  kMono3d,             ///< VisualDet3D's Yolo3D, the paper's: the same from one image
   kMonoFlex,           ///< monocular: maps of heat, offset, depth, size and rotation
   kEmbedding,          ///< B x D, re-identification
 };
 
-/// Anchors of kStereo3d, and what the training data says about them.
+/// Anchors of kStereo3d and kMono3d, and what the training data says about them.
 struct ModelAnchors {
   double base_px = 24;                    ///< side of a square anchor of scale 1
   double stride_px = 16;                  ///< from one anchor to the next
@@ -88,5 +89,7 @@ ModelDescription LoadModelDescription(const std::string& yaml_path);
 /// What a model of this layout is for: decides which of Detector2d, Detector3d and Embedder can load it.
 enum class ModelTask { kDetect2d, kDetect3d, kEmbed };
 ModelTask TaskOf(ModelLayout layout);
+
+bool HasAnchors(ModelLayout layout);  ///< kStereo3d, kMono3d
 
 }  // namespace sslcd

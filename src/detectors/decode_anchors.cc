@@ -78,9 +78,9 @@ std::map<int, AnchorPriors> LoadAnchorPriors(const ModelOutput& output) {
   return priors;
 }
 
-std::vector<ClassCuboid> DecodeStereo3d(const std::vector<Tensor>& outputs, const ModelOutput& output,
-                                        const std::map<int, AnchorPriors>& priors, const Camera& camera, int width,
-                                        int height) {
+std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs, const ModelOutput& output,
+                                       const std::map<int, AnchorPriors>& priors, const Camera& camera, int width,
+                                       int height) {
   const ModelAnchors& anchors = output.anchors;
   const auto columns = static_cast<std::size_t>(std::ceil(width / anchors.stride_px));
   const auto rows = static_cast<std::size_t>(std::ceil(height / anchors.stride_px));
