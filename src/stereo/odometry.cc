@@ -113,6 +113,8 @@ class StereoOdometry::Impl {
     keyframes_.push_back(frame);
     reference_images_ = current;
     last_ = frame;
+    T_last_tracked_ = frame.T_odom_left;
+    lost_ = 0;
   }
 
   /// The last frame's velocity goes on.
