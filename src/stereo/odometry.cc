@@ -4,34 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
-#include <opencv2/calib3d.hpp>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "stereo/odometry_follow.h"
 #include "stereo/odometry_images.h"
 #include "stereo/odometry_window.h"
 
 namespace sslcd {
 namespace {
 
-constexpr int kCoarse = 4, kFine = 1;  // levels to look through: for anything, for what is nearly known
-constexpr int kCoarsePoints = 120;     // enough to find out roughly where the camera is
 // Turns that are tried when the points are not where they should be: up to 15 degrees, in steps that
 // the coarsest patches bridge.
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
-constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
 
 const char* const kNothingToFollow = "nothing to follow: too few corners in the images";
-const char* const kNotFound = "too few points of the last keyframe were found again";
-const char* const kNoAgreement = "the points found again do not agree on a pose";
 const char* const kMissing = "its images are missing";
-
-cv::Point2f ToCv(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
 
 double Median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -49,13 +41,6 @@ Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
   variances << Vec3::Constant(translation * translation), Vec3::Constant(rotation * rotation);
   return variances.asDiagonal();
 }
-
-/// Points of the reference keyframe, and where they should be in another image.
-struct Expected {
-  std::vector<int> points;
-  std::vector<cv::Point2f> from, to;
-  std::vector<double> disparities;
-};
 
 }  // namespace
 
@@ -113,6 +98,8 @@ class StereoOdometry::Impl {
     keyframes_.push_back(frame);
     reference_images_ = current;
     last_ = frame;
+    T_last_tracked_ = frame.T_odom_left;
+    lost_ = 0;
   }
 
   /// The last frame's velocity goes on.
@@ -166,96 +153,23 @@ class StereoOdometry::Impl {
 
   std::optional<StereoFrame> Track(const ImagePyramid& reference, const ImagePyramid& left,
                                    const StereoPyramids& current) {
+    const Following following{camera_, options_, keyframes_.back(), points_};
     const Pose T_expected = last_.T_odom_left * velocity_;
-    std::optional<Pose> pose = FindPose(reference, left, T_expected);
-    if (!pose) pose = FindPose(reference, left, last_.T_odom_left);
+    const auto find = [&](const Pose& T_guess) { return FindPose(following, reference, left, T_guess, reason_); };
+    std::optional<Pose> pose = find(T_expected);
+    if (!pose) pose = find(last_.T_odom_left);
     // The camera may have begun to turn, or ended.
     for (int k = 1; k <= kTurns && !pose; ++k) {
-      pose = FindPose(reference, left, T_expected * Pose::RotY(k * kTurnRad));
-      if (!pose) pose = FindPose(reference, left, T_expected * Pose::RotY(-k * kTurnRad));
+      pose = find(T_expected * Pose::RotY(k * kTurnRad));
+      if (!pose) pose = find(T_expected * Pose::RotY(-k * kTurnRad));
     }
     if (!pose) return std::nullopt;
-    StereoFrame frame = FindAll(reference, left, current, *pose);
+    StereoFrame frame = FindAll(following, reference, left, current, *pose);
     RefinePose(camera_, points_, frame);
     DropMisfits(frame);
     if (static_cast<int>(frame.sightings.size()) >= options_.min_tracked) return frame;
-    reason_ = kNotFound;
+    reason_ = kTooFewFound;
     return std::nullopt;
-  }
-
-  /// Where points of the reference keyframe appear to a camera there; at most so many, and only those inside the image.
-  Expected Expect(const Pose& T_odom_left, int at_most) const {
-    const StereoFrame& reference = keyframes_.back();
-    const Pose T_left_odom = T_odom_left.inverse();
-    const std::size_t each = std::max<std::size_t>(1, reference.sightings.size() / at_most);
-    Expected expected;
-    for (std::size_t i = 0; i < reference.sightings.size(); i += each) {
-      const StereoSighting& sighting = reference.sightings[i];
-      const Vec3 point = T_left_odom * points_.at(sighting.point);
-      if (!(point.z() > 0.1)) continue;
-      const StereoPixel pixel = ProjectStereo(camera_, point);
-      if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size_.width && pixel.row < size_.height)) continue;
-      expected.points.push_back(sighting.point);
-      expected.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
-      expected.to.push_back(ToCv(pixel.left, pixel.row));
-      expected.disparities.push_back(pixel.left - pixel.right);
-    }
-    return expected;
-  }
-
-  /// The pose that most points agree on when looked for around where they appear from `T_guess`.
-  std::optional<Pose> FindPose(const ImagePyramid& from, const ImagePyramid& to, const Pose& T_guess) {
-    const Expected expected = Expect(T_guess, kCoarsePoints);
-    const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, options_);
-    const StereoFrame& reference = keyframes_.back();
-    const Pose T_reference_odom = reference.T_odom_left.inverse();
-    std::vector<cv::Point3d> places;
-    std::vector<cv::Point2d> pixels;
-    for (std::size_t i = 0; i < expected.points.size(); ++i) {
-      if (!followed.found[i]) continue;
-      const Vec3 place = T_reference_odom * points_.at(expected.points[i]);
-      places.emplace_back(place.x(), place.y(), place.z());
-      pixels.emplace_back(followed.at[i]);
-    }
-    reason_ = kNotFound;
-    if (static_cast<int>(places.size()) < options_.min_tracked) return std::nullopt;
-
-    const Camera& left = camera_.left;
-    const cv::Matx33d K(left.fx, 0, left.cx, 0, left.fy, left.cy, 0, 0, 1);
-    cv::Vec3d rotation, translation;
-    std::vector<int> inliers;
-    cv::setRNGSeed(0);
-    reason_ = kNoAgreement;
-    const bool found =
-        cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation, false, options_.ransac_iterations,
-                           static_cast<float>(options_.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
-    const double needed = std::max<double>(options_.min_tracked, kMinInliers * places.size());
-    if (!found || inliers.size() < needed) return std::nullopt;
-    const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),
-                                Vec3(translation[0], translation[1], translation[2]));
-    return reference.T_odom_left * T_left_reference.inverse();
-  }
-
-  /// All points of the reference keyframe, in both images, looked for where they must be.
-  StereoFrame FindAll(const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
-                      const Pose& T_odom_left) const {
-    const Expected expected = Expect(T_odom_left, std::numeric_limits<int>::max());
-    const Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, options_);
-    std::vector<cv::Point2f> guess = left.at;
-    for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
-    const Followed right = Follow(current.left, current.right, left.at, guess, kFine, options_);
-    StereoFrame frame{T_odom_left, {}};
-    for (std::size_t i = 0; i < left.at.size(); ++i) {
-      if (!left.found[i]) continue;
-      StereoPixel pixel{left.at[i].x, left.at[i].y, right.at[i].x};
-      if (!right.found[i] || !IsPair(left.at[i], right.at[i])) pixel.right = NAN;
-      frame.sightings.push_back({expected.points[i], pixel});
-    }
-    return frame;
-  }
-
-  bool IsPair(const cv::Point2f& left, const cv::Point2f& right) const {
-    return std::abs(left.y - right.y) <= options_.max_row_error_px && left.x - right.x >= options_.min_disparity_px;
   }
 
   void DropMisfits(StereoFrame& frame) const {
@@ -300,7 +214,7 @@ class StereoOdometry::Impl {
     const std::vector<cv::Point2f> corners = SpreadCorners(current, taken, options_);
     const Followed right = FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (!right.found[i] || !IsPair(corners[i], right.at[i])) continue;
+      if (!right.found[i] || !IsPair(corners[i], right.at[i], options_)) continue;
       const StereoPixel pixel{corners[i].x, corners[i].y, right.at[i].x};
       points_[next_point_] = frame.T_odom_left * Triangulate(camera_, pixel);
       frame.sightings.push_back({next_point_++, pixel});

@@ -35,7 +35,7 @@ TEST(StereoOdometryReal, KittiGrey) {
   const SegmentError error = ComputeSegmentError(driven.est, driven.ref, {10, 20, 30, 40, 50});
   EXPECT_GT(error.count, 100);
   EXPECT_LT(error.translation, 0.010);
-  // The ground truth of the first 13 frames is a straight line where the images wobble by up to 0.15 degrees a frame.
+  // The ground truth of the first frames turns evenly where the images wobble by up to 0.15 degrees a frame.
   driven.est.erase(driven.est.begin(), driven.est.begin() + 13);
   driven.ref.erase(driven.ref.begin(), driven.ref.begin() + 13);
   const SegmentError later = ComputeSegmentError(driven.est, driven.ref, {10, 20, 30, 40});

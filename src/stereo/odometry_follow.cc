@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stereo/odometry_follow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+namespace sslcd {
+namespace {
+
+constexpr int kCoarsePoints = 120;   // enough to find out roughly where the camera is
+constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
+
+const char* const kNoAgreement = "the points found again do not agree on a pose";
+
+/// Points of the reference keyframe, and where they should be in another image.
+struct Expected {
+  std::vector<int> points;
+  std::vector<cv::Point2f> from, to;
+  std::vector<double> disparities;
+};
+
+/// Where points of the reference keyframe appear to a camera there: about so many of them, and only inside the image.
+Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_left, int about) {
+  const StereoFrame& reference = f.keyframe;
+  const Pose T_left_odom = T_odom_left.inverse();
+  const std::size_t each = std::max<std::size_t>(1, reference.sightings.size() / about);
+  Expected expected;
+  for (std::size_t i = 0; i < reference.sightings.size(); i += each) {
+    const StereoSighting& sighting = reference.sightings[i];
+    const Vec3 point = T_left_odom * f.points.at(sighting.point);
+    if (!(point.z() > 0.1)) continue;
+    const StereoPixel pixel = ProjectStereo(f.camera, point);
+    if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size.width && pixel.row < size.height)) continue;
+    expected.points.push_back(sighting.point);
+    expected.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
+    expected.to.push_back(ToCv(pixel.left, pixel.row));
+    expected.disparities.push_back(pixel.left - pixel.right);
+  }
+  return expected;
+}
+
+}  // namespace
+
+std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const ImagePyramid& to, const Pose& T_guess,
+                             const char*& reason) {
+  const Expected expected = Expect(f, to[0].size(), T_guess, kCoarsePoints);
+  const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, f.options);
+  const StereoFrame& reference = f.keyframe;
+  const Pose T_reference_odom = reference.T_odom_left.inverse();
+  std::vector<cv::Point3d> places;
+  std::vector<cv::Point2d> pixels;
+  for (std::size_t i = 0; i < expected.points.size(); ++i) {
+    if (!followed.found[i]) continue;
+    const Vec3 place = T_reference_odom * f.points.at(expected.points[i]);
+    places.emplace_back(place.x(), place.y(), place.z());
+    pixels.emplace_back(followed.at[i]);
+  }
+  reason = kTooFewFound;
+  if (static_cast<int>(places.size()) < f.options.min_tracked) return std::nullopt;
+
+  const Camera& left = f.camera.left;
+  const cv::Matx33d K(left.fx, 0, left.cx, 0, left.fy, left.cy, 0, 0, 1);
+  cv::Vec3d rotation, translation;
+  std::vector<int> inliers;
+  cv::setRNGSeed(0);
+  reason = kNoAgreement;
+  const bool found =
+      cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation, false, f.options.ransac_iterations,
+                         static_cast<float>(f.options.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
+  const double needed = std::max<double>(f.options.min_tracked, kMinInliers * places.size());
+  if (!found || inliers.size() < needed) return std::nullopt;
+  const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),
+                              Vec3(translation[0], translation[1], translation[2]));
+  return reference.T_odom_left * T_left_reference.inverse();
+}
+
+StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
+                    const Pose& T_odom_left) {
+  const Expected expected = Expect(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
+  const Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, f.options);
+  std::vector<cv::Point2f> guess = left.at;
+  for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
+  const Followed right = Follow(current.left, current.right, left.at, guess, kFine, f.options);
+  StereoFrame frame{T_odom_left, {}};
+  for (std::size_t i = 0; i < left.at.size(); ++i) {
+    if (!left.found[i]) continue;
+    StereoPixel pixel{left.at[i].x, left.at[i].y, right.at[i].x};
+    if (!right.found[i] || !IsPair(left.at[i], right.at[i], f.options)) pixel.right = NAN;
+    frame.sightings.push_back({expected.points[i], pixel});
+  }
+  return frame;
+}
+
+bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options) {
+  return std::abs(left.y - right.y) <= options.max_row_error_px && left.x - right.x >= options.min_disparity_px;
+}
+
+}  // namespace sslcd

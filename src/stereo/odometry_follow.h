@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "stereo/odometry_images.h"
+#include "stereo/odometry_window.h"
+
+namespace sslcd {
+
+/// Levels to look through: for anything, for what is nearly known.
+inline constexpr int kCoarse = 4, kFine = 1;
+inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
+
+inline cv::Point2f ToCv(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+
+/// What is followed: the points that a keyframe sees.
+struct Following {
+  const StereoCamera& camera;
+  const StereoOdometryOptions& options;
+  const StereoFrame& keyframe;
+  const OdometryPoints& points;
+};
+
+/// The pose T_odom_left that most points agree on when they are looked for around where they appear from `T_guess`.
+/// `from`, `to`: left images of the keyframe and of now. None: `reason` says why.
+std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
+                             const Pose& T_guess, const char*& reason);
+
+/// A frame at that pose with all points that are where they must be, in both of its images. `from` and `to` as above;
+/// they may differ in light from `current`.
+StereoFrame FindAll(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
+                    const StereoPyramids& current, const Pose& T_odom_left);
+
+/// May these be the left and right image of one point?
+bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options);
+
+}  // namespace sslcd
