@@ -99,7 +99,7 @@ int Run(RunArguments& a, const Console& console) {
   MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
 
   RunHooks hooks;
-  hooks.progress = [&](int done, int total) { console.Progress("frame", done, total); };
+  hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
   hooks.with_image = WithImage;
   CatchInterrupt();

@@ -50,6 +50,9 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
       samples.push_back({-bf * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1), disparity, u, v});
     }
   }
+  const std::size_t every = 1 + samples.size() / static_cast<std::size_t>(options.samples);
+  for (std::size_t i = 0; every * i < samples.size(); ++i) samples[i] = samples[every * i];
+  samples.resize((samples.size() + every - 1) / every);
   return samples;
 }
 
@@ -67,10 +70,10 @@ bool IsOn(const Vec3& q, const Sample& sample, const GroundOptions& options) {
 
 Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior, const GroundOptions& options) {
   std::mt19937 random(static_cast<unsigned>(options.seed));
-  const std::size_t every = 1 + samples.size() / static_cast<std::size_t>(options.samples);
+  constexpr std::size_t kEvery = 10;
   const auto support = [&](const Vec3& q) {
     int count = 0;
-    for (std::size_t i = 0; i < samples.size(); i += every) count += IsOn(q, samples[i], options);
+    for (std::size_t i = 0; i < samples.size(); i += kEvery) count += IsOn(q, samples[i], options);
     return count;
   };
   Vec3 best = prior;
@@ -139,7 +142,9 @@ cv::Mat Detail(const cv::Mat& grey) {
 Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
   constexpr double kNoise = 6;  // grey levels
   constexpr int kRounds = 8;
-  const cv::Mat left = Detail(grey.left), right = Detail(grey.right);
+  const int top = samples.front().v;  // rows above are of no use; samples go by rows
+  const cv::Mat left = Detail(grey.left.rowRange(top, grey.left.rows));
+  const cv::Mat right = Detail(grey.right.rowRange(top, grey.right.rows));
   std::vector<Sample> ground;
   for (const Sample& sample : samples) {
     if (IsOn(q, sample, options)) ground.push_back(sample);
@@ -151,11 +156,11 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
       if (!(at >= 1 && at < right.cols - 3)) continue;
       const int x = static_cast<int>(at);
       const float part = static_cast<float>(at - x);
-      const float* row = right.ptr<float>(sample.v) + x;
+      const float* row = right.ptr<float>(sample.v - top) + x;
       const double there = (1 - part) * row[0] + part * row[1];
       const double slope = 0.5 * ((1 - part) * (row[1] - row[-1]) + part * (row[2] - row[0]));
       // To first order right(u - d) falls by `slope` for each pixel that d grows.
-      const double error = there - left.at<float>(sample.v, sample.u);
+      const double error = there - left.at<float>(sample.v - top, sample.u);
       const double weight = slope * slope / (kNoise * kNoise + error * error);
       if (weight > 0) equations.Add(sample.row, disparity + error / slope, weight);
     }
@@ -176,7 +181,7 @@ void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
                "standard deviation of the camera's roll and pitch against the ground");
   visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.05, 10,
                "standard deviation of the disparity of a pixel on the ground");
-  visitor.Integer("samples", options.samples, 10, 1000000, "pixels looked at, at most");
+  visitor.Integer("samples", options.samples, 10, 1000000, "pixels that are weighed, at most");
   visitor.Integer("trials", options.trials, 1, 100000, "trials of RANSAC");
   visitor.Integer("seed", options.seed, 0, 2147483647, "seed of RANSAC");
 }

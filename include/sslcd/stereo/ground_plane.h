@@ -15,7 +15,7 @@ struct GroundOptions {
   double height_m = 1.5, height_sigma_m = 0.3;  ///< of the camera above the ground
   double tilt_sigma_rad = 0.03;                 ///< of the camera against the ground, each of roll and pitch
   double disparity_sigma_px = 0.5;              ///< of a pixel on the ground; more than thrice as much is not ground
-  int samples = 2000;                           ///< pixels looked at, at most
+  int samples = 20000;                          ///< pixels that are weighed, at most
   int trials = 200;                             ///< of RANSAC
   int seed = 1;                                 ///< of RANSAC
 };
