@@ -96,6 +96,7 @@ std::vector<Method> Ablations() {
       Changed("no_tracks", "each attempt by itself, no agreement over time", {"loop.tracks.agree_m=0"}),
       Changed("no_prior", "odometry says nothing about a loop", {"loop.prior.surprise=1"}),
       Changed("no_hindsight", "no second look at the end", {"loop.layout.hindsight_m=0"}),
+      Changed("no_odometry_learning", "odometry no better or worse than told", {"loop.learn_odometry=false"}),
       Changed("no_lag", "loops tie the newest camera", {"loop.lag_m=0"}),
       Changed("trusting", "no loop is ever refused or taken back by the others",
               {"loop.graph.inlier_probability=0.999999", "loop.graph.drift_factor=1000", "loop.belief.probation_m=1000",

@@ -58,24 +58,22 @@ bool ObjectCost::Evaluate(double const* const* blocks, double* residual, double*
   return true;
 }
 
-OdometryCost::OdometryCost(const OdometryResidual& residual) : T_from_to_(residual.T_from_to) {
-  weight_.head<3>().setConstant(1 / residual.sigma_translation);
-  weight_.tail<3>().setConstant(1 / residual.sigma_rotation);
-}
+OdometryCost::OdometryCost(const OdometryResidual& residual) : residual_(residual) {}
 
 bool OdometryCost::Evaluate(double const* const* blocks, double* residual, double** jacobians) const {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
   const Pose T_world_from = lie::SE3ConstMap<double>(blocks[0]), T_world_to = lie::SE3ConstMap<double>(blocks[1]);
-  const Vec3 metric = std::exp(*blocks[2]) * T_from_to_.translation();
+  const Vec3 metric = std::exp(*blocks[2]) * residual_.T_from_to.translation();
   const Pose B = T_world_from.inverse() * T_world_to;
-  const Vec6 e = (Pose(T_from_to_.so3(), metric).inverse() * B).Log();
-  Vec6 weight = weight_;
-  weight.head<3>() *= std::exp(-*blocks[2]);
+  const Vec6 e = (Pose(residual_.T_from_to.so3(), metric).inverse() * B).Log();
+  Matrix6 whiten = Matrix6::Zero();
+  whiten.topLeftCorner<3, 3>() = std::exp(-*blocks[2]) * residual_.whiten.translation;
+  whiten.bottomRightCorner<3, 3>() = residual_.whiten.rotation;
   Eigen::Map<Vec6> r(residual);
-  r = weight.cwiseProduct(e);
+  r.noalias() = whiten * e;
   if (jacobians == nullptr) return true;
   // e(d_to) = Log(E Exp(d_to)); moving `from` by d is moving `to` by -Adj(B^-1) d.
-  const Matrix6 J_to = weight.asDiagonal() * Matrix6(Pose::RightJacobianInverse(e));
+  const Matrix6 J_to = whiten.lazyProduct(Matrix6(Pose::RightJacobianInverse(e)));
   if (jacobians[0] != nullptr) {
     const Matrix6 J_from = -J_to.lazyProduct(Matrix6(B.inverse().Adj()));
     StoreAmbient<6>(J_from, blocks[0], jacobians[0]);

@@ -31,8 +31,7 @@ class OdometryCost final : public ceres::SizedCostFunction<6, 7, 7, 1> {
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override;
 
  private:
-  Pose T_from_to_;
-  Vec6 weight_;
+  OdometryResidual residual_;
 };
 
 }  // namespace sslcd

@@ -23,4 +23,10 @@ OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
           std::hypot(walked, noise.rotation_turn * turn)};
 }
 
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors, const Vec3& up) {
+  const Eigen::Matrix3d vertical = up * up.transpose(), horizontal = Eigen::Matrix3d::Identity() - vertical;
+  return {(horizontal / factors.horizontal + vertical) / sigmas.translation,
+          (horizontal + vertical / factors.heading) / sigmas.rotation};
+}
+
 }  // namespace sslcd

@@ -10,6 +10,7 @@
 #include "pipeline/loop_prior.h"
 #include "pipeline/move.h"
 #include "pipeline/refine.h"
+#include "sslcd/optim/odometry_factors.h"
 
 namespace sslcd {
 namespace {
@@ -262,6 +263,15 @@ bool LoopCloser::Fuse() {
   for (Attempt& attempt : attempts_)
     for (auto& [local, global] : attempt.pairs) local = HeirOf(local, heirs), global = HeirOf(global, heirs);
   return true;
+}
+
+OdometryFactors LoopCloser::LearnOdometry(double scale) const {
+  std::vector<LoopEdge> edges;
+  for (const Attempt& attempt : attempts_)
+    if (attempt.loop.row.decision == LoopDecision::kAccepted)
+      edges.push_back({attempt.loop.match, attempt.loop.query, &attempt.loop.row});
+  if (!options_.loop.learn_odometry || options_.mode == Options::Mode::kPaper) return {};
+  return LearnOdometryFactors(BuildLoopGraph(frames_, edges, scale, options_.loop).graph, map_.gravity().up);
 }
 
 void LoopCloser::Review() {

@@ -12,6 +12,7 @@
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/loop/layout_index.h"
 #include "sslcd/loop/pose_tracks.h"
+#include "sslcd/optim/odometry_noise.h"
 #include "sslcd/pipeline/mapper.h"
 
 namespace sslcd {
@@ -41,6 +42,9 @@ class LoopCloser {
 
   /// Has any loop been accepted?
   bool Closed() const;
+
+  /// How far off the accepted loops say the odometry is, compared with LoopOptions::odometry.
+  OdometryFactors LearnOdometry(double scale) const;
 
   /// All attempts that had something to compare, in order.
   std::vector<LoopClosure> closures() const;

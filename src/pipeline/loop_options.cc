@@ -59,6 +59,8 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
   visitor.Real("keyframe_m", options.keyframe_m, 0, 1000, "a vertex of the pose graph every so many metres of path");
   visitor.Nested("odometry", options.odometry, "how far the odometry between these is off");
+  visitor.Flag("learn_odometry", options.learn_odometry,
+               "at the end of a run its closed loops tell how far the odometry is off");
   visitor.Nested("graph", options.graph, "pose graph (paper IV-D, Eqs. 20, 21)");
   visitor.Integer("adjust_keyframes", options.adjust_keyframes, 0, 1000000,
                   "runs of so many keyframes at most have all cameras and objects adjusted after each correction");

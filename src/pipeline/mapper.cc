@@ -170,8 +170,12 @@ BaSummary Mapper::Refine() {
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
   Options options = options_;
   if (options_.loop.enabled) loops_->Finish(scale(), timing_);
-  if (loops_->Closed()) options.ba.odometry = options_.loop.odometry;  // what the loops have bent must stay bent
-  const BaSummary summary = RefineMap(map_, frames_, log_scale_, options, camera);
+  OdometryFactors odometry_factors;
+  if (loops_->Closed()) {  // what the loops have bent must stay bent
+    options.ba.odometry = options_.loop.odometry;
+    odometry_factors = loops_->LearnOdometry(scale());
+  }
+  const BaSummary summary = RefineMap(map_, frames_, log_scale_, odometry_factors, options, camera);
   refined_log_scale_ = log_scale_;
   loops_->Review();
   ResetWindow();

@@ -107,8 +107,9 @@ std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int,
 
 // Objects that are not yet, or never, in the map go along with the cameras that have seen them.
 BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                   double& log_scale, const Options& options) {
+                   double& log_scale, const OdometryFactors& odometry_factors, const Options& options) {
   BaProblem problem = FullProblem(map, frames, keyframes, log_scale, options);
+  problem.odometry_factors = odometry_factors;
   BaSummary summary = SolveBa(problem, options.ba);
   if (summary.usable && options.map.learn_noise) {
     problem.noise_scale = EstimateNoiseScale(problem);
@@ -223,20 +224,20 @@ BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, do
   after_loop.ba.odometry = options.loop.odometry;
   after_loop.ba.odometry.scale_prior = 0;  // the scale stays
   double log_scale = std::log(scale);
-  return Optimise(map, frames, keyframes, log_scale, after_loop);
+  return Optimise(map, frames, keyframes, log_scale, {}, after_loop);
 }
 
-BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
-                    const Camera* camera) {
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale,
+                    const OdometryFactors& odometry_factors, const Options& options, const Camera* camera) {
   ConfirmAll(map, options);
   const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
-  BaSummary summary = Optimise(map, frames, keyframes, log_scale, options);
+  BaSummary summary = Optimise(map, frames, keyframes, log_scale, odometry_factors, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
     RejectMoved(map, frames, options);
     FuseDuplicates(map, frames, options);
     AssociateAnew(map, frames, options, camera);
     ConfirmAll(map, options);
-    summary = Optimise(map, frames, keyframes, log_scale, options);
+    summary = Optimise(map, frames, keyframes, log_scale, odometry_factors, options);
   }
   return summary;
 }

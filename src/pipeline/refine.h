@@ -8,10 +8,10 @@
 namespace sslcd {
 
 /// The full-map optimisation: bundle adjustment over every frame and every standing object, then association anew with
-/// what that has found, fusion of duplicates and rejection of what has moved; `options.refine.rounds` times. Changes
-/// map, frames and scale.
-BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const Options& options,
-                    const Camera* camera);
+/// what that has found, fusion of duplicates and rejection of what has moved; `options.refine.rounds` times.
+/// `odometry_factors` are on `options.ba.odometry`. Changes map, frames and scale.
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale,
+                    const OdometryFactors& odometry_factors, const Options& options, const Camera* camera);
 
 /// Cameras and objects after a loop has moved them: a bundle adjustment over a keyframe every
 /// `options.loop.keyframe_m`, a few steps, with the scale as it is and odometry as loose as in the pose graph. Not

@@ -8,6 +8,7 @@
 
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/upright.h"
+#include "sslcd/optim/odometry_noise.h"
 
 /// Residuals for automatic differentiation (opt-in header; needs no Ceres by itself).
 /// Parameter blocks: a camera is T_world_cam as [qx qy qz qw tx ty tz]; an object is [x y z yaw] in the world [m, rad];
@@ -78,11 +79,11 @@ struct PaperObjectResidual {
 };
 
 /// Consecutive cameras against the odometry, whose translations are off by one common factor:
-/// r = diag(1/sigma) Log((s T_ij)^-1 T_i^-1 T_j), components [rho / exp(log_scale), phi], s T = (R, exp(log_scale) t):
+/// r = diag(W_t, W_r) Log((s T_ij)^-1 T_i^-1 T_j), components [rho / exp(log_scale), phi], s T = (R, exp(log_scale) t):
 /// the sigma of a translation is that of the odometry as measured.
 struct OdometryResidual {
-  Pose T_from_to;                                    ///< odometry, as measured
-  double sigma_translation = 1, sigma_rotation = 1;  ///< [m, rad]
+  Pose T_from_to;  ///< odometry, as measured
+  OdometryWhitening whiten;
 
   template <class T>
   bool operator()(const T* from, const T* to, const T* log_scale, T* residual) const {
@@ -93,10 +94,9 @@ struct OdometryResidual {
     measured.translation() = Vector3(measured.translation() * exp(log_scale[0]));
     const auto log = (measured.inverse() * (T_world_from.inverse() * T_world_to)).Log();
     const T unscaled = exp(-log_scale[0]);
-    for (int i = 0; i < 3; ++i) {
-      residual[i] = log[i] * unscaled / sigma_translation;
-      residual[i + 3] = log[i + 3] / sigma_rotation;
-    }
+    Eigen::Map<Vector3> translation(residual), rotation(residual + 3);
+    translation = whiten.translation.cast<T>() * Vector3(log.template head<3>() * unscaled);
+    rotation = whiten.rotation.cast<T>() * Vector3(log.template tail<3>());
     return true;
   }
 };

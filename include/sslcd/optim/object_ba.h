@@ -74,6 +74,7 @@ struct BaProblem {
   bool hold_first = false;
   DetectionNoise noise;
   NoiseScale noise_scale;
+  OdometryFactors odometry_factors;  ///< on BaOptions::odometry
 };
 
 struct BaSummary {

@@ -59,6 +59,7 @@ struct LoopOptions {
   /// Of the edges between them. Coarser than the odometry of a good stereo rig: what loops reveal over kilometres is
   /// more than what the sliding window has to expect over metres.
   OdometryNoise odometry;
+  bool learn_odometry = true;  ///< how far it is off, at the end, from the closed loops (LearnOdometryFactors)
   RobustPoseGraphOptions graph;
   int adjust_keyframes = 500;  ///< a run of so many keyframes at most has all cameras and objects adjusted after a loop
                                ///< has moved them; a longer one not before the end
