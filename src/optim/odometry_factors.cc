@@ -14,8 +14,8 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kApart = 40;      // [m] of path between the loops of a cycle, so that cycles tell different things
-constexpr double kPriorSigma = 1;  // of the log of a factor
+constexpr double kApart = 40;        // [m] of path between the loops of a cycle, so that cycles tell different things
+constexpr double kPriorSigma = 0.5;  // of the log of a factor
 
 /// The odometry alone: its trajectory, its path, and of the step to each vertex the variances and where up is.
 struct Chain {

@@ -34,13 +34,13 @@ TEST_P(LearnsFactors, OfAnOdometryThatIsBetterOrWorseThanItSays) {
   for (int seed = 1; seed <= kWorlds; ++seed) {
     const OdometryFactors factors =
         LearnOdometryFactors(Misjudged(static_cast<unsigned>(seed), horizontal, heading).graph, Vec3::UnitZ());
-    EXPECT_NEAR(std::log(factors.horizontal / horizontal), 0, 1.2) << "seed " << seed;
-    EXPECT_NEAR(std::log(factors.heading / heading), 0, 1.2) << "seed " << seed;
+    EXPECT_NEAR(std::log(factors.horizontal / horizontal), 0, 1.4) << "seed " << seed;
+    EXPECT_NEAR(std::log(factors.heading / heading), 0, 1.4) << "seed " << seed;
     horizontal_off += std::log(factors.horizontal / horizontal) / kWorlds;
     heading_off += std::log(factors.heading / heading) / kWorlds;
   }
-  EXPECT_NEAR(horizontal_off, 0, 0.25);
-  EXPECT_NEAR(heading_off, 0, 0.25);
+  EXPECT_NEAR(horizontal_off, 0, 0.35) << "the prior pulls towards one";
+  EXPECT_NEAR(heading_off, 0, 0.35);
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, LearnsFactors,
