@@ -8,6 +8,7 @@
 #include "overlay.h"
 #include "sslcd/core/log.h"
 #include "sslcd/io/atomic_file.h"
+#include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
 
 namespace sslcd::apps {
@@ -42,12 +43,13 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
 }
 
 int Detect(DetectArguments& a, const Console& console) {
-  const Configuration configuration = a.images.Load(a.config);
+  a.config.Load();  // wrong ones first
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detections_policy = PartPolicy::kIgnored;
   ChooseOdometry(a.request);
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
+  const Configuration configuration = a.images.Load(a.config, dataset);
   const int total = static_cast<int>(dataset.frames.size());
 
   const fs::path out = a.out;
@@ -83,8 +85,11 @@ int Detect(DetectArguments& a, const Console& console) {
     return 130;
   }
   WriteSequenceFiles(out, files);
+  Configuration resolved = configuration;
+  const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
+  WriteFileAtomically((out / "config.yaml").string(), yaml);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
-              "; map it with: sslcd_run run " + a.out);
+              "; map it with: sslcd_run run " + a.out + " --config " + (out / "config.yaml").string());
   return 0;
 }
 

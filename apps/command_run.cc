@@ -89,10 +89,11 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
 
 int Run(RunArguments& a, const Console& console) {
   if (a.out.empty()) a.out = "runs/latest";
-  Configuration configuration = a.images.Load(a.config);
-  const Options& options = configuration.options;
-  MakeWritableFolder(a.out);  // rather now than after the run
+  a.config.Load();            // wrong ones first,
+  MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
+  Configuration configuration = a.images.Load(a.config, dataset);
+  const Options& options = configuration.options;
   const int total = static_cast<int>(dataset.frames.size());
   std::optional<ImageFrontend> frontend =
       a.images.Make(dataset, configuration, a.images.detects(), a.threads);

@@ -19,7 +19,7 @@ void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
 
-Configuration ImageArguments::Load(const ConfigArguments& config) const {
+Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset& dataset) const {
   Configuration all = config.Load();
   const auto name_models = [this](Configuration& c) {
     if (!detector.empty()) c.vision.detector = detector;
@@ -29,7 +29,13 @@ Configuration ImageArguments::Load(const ConfigArguments& config) const {
   const bool lifts = !boxes.empty() || (!all.vision.detector.empty() &&
                                         TaskOf(LoadModelDescription(all.vision.detector).output.layout) ==
                                             ModelTask::kDetect2d);
-  if (detects() && lifts) all = config.Load([](Configuration& c) { c.options.noise = LiftNoise(); });
+  const bool lifted = detects() && lifts, tracked = dataset.odometry_path.empty();
+  all = config.Load([&](Configuration& c) {
+    if (lifted) c.options.noise = LiftNoise();
+    if (!tracked) return;
+    c.options.loop.odometry = c.options.ba.odometry;
+    if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
+  });
   name_models(all);
   return all;
 }
