@@ -95,8 +95,7 @@ int Run(RunArguments& a, const Console& console) {
   Configuration configuration = a.images.Load(a.config, dataset);
   const Options& options = configuration.options;
   const int total = static_cast<int>(dataset.frames.size());
-  std::optional<ImageFrontend> frontend =
-      a.images.Make(dataset, configuration, a.images.detects(), a.threads);
+  std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
 
   RunHooks hooks;

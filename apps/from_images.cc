@@ -14,7 +14,8 @@
 namespace sslcd::apps {
 
 void ImageArguments::AddTo(CLI::App& command) {
-  command.add_option("--detector", detector, "make detections from the images: YAML description of a 2D or 3D detector");
+  command.add_option("--detector", detector,
+                     "make detections from the images: YAML description of a 2D or 3D detector");
   command.add_option("--boxes", boxes, "... or from 2D boxes: rows 'frame label score left top right bottom'");
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
@@ -26,9 +27,9 @@ Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset&
     if (!embedder.empty()) c.vision.embedder = embedder;
   };
   name_models(all);
-  const bool lifts = !boxes.empty() || (!all.vision.detector.empty() &&
-                                        TaskOf(LoadModelDescription(all.vision.detector).output.layout) ==
-                                            ModelTask::kDetect2d);
+  const bool lifts =
+      !boxes.empty() || (!all.vision.detector.empty() &&
+                         TaskOf(LoadModelDescription(all.vision.detector).output.layout) == ModelTask::kDetect2d);
   const bool lifted = detects() && lifts, tracked = dataset.odometry_path.empty();
   all = config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise();
@@ -48,7 +49,8 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   sequence.detections = detections;
   if (!sequence.odometry && !detections) return std::nullopt;
   if (!dataset.camera || !dataset.camera_right)
-    throw Error(ErrorKind::kBadInput, {dataset.name}, "needs calib.txt with P2 and P3 to make anything from its images");
+    throw Error(ErrorKind::kBadInput, {dataset.name},
+                "needs calib.txt with P2 and P3 to make anything from its images");
   sequence.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
   if (detections && !boxes.empty()) sequence.boxes = ReadBoxes(boxes);
   if (sequence.odometry) Log(LogLevel::kInfo, "no odometry: made from the images (--odometry names a file)");

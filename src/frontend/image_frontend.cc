@@ -54,7 +54,8 @@ struct ImageFrontend::Impl {
     item.frame = std::move(sequence.frames[next_frame++]);
     const ScopedTimer timer(loaded.timing, "image loading");
     ++loaded.frames;
-    for (const auto& [path, image] : {std::pair(&item.frame.image_left, &item.left), {&item.frame.image_right, &item.right}})
+    for (const auto& [path, image] :
+         {std::pair(&item.frame.image_left, &item.left), {&item.frame.image_right, &item.right}})
       if (!path->empty()) *image = hooks.load(*path);
     if (item.left.empty() || item.right.empty()) {
       ++loaded.images_failed;
@@ -101,8 +102,7 @@ struct ImageFrontend::Impl {
 
   // Puts what has been built so far on a thread of its own.
   void InBackground() {
-    running.push_back(
-        std::make_unique<Background<Item>>(std::move(stages), static_cast<std::size_t>(options.ahead)));
+    running.push_back(std::make_unique<Background<Item>>(std::move(stages), static_cast<std::size_t>(options.ahead)));
     stages = [stage = running.back().get()] { return stage->Next(); };
   }
 };

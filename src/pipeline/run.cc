@@ -7,9 +7,8 @@ namespace sslcd {
 namespace {
 
 bool LacksColour(const Frame& frame) {
-  return !frame.image_left.empty() && std::any_of(frame.detections.begin(), frame.detections.end(), [](const auto& d) {
-    return d.box && d.colour.empty();
-  });
+  return !frame.image_left.empty() && std::any_of(frame.detections.begin(), frame.detections.end(),
+                                                  [](const auto& d) { return d.box && d.colour.empty(); });
 }
 
 // Colour vectors for the detections that have a box and no colour yet; false when the image could not be read.

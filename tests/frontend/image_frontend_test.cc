@@ -34,7 +34,8 @@ Image Wall(int frame, bool right) {
   Image image{std::vector<unsigned char>(3 * kWidth * kHeight), kWidth, kHeight, 3};
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
-      const double x = (u - kWidth / 2) * depth / kFocal + (right ? kBaseline : 0), y = (v - kHeight / 2) * depth / kFocal;
+      const double x = (u - kWidth / 2) * depth / kFocal + (right ? kBaseline : 0),
+                   y = (v - kHeight / 2) * depth / kFocal;
       // Bilinear, 10 dots a metre.
       const double c = 200 + 10 * x, r = 200 + 10 * y;
       const int c0 = static_cast<int>(std::floor(c)), r0 = static_cast<int>(std::floor(r));

@@ -22,7 +22,7 @@ using BoxesByFrame = std::map<int, std::vector<ImageDetection>>;
 
 /// What the host does. Called from other threads where there is more than one, but never two calls of one at a time.
 struct FrontendHooks {
-  std::function<Image(const std::string& path)> load;           ///< reads an image file; an empty image where that fails
+  std::function<Image(const std::string& path)> load;  ///< reads an image file; an empty image where that fails
   std::function<void(const Frame&, const ImageView&)> watch{};  ///< each complete frame with its left image, in order
 };
 
@@ -49,13 +49,13 @@ struct FrontendReport {
 /// thread images are read, odometry, detections and whatever the caller does with the frames are made at the same time,
 /// each on a thread of its own, and a sequence takes as long as the slowest of them. The frames are the same.
 ///
-/// A frame one of whose images is missing or cannot be read is kept: its odometry is guessed (StereoOdometry) and it has
-/// no detections. A warning names it.
+/// A frame one of whose images is missing or cannot be read is kept: its odometry is guessed (StereoOdometry) and it
+/// has no detections. A warning names it.
 class ImageFrontend {
  public:
   /// Throws Error where a model cannot be loaded, there is nothing to make detections from, or no frame has images.
-  ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour,
-                FrontendHooks hooks, int threads);
+  ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour, FrontendHooks hooks,
+                int threads);
   ImageFrontend(ImageFrontend&&) noexcept;
   ~ImageFrontend();
 
