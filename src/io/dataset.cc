@@ -182,6 +182,16 @@ void Loader::AddImages() {
     frame.image_right = ImageOf(layout_.images_right, layout_.image_digits, frame.index);
     if (frame.index == 0 && !frame.image_left.empty()) size = PngSize(frame.image_left);
   }
+  if (layout_.odometry.empty()) {  // a stamp is no frame
+    const auto last = std::find_if(out_.frames.rbegin(), out_.frames.rend(),
+                                   [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });
+    const auto frames = static_cast<std::size_t>(out_.frames.rend() - last);
+    if (frames > 0 && frames < out_.frames.size()) {
+      Warn(layout_.times + ": " + std::to_string(out_.frames.size()) + " stamps, but images of " +
+           std::to_string(frames) + " frames only; the others are left out");
+      out_.frames.resize(frames);
+    }
+  }
   for (std::optional<Camera>* camera : {&out_.camera, &out_.camera_right}) {
     if (*camera && (*camera)->width == 0) (*camera)->width = size[0], (*camera)->height = size[1];
   }
