@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `find_package(sslcd)` gives sslcd::sslcd, from the static and from the shared build alike; tests/consumer holds it.
+# `find_package(sslcd)` gives sslcd::sslcd, and with COMPONENTS vision sslcd::vision too, from the static and from the
+# shared build alike; tests/consumer holds it.
 include(CMakePackageConfigHelpers)
 set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
-install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} PATTERN sim EXCLUDE
-  PATTERN render EXCLUDE PATTERN baselines EXCLUDE PATTERN benchmark EXCLUDE)  # for tests, benchmarks and the demo only
+set(left_out sim render baselines benchmark)  # for tests, benchmarks and the demo only
+if(NOT TARGET sslcd_vision)
+  list(APPEND left_out inference detectors stereo frontend)
+endif()
+list(JOIN left_out "|" left_out)
+install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "/sslcd/(${left_out})$" EXCLUDE)
 install(DIRECTORY third_party/lie/include/lie DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sslcd/third_party)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
@@ -12,6 +17,13 @@ install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
 set_target_properties(sslcd_lie PROPERTIES EXPORT_NAME lie)
 install(TARGETS sslcd sslcd_lie EXPORT sslcdTargets)
 install(EXPORT sslcdTargets NAMESPACE sslcd:: DESTINATION ${SSLCD_CONFIG_DIR})
+if(TARGET sslcd_vision)  # in a file of its own: what it links is looked for only where it is asked for
+  set_target_properties(sslcd_vision PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS sslcd_vision EXPORT sslcdVisionTargets)
+  install(EXPORT sslcdVisionTargets NAMESPACE sslcd:: DESTINATION ${SSLCD_CONFIG_DIR})
+  install(FILES cmake/SslcdOpenCV.cmake DESTINATION ${SSLCD_CONFIG_DIR})
+  install(DIRECTORY config/models DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd FILES_MATCHING PATTERN *.yaml)
+endif()
 if(TARGET sslcd_run)  # finds a shared sslcd wherever the installed tree is moved to
   set_target_properties(sslcd_run PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 endif()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # sslcd_find_opencv(core imgcodecs ...): targets opencv_core, opencv_imgcodecs, ...
-# Debian and Ubuntu keep OpenCVConfig.cmake in libopencv-dev, which brings 200 more packages than the three modules
+# Debian and Ubuntu keep OpenCVConfig.cmake in libopencv-dev, which brings 200 more packages than the few modules
 # we use. Where only those are installed, their headers and libraries are found one by one.
 function(sslcd_find_opencv)
   find_package(OpenCV 4 QUIET COMPONENTS ${ARGN})
@@ -10,6 +10,9 @@ function(sslcd_find_opencv)
   find_path(SSLCD_OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
   mark_as_advanced(SSLCD_OPENCV_INCLUDE_DIR)
   foreach(component ${ARGN})
+    if(TARGET opencv_${component})
+      continue()
+    endif()
     find_library(SSLCD_OPENCV_${component} opencv_${component})
     mark_as_advanced(SSLCD_OPENCV_${component})
     if(NOT SSLCD_OPENCV_INCLUDE_DIR OR NOT SSLCD_OPENCV_${component})

@@ -15,6 +15,7 @@ step(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${WORK_DIR}/build -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 step(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 step(${WORK_DIR}/build/consumer)
+step(${WORK_DIR}/build/consumer_vision ${WORK_DIR}/prefix/share/sslcd/models/yolo11.yaml)
 if(EXISTS ${WORK_DIR}/prefix/bin/sslcd_run)
   step(${WORK_DIR}/prefix/bin/sslcd_run version)
 endif()

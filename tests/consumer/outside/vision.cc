@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A host program with images: two stereo pairs of a textured wall with boxes on it, and models that cannot be loaded.
+//   consumer_vision MODEL_YAML    an installed description, whose model is not there
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sslcd/core/error.h"
+#include "sslcd/detectors/detector_2d.h"
+#include "sslcd/frontend/image_frontend.h"
+
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240, kCell = 6;  // [px]
+
+// A wall of squares of random grey, moved to the left by `disparity` pixels.
+sslcd::Image Wall(int disparity) {
+  sslcd::Image image{std::vector<unsigned char>(kWidth * kHeight), kWidth, kHeight, 1};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      unsigned cell = static_cast<unsigned>((x + disparity) / kCell + 101 * (y / kCell));
+      cell = (cell ^ (cell >> 3)) * 2654435761u;
+      image.pixels[static_cast<std::size_t>(y * kWidth + x)] = static_cast<unsigned char>(cell >> 24);
+    }
+  }
+  return image;
+}
+
+bool FramesFromImages() {
+  sslcd::ImageSequence sequence;
+  sequence.camera.left = {200, 200, kWidth / 2., kHeight / 2., {0, 0, 0}, kWidth, kHeight};
+  sequence.camera.baseline_m = 0.5;
+  sequence.odometry = true;
+  sequence.boxes.emplace();
+  for (int i = 0; i < 2; ++i) {
+    sslcd::Frame frame;
+    frame.index = i;
+    frame.image_left = "left";
+    frame.image_right = "right";
+    sequence.frames.push_back(frame);
+    (*sequence.boxes)[i] = {{"Car", 0.9, {100, 80, 180, 160}}, {"Sofa", 0.9, {100, 80, 180, 160}}};
+  }
+  const auto load = [](const std::string& path) { return Wall(path == "left" ? 0 : 10); };  // 10 m away
+  sslcd::ImageFrontend frontend(std::move(sequence), {}, {}, {load}, /*threads=*/2);
+  double moved_m = -1;
+  while (const std::optional<sslcd::Frame> frame = frontend.Next()) moved_m = frame->T_odom_cam.translation().norm();
+  const sslcd::FrontendReport report = frontend.Finish();
+  for (const auto& [status, count] : report.lift) std::printf("%d boxes: %s\n", count, sslcd::ToString(status));
+  std::printf("%d frames, %d lost, moved %.4f m\n", report.frames, report.lost, moved_m);
+  return report.frames == 2 && report.lost == 0 && moved_m >= 0 && moved_m < 0.01 &&
+         report.lift.at(sslcd::LiftStatus::kUnknownLabel) == 2;
+}
+
+// True if `load` throws an Error that has `text` in it.
+template <typename Load>
+bool Refuses(const char* text, const Load& load) {
+  try {
+    load();
+  } catch (const sslcd::Error& error) {
+    std::printf("%s\n", error.what());
+    return std::string(error.what()).find(text) != std::string::npos;
+  }
+  return false;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string description = argv[1];
+  sslcd::InferenceOptions nowhere;
+  nowhere.library = "/nowhere/libonnxruntime.so";
+  const bool refuses = Refuses("model", [&] { sslcd::Detector2d::Load(description); }) &&
+                       Refuses("missing.yaml", [] { sslcd::Detector2d::Load("missing.yaml"); }) &&
+                       Refuses("ONNX Runtime", [&] { sslcd::Session(description, nowhere); });
+  return refuses && FramesFromImages() ? 0 : 1;
+}
