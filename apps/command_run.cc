@@ -105,7 +105,7 @@ int Run(RunArguments& a, const Console& console) {
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
-  hooks.with_image = WithImage;
+  if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
   CatchInterrupt();
   RunResult result;
   std::vector<Frame> made;  // as the frontend has completed them

@@ -117,6 +117,9 @@ class DetectTest(CliCase):
         result = self.detected('--boxes', self.boxes)
         self.assertEqual(self.count(result, 'boxes lifted'), FRAMES)
         self.assertEqual(sorted(os.listdir(self.out)), sorted(set(SEQUENCE) - {'colours.npy'}))
+        run = call('run', self.data, '--boxes', self.boxes, '--out', self.out + '/run')
+        self.assertEqual((run.returncode, run.stderr), (0, ''))
+        self.assertNotIn('colour', read(self.out + '/run/timing.json'), 'what is grey has no colour')
 
     # models
     def test_models(self):
