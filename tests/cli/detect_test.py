@@ -4,9 +4,12 @@
 import json
 import os
 import shutil
+import signal
+import subprocess
 import tempfile
+import time
 
-from cli_case import CliCase, call, main, read, write
+from cli_case import CliCase, binaries, call, main, read, write
 from stereo_world import BASELINE, CALIB, CAR, HEIGHT, STEP, WIDTH, look, write_drive, write_png
 
 FRAMES = 8
@@ -236,6 +239,21 @@ class DetectTest(CliCase):
         write_png(self.data + '/image_3/000003.png', look(0, 0)[:HEIGHT // 2])
         self.assertEqual(self.detect('--boxes', self.boxes, '--force').returncode, 3)
         self.assertEqual(read(self.out + '/detections.txt'), before, 'a run that fails must leave what was there')
+
+    def test_interrupt_leaves_nothing_half_done(self):
+        for folder in ('image_2', 'image_3'):
+            for i in range(FRAMES, 400):
+                os.symlink(f'{i % FRAMES:06d}.png', f'{self.data}/{folder}/{i:06d}.png')
+        process = subprocess.Popen([binaries['run'], 'detect', self.data, '--boxes', self.boxes, '--out', self.out, '--overlays'],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        until = time.monotonic() + 30
+        while not os.path.exists(self.out + '/overlays/000002.jpg') and time.monotonic() < until:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertIn('interrupted', stderr)
+        self.assertEqual(os.listdir(self.out), ['overlays'])
 
     def make_grey(self):
         for index, folder in enumerate(('image_2', 'image_3')):
