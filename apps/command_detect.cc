@@ -42,6 +42,15 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
       ->check(CLI::PositiveNumber);
 }
 
+void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections) {
+  int with = 0, without = 0;
+  for (const auto& frame : detections)
+    for (const Detection& detection : frame) ++(detection.colour.empty() ? without : with);
+  if (with > 0 && without > 0)
+    Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
+                                " detections have no colour (their boxes lie outside the image): no colours.npy");
+}
+
 int Detect(DetectArguments& a, const Console& console) {
   a.config.Load();  // wrong ones first
   a.request.format = *ParseDatasetFormat(a.format);
@@ -49,7 +58,7 @@ int Detect(DetectArguments& a, const Console& console) {
   ChooseOdometry(a.request);
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  const Configuration configuration = a.images.Load(a.config, dataset);
+  const Configuration configuration = a.images.Load(a.config, dataset, true);
   const int total = static_cast<int>(dataset.frames.size());
 
   const fs::path out = a.out;
@@ -84,6 +93,7 @@ int Detect(DetectArguments& a, const Console& console) {
     Log(LogLevel::kWarning, "interrupted: nothing but overlays is written");
     return 130;
   }
+  WarnOfMissingColours(files.detections);
   WriteSequenceFiles(out, files);
   Configuration resolved = configuration;
   const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);

@@ -50,6 +50,10 @@ void AddOptions(CLI::App& command, RunArguments& a) {
 
 Dataset Load(RunArguments& a, const Console& console) {
   ChooseOdometry(a.request);
+  if (!a.images.embedder.empty() && !a.images.detects())
+    throw Error(ErrorKind::kUsage, "--embedder goes with detections made from images: add --detector or --boxes");
+  if (a.images.detects() && !a.request.detections.empty())
+    throw Error(ErrorKind::kUsage, "--detections names detections, --detector and --boxes make others: choose one");
   if (a.images.detects()) a.request.detections_policy = PartPolicy::kIgnored;
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
@@ -92,7 +96,7 @@ int Run(RunArguments& a, const Console& console) {
   a.config.Load();            // wrong ones first,
   MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
-  Configuration configuration = a.images.Load(a.config, dataset);
+  Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
   const Options& options = configuration.options;
   const int total = static_cast<int>(dataset.frames.size());
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
@@ -101,7 +105,7 @@ int Run(RunArguments& a, const Console& console) {
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
-  hooks.with_image = WithImage;
+  if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
   CatchInterrupt();
   RunResult result;
   std::vector<Frame> made;  // as the frontend has completed them

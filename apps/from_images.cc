@@ -14,23 +14,25 @@
 namespace sslcd::apps {
 
 void ImageArguments::AddTo(CLI::App& command) {
-  command.add_option("--detector", detector,
-                     "make detections from the images: YAML description of a 2D or 3D detector");
-  command.add_option("--boxes", boxes, "... or from 2D boxes: rows 'frame label score left top right bottom'");
+  command.add_option("--boxes", boxes, "make detections from 2D boxes: rows 'frame label score left top right bottom'");
+  command.add_option("--detector", detector, "... or from the images alone: YAML description of a 2D or 3D detector")
+      ->excludes("--boxes");
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
 
-Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset& dataset) const {
+Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset& dataset, bool detections) const {
   Configuration all = config.Load();
   const auto name_models = [this](Configuration& c) {
     if (!detector.empty()) c.vision.detector = detector;
     if (!embedder.empty()) c.vision.embedder = embedder;
   };
   name_models(all);
-  const bool lifts =
-      !boxes.empty() || (!all.vision.detector.empty() &&
-                         TaskOf(LoadModelDescription(all.vision.detector).output.layout) == ModelTask::kDetect2d);
-  const bool lifted = detects() && lifts, tracked = dataset.odometry_path.empty();
+  const auto detects_2d = [&all] {
+    return !all.vision.detector.empty() &&
+           TaskOf(LoadModelDescription(all.vision.detector).output.layout) == ModelTask::kDetect2d;
+  };
+  // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
+  const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
   all = config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise();
     if (!tracked) return;

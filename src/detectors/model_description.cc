@@ -23,6 +23,9 @@ void Check(const ModelDescription& model, const std::string& path) {
   if (output.labels.empty())
     refuse("'labels' in 'output' is missing: which classes are wanted and what they are called, e.g. {2: Car}");
   for (const auto& [number, label] : output.labels) {
+    if (label.empty() || label.find_first_of(" \t\r\n,") != std::string::npos)
+      refuse("'labels' calls class " + std::to_string(number) + " '" + label +
+             "': a label is one word without commas, e.g. TrafficLight");
     if (output.layout != ModelLayout::kBoxesScoresLabels && output.layout != ModelLayout::kYoloV10 &&
         number >= output.class_count)
       refuse("'labels' has class " + std::to_string(number) + ", but 'class_count' is " +

@@ -62,6 +62,16 @@ std::string ImageOf(const std::string& folder, int digits, int frame) {
   return "";
 }
 
+/// As many frames as it takes to reach the last image: one that is missing before it does not make the others later.
+int FramesOfImages(const std::string& folder) {
+  int count = 0;
+  for (const char* ending : {".png", ".jpg"}) {
+    const std::vector<NumberedFile> images = NumberedFiles(folder, ending);
+    if (!images.empty()) count = std::max(count, images.back().number + 1);
+  }
+  return count;
+}
+
 class Loader {
  public:
   explicit Loader(const DatasetRequest& request) : request_(request), layout_(FindDatasetLayout(request)) {}
@@ -156,8 +166,7 @@ void Loader::AddFramesWithoutPoses() {
   if (!layout_.times.empty()) {
     stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
   } else if (!layout_.images.empty()) {
-    for (std::size_t i = 0; i < FileNames(layout_.images).size(); ++i)
-      stamps.push_back(kKittiFrameStep * static_cast<double>(i));
+    for (int i = 0; i < FramesOfImages(layout_.images); ++i) stamps.push_back(kKittiFrameStep * i);
   }
   if (stamps.empty())
     throw Error(ErrorKind::kBadInput, {request_.path},
@@ -180,7 +189,8 @@ void Loader::AddImages() {
   for (Frame& frame : out_.frames) {
     frame.image_left = ImageOf(layout_.images, layout_.image_digits, frame.index);
     frame.image_right = ImageOf(layout_.images_right, layout_.image_digits, frame.index);
-    if (frame.index == 0 && !frame.image_left.empty()) size = PngSize(frame.image_left);
+    if (frame.index > 0 || frame.image_left.empty()) continue;
+    if (const auto in_file = PngSize(frame.image_left); in_file[0] > 0) size = in_file;
   }
   if (layout_.odometry.empty()) {  // a stamp is no frame
     const auto last = std::find_if(out_.frames.rbegin(), out_.frames.rend(),

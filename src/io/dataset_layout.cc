@@ -24,7 +24,8 @@ std::string Stem(const std::string& name) { return name.substr(0, name.find('.')
 
 bool LooksLikeSequence(const std::string& folder) {
   const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
-  return std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
+  return IsFolder(folder + "/image_2") ||
+         std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
 }
 bool LooksLikeRaw(const std::string& folder) {
   return IsFolder(folder + "/oxts/data") || IsFile(folder + "/tracklet_labels.xml");
@@ -40,10 +41,9 @@ DatasetFormat Guess(const std::string& root) {
   if (LooksLikeRaw(root)) return DatasetFormat::kKittiRaw;
   if (LooksLikeTracking(root)) return DatasetFormat::kKittiTracking;
   std::string message =
-      "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, detections.txt or "
-      "sequence.yaml), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or tracklet_labels.xml), KITTI "
-      "tracking "
-      "(calib/ or label_02/)";
+      "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, detections.txt, "
+      "sequence.yaml or image_2/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or tracklet_labels.xml), "
+      "KITTI tracking (calib/ or label_02/)";
   std::vector<std::string> inside;
   for (const std::string& name : FileNames(root)) {
     const std::string folder = root + "/" + name;
@@ -158,7 +158,8 @@ DatasetLayout RawLayout(const std::string& root) {
   return layout;
 }
 
-[[noreturn]] void FailMissing(const std::string& root, const DatasetLayout& layout, const char* what, bool poses) {
+[[noreturn]] void FailMissing(const std::string& root, const DatasetLayout& layout, const char* what, bool poses,
+                              PartPolicy policy) {
   std::string message = std::string("no ") + what + " here for '" + layout.name + "': name a file (--" + what + ")";
   if (layout.format == DatasetFormat::kKittiTracking) {
     message += "; there are: " + Join(Candidates(root, layout.name, poses));
@@ -167,6 +168,7 @@ DatasetLayout RawLayout(const std::string& root) {
   } else {
     message += poses ? " or add odometry.txt" : " or add detections.txt";
   }
+  if (policy == PartPolicy::kIfThere) message += "; or add left and right images (image_2, image_3) to make it from";
   throw Error(ErrorKind::kBadInput, {root}, message);
 }
 
@@ -212,8 +214,10 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
     const bool images = !layout.images.empty() && !layout.images_right.empty();
     return path.empty() && policy != PartPolicy::kIgnored && !(policy == PartPolicy::kIfThere && images);
   };
-  if (missing(layout.odometry, request.odometry_policy)) FailMissing(root, layout, "odometry", true);
-  if (missing(layout.detections, request.detections_policy)) FailMissing(root, layout, "detections", false);
+  if (missing(layout.odometry, request.odometry_policy))
+    FailMissing(root, layout, "odometry", true, request.odometry_policy);
+  if (missing(layout.detections, request.detections_policy))
+    FailMissing(root, layout, "detections", false, request.detections_policy);
   return layout;
 }
 

@@ -102,7 +102,10 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
     WriteFileAtomically((folder / name).string(), text);
   };
   const auto write_or_remove = [&](const char* name, const std::string& bytes) {
-    bytes.empty() ? void(std::filesystem::remove(folder / name)) : write(name, bytes);
+    if (!bytes.empty()) return write(name, bytes);
+    std::error_code error;
+    std::filesystem::remove(folder / name, error);
+    if (error) throw Error(ErrorKind::kOutput, (folder / name).string() + ": cannot be removed: " + error.message());
   };
   write_or_remove("calib.txt", files.camera ? Calib(*files.camera) : "");
   write("times.txt", Times(files.odometry.stamps));

@@ -104,6 +104,22 @@ TEST(Image, OnesThatCannotBeReadAreRefused) {
   EXPECT_THROW(CheckImages({{bytes, 2, 2, 2, 1}, {bytes, 2, 1, 2, 1}}), Error);
 }
 
+TEST(Image, ViewIsOfItsOwnPixels) {
+  for (const int channels : {1, 3}) {
+    const Image image{std::vector<unsigned char>(static_cast<std::size_t>(4 * 2 * channels), 7), 4, 2, channels};
+    EXPECT_FALSE(image.empty());
+    const ImageView view = image.view();
+    EXPECT_EQ(view.data, image.pixels.data());
+    EXPECT_EQ(view.width, 4);
+    EXPECT_EQ(view.height, 2);
+    EXPECT_EQ(view.channels, channels);
+    EXPECT_EQ(view.stride * 2, image.pixels.size()) << "no gaps between rows";
+    EXPECT_NO_THROW(CheckImage(view, "image"));
+  }
+  EXPECT_TRUE(Image().empty());
+  EXPECT_THROW(CheckImage(Image().view(), "image"), Error);
+}
+
 TEST(StereoCamera, HasABaseline) {
   const Camera left{700, 700, 600, 180, {0.06, 0, 0}, 1242, 375};
   Camera right = left;

@@ -19,6 +19,23 @@ TEST(TimingTable, PercentilesAreNearestRanks) {
   EXPECT_EQ(summary.at("other").p50, 7);
 }
 
+TEST(TimingTable, AppendPutsSamplesTogether) {
+  TimingTable table, other;
+  table.Add("both", 1);
+  table.Add("mine", 2);
+  other.Add("both", 5);
+  other.Add("theirs", 3);
+  table.Append(other);
+  table.Append({});
+  const auto summary = table.Summary();
+  EXPECT_EQ(summary.size(), 3u);
+  EXPECT_EQ(summary.at("both").count, 2);
+  EXPECT_EQ(summary.at("both").mean, 3);
+  EXPECT_EQ(summary.at("mine").count, 1);
+  EXPECT_EQ(summary.at("theirs").max, 3);
+  EXPECT_EQ(other.Summary().at("both").count, 1) << "nothing was taken away";
+}
+
 TEST(ScopedTimer, AddsOneSample) {
   TimingTable table;
   { const ScopedTimer timer(table, "stage"); }

@@ -47,6 +47,8 @@ TEST(ModelDescription, IsStrict) {
   refuses("output: {labels: {0: Car}}\n", {"'file' is missing"});
   refuses("file: a.onnx\n", {"'labels' in 'output' is missing", "{2: Car}"});
   refuses("file: a.onnx\noutput: {class_count: 2, labels: {2: Car}}\n", {"class 2", "'class_count' is 2"});
+  for (const char* label : {"Big Car", "''", "'Car,'", "'\tCar'"})
+    refuses("file: a.onnx\noutput: {labels: {0: " + std::string(label) + "}}\n", {"class 0", "one word"});
   refuses("file: a.onnx\noutput: {labels: {car: Car}}\n", {"m.yaml:2:19", "'labels' has 'car'", "whole number"});
   refuses("file: a.onnx\noutput: {labels: [Car]}\n", {"'labels' is a list or map, must be names by number"});
   refuses("file: a.onnx\ninput: {std: [1, 0, 1]}\n", {"m.yaml:2:18: 'std' is 0, must be in"});

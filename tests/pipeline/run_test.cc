@@ -106,6 +106,60 @@ TEST(RunSequence, RepeatsToTheByte) {
   EXPECT_EQ(bytes(), bytes());
 }
 
+std::string Bytes(const RunResult& result) {
+  return TumText(result.trajectory) + TumText(result.odometry) + MapJson({Vec3(0, -1, 0), result.objects}) +
+         G2oText(result.graph);
+}
+
+TEST(RunSequence, FramesThatComeOneByOneAreTheSame) {
+  const Scene scene = Street(4, 2., 120);
+  std::size_t next = 0;
+  int last_total = 0;
+  RunHooks hooks;
+  hooks.progress = [&](int done, int total) {
+    EXPECT_EQ(done, static_cast<int>(next)) << "a frame is asked for when it is needed, no sooner";
+    last_total = total;
+  };
+  const FrameSource source = [&]() -> std::optional<Frame> {
+    return next < scene.frames.size() ? std::optional<Frame>(scene.frames[next++]) : std::nullopt;
+  };
+  const RunResult streamed = RunSequence(source, 7, scene.context, {}, hooks);
+  const RunResult stored = RunSequence(scene.frames, scene.context, {});
+  EXPECT_EQ(Bytes(streamed), Bytes(stored));
+  EXPECT_EQ(streamed.frames, stored.frames);
+  EXPECT_FALSE(streamed.objects.empty());
+  EXPECT_FALSE(streamed.stopped);
+  EXPECT_EQ(last_total, 7);
+}
+
+TEST(RunSequence, AStopInTheMiddleOfASourceKeepsWhatThereIs) {
+  const Scene scene = Street(1, 1., 60);
+  std::size_t asked = 0;
+  RunHooks hooks;
+  hooks.stop = [&] { return asked == 25; };
+  const RunResult result =
+      RunSequence([&] { return std::optional<Frame>(scene.frames[asked++]); }, 60, scene.context, {}, hooks);
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(asked, 25u) << "no frame is taken and left";
+  EXPECT_EQ(result.frames.size(), 25u);
+  const std::vector<Frame> first(scene.frames.begin(), scene.frames.begin() + 25);
+  EXPECT_EQ(Bytes(result), Bytes(RunSequence(first, scene.context, {})));
+}
+
+TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
+  const Scene scene = Street(1, 1., 10);
+  const RunResult nothing = RunSequence([] { return std::optional<Frame>(); }, 0, scene.context, {});
+  EXPECT_TRUE(nothing.frames.empty());
+  EXPECT_TRUE(nothing.objects.empty());
+  EXPECT_FALSE(nothing.stopped);
+  int asked = 0;
+  const FrameSource broken = [&]() -> std::optional<Frame> {
+    if (asked == 3) throw Error(ErrorKind::kBadInput, "the camera is gone");
+    return scene.frames[asked++];
+  };
+  EXPECT_THROW(RunSequence(broken, 10, scene.context, {}), Error);
+}
+
 TEST(RunSequence, PaperModeRuns) {
   const Scene scene = Street(1, 1., 100);
   const RunResult result = RunSequence(scene.frames, scene.context, DefaultOptions(Options::Mode::kPaper));

@@ -66,7 +66,8 @@ class ImageFrontend {
   /// Labels whose front and back lifting does not tell apart become Symmetry::kPi, but for those in the table.
   void AddLabels(LabelTable& labels) const;
 
-  /// Of the frames handed out. Ends the sequence.
+  /// Of the frames begun: more than were handed out where there is more than one thread and it ends early. Ends the
+  /// sequence.
   FrontendReport Finish();
 
  private:

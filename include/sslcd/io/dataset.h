@@ -29,7 +29,8 @@ const char* ToString(DatasetFormat format);
 std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text);
 
 /// How much a part is wanted that can be made from images, too. Where there is no odometry, the frames' poses are the
-/// identity, and there are as many as stamps, else as left images; without detections, theirs are none.
+/// identity, and there are as many as stamps, else as the last left image's number says; without detections, theirs are
+/// none.
 enum class PartPolicy {
   kNeeded,   ///< an error where there is none
   kIfThere,  ///< none is no error where there are left and right images
