@@ -22,6 +22,7 @@ namespace sslcd {
 namespace {
 
 constexpr double kKittiFrameStep = 0.1;                                // [s]
+constexpr int kMostFrames = 1'000'000;                                 // by their images: the digits of a name
 constexpr int kKittiTrackingWidth = 1242, kKittiTrackingHeight = 375;  // [px]; a few sequences are some pixels off
 constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking", "kitti-raw",
                                                      "sequence"};
@@ -67,7 +68,11 @@ int FramesOfImages(const std::string& folder) {
   int count = 0;
   for (const char* ending : {".png", ".jpg"}) {
     const std::vector<NumberedFile> images = NumberedFiles(folder, ending);
-    if (!images.empty()) count = std::max(count, images.back().number + 1);
+    if (images.empty()) continue;
+    const auto& [number, path] = images.back();
+    if (number >= kMostFrames)
+      throw Error(ErrorKind::kBadInput, {path}, "is no frame's number; they count from 000000");
+    count = std::max(count, number + 1);
   }
   return count;
 }

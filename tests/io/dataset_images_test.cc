@@ -128,6 +128,11 @@ TEST_F(Images, FoldersMayBeEmpty) {
   ExpectError([this] { Load(); }, {"no frames"});
 }
 
+TEST_F(Images, AreNotNamedByTime) {
+  folder_.Write("image_2/1403636579.png", "picture");
+  ExpectError([this] { Load(); }, {"image_2/1403636579.png", "count from 000000"});
+}
+
 TEST_F(Images, MayBeJpegs) {
   Remove("image_2/000001.png");
   Remove("image_3/000001.png");
