@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "from_images.h"
 #include "overlay.h"
+#include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
@@ -51,6 +52,18 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
                                 " detections have no colour (their boxes lie outside the image): no colours.npy");
 }
 
+// What is written has the names of what was read.
+void RefuseInput(const fs::path& out, const Dataset& dataset) {
+  std::vector<fs::path> inputs = {dataset.odometry_path};
+  for (const Frame& frame : dataset.frames)
+    if (!frame.image_left.empty()) inputs.push_back(fs::path(frame.image_left).parent_path());
+  std::error_code none;
+  for (const fs::path& input : inputs)
+    if (!input.empty() && fs::equivalent(out, input.parent_path(), none))
+      throw Error(ErrorKind::kUsage,
+                  out.string() + ": holds the images or the odometry that are read; write elsewhere");
+}
+
 int Detect(DetectArguments& a, const Console& console) {
   a.config.Load();  // wrong ones first
   a.request.format = *ParseDatasetFormat(a.format);
@@ -70,9 +83,11 @@ int Detect(DetectArguments& a, const Console& console) {
       number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
       WriteOverlay((out / "overlays" / (number + ".jpg")).string(), frame, left, camera);
     };
-  ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
+  RefuseInput(out, dataset);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
+  ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
+  if (dataset.odometry_path.empty()) console.Say("odometry: made from the images");
 
   SequenceFiles files;
   if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);

@@ -100,6 +100,7 @@ int Run(RunArguments& a, const Console& console) {
   const Options& options = configuration.options;
   const int total = static_cast<int>(dataset.frames.size());
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
+  if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
   MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
 
   RunHooks hooks;

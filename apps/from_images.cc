@@ -54,8 +54,14 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
     throw Error(ErrorKind::kBadInput, {dataset.name},
                 "needs calib.txt with P2 and P3 to make anything from its images");
   sequence.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  if (detections && !boxes.empty()) sequence.boxes = ReadBoxes(boxes);
-  if (sequence.odometry) Log(LogLevel::kInfo, "no odometry: made from the images (--odometry names a file)");
+  if (detections && !boxes.empty()) {
+    sequence.boxes = ReadBoxes(boxes);
+    const auto beyond = sequence.boxes->lower_bound(static_cast<int>(dataset.frames.size()));
+    const auto count = std::distance(beyond, sequence.boxes->end());
+    if (count > 0)
+      Log(LogLevel::kWarning, boxes + ": has boxes of " + std::to_string(count) + " frames after the last one (" +
+                                  std::to_string(dataset.frames.size() - 1) + "); they are left out");
+  }
   sequence.frames = std::move(dataset.frames);
   ImageFrontend frontend(std::move(sequence), configuration.vision, configuration.options.colour,
                          {LoadImage, std::move(watch)}, threads);
@@ -71,6 +77,11 @@ void ChooseOdometry(DatasetRequest& request) {
 }
 
 std::string FrontendTable(const FrontendReport& report) {
+  std::string unknown;
+  for (const std::string& label : report.unknown) unknown += " " + label;
+  if (!unknown.empty())
+    Log(LogLevel::kWarning, "boxes that no sizes are known for are not lifted:" + unknown +
+                                "; map them to known labels (docs/models.md), which vision.lift.classes lists");
   std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(report.frames)},
                                                 {"without images", std::to_string(report.images_failed)},
                                                 {"odometry guessed", std::to_string(report.lost)}};

@@ -34,6 +34,13 @@ void Naming(const Frame& frame, const F& work) {
 }  // namespace
 
 struct ImageFrontend::Impl {
+  ~Impl() { Stop(); }
+  // Later stages ask earlier ones, so they go first.
+  void Stop() {
+    stages = {};
+    while (!running.empty()) running.pop_back();
+  }
+
   ImageSequence sequence;
   VisionOptions options;
   FrontendHooks hooks;
@@ -135,9 +142,7 @@ ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& option
 
 ImageFrontend::ImageFrontend(ImageFrontend&&) noexcept = default;
 
-ImageFrontend::~ImageFrontend() {
-  if (impl_) Finish();
-}
+ImageFrontend::~ImageFrontend() = default;
 
 std::optional<Frame> ImageFrontend::Next() {
   if (!impl_->stages) return std::nullopt;
@@ -150,12 +155,11 @@ std::optional<Frame> ImageFrontend::Next() {
 void ImageFrontend::AddLabels(LabelTable& labels) const {
   if (!impl_->finder || !impl_->finder->lifts()) return;
   for (const auto& [label, prior] : impl_->options.lift.classes)
-    if (labels.entries().count(label) == 0) labels.Set(label, {Symmetry::kPi});
+    if (labels[label].symmetry == Symmetry::kNone) labels.Set(label, {Symmetry::kPi});
 }
 
 FrontendReport ImageFrontend::Finish() {
-  impl_->stages = {};
-  while (!impl_->running.empty()) impl_->running.pop_back();
+  impl_->Stop();
   FrontendReport report = impl_->found;
   report.frames = impl_->loaded.frames;
   report.images_failed = impl_->loaded.images_failed;

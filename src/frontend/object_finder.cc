@@ -35,6 +35,7 @@ std::vector<Detection> ObjectFinder::Lift(int frame, const StereoView& images, F
   std::vector<Detection> detections;
   for (LiftedBox& box : LiftBoxes(images, camera_, boxes, lift_)) {
     ++report.lift[box.status];
+    if (box.status == LiftStatus::kUnknownLabel) report.unknown.insert(box.detection.label);
     if (box.status == LiftStatus::kLifted) detections.push_back(std::move(box.detection));
   }
   return detections;

@@ -166,7 +166,7 @@ void Loader::AddFrames() {
 }
 
 void Loader::AddFramesWithoutPoses() {
-  out_.up_axis = up_axis_.value_or(Vec3(0, -1, 0));
+  out_.up_axis = Vec3(0, -1, 0);  // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
   std::vector<double> stamps;
   if (!layout_.times.empty()) {
     stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
@@ -205,6 +205,7 @@ void Loader::AddImages() {
       Warn(layout_.times + ": " + std::to_string(out_.frames.size()) + " stamps, but images of " +
            std::to_string(frames) + " frames only; the others are left out");
       out_.frames.resize(frames);
+      frames_in_file_ = frames;
     }
   }
   for (std::optional<Camera>* camera : {&out_.camera, &out_.camera_right}) {

@@ -180,9 +180,11 @@ TEST_F(ImageFrontendTest, LiftedLabelsAreTheSameFromBehind) {
   ImageFrontend frontend(Approach(1), {}, {}, {Load}, 1);
   LabelTable labels;
   labels.Set("Van", {Symmetry::kNone});
+  labels.Set("Pedestrian", {Symmetry::kFull});
   frontend.AddLabels(labels);
   EXPECT_EQ(labels["Car"].symmetry, Symmetry::kPi);
-  EXPECT_EQ(labels["Van"].symmetry, Symmetry::kNone) << "known already";
+  EXPECT_EQ(labels["Van"].symmetry, Symmetry::kPi) << "told so of other detections";
+  EXPECT_EQ(labels["Pedestrian"].symmetry, Symmetry::kFull);
 }
 
 }  // namespace

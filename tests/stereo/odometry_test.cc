@@ -139,7 +139,9 @@ TEST(StereoOdometry, StartsAnewWhereItBelievesToBe) {
   for (std::size_t i = 0; i < truth.size(); ++i) {
     step = odometry.AddFrame((i < 6 ? tunnel : other).Look(truth[i]).view());
     statuses.push_back(step.status);
-    if (i == 8) EXPECT_LT(step.covariance.trace(), 1e-3) << "measured from the new start, not from before the gap";
+    if (i == 8) {
+      EXPECT_LT(step.covariance.trace(), 1e-3) << "measured from the new start, not from before the gap";
+    }
   }
   EXPECT_EQ(std::count(statuses.begin(), statuses.end(), OdometryStatus::kLost), 2);
   EXPECT_EQ(statuses[8], OdometryStatus::kTracked);

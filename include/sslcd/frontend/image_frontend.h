@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct FrontendReport {
   int images_failed = 0;           ///< frames that lack an image, or have one that cannot be read
   int lost = 0;                    ///< frames whose odometry had to be guessed, those among them
   std::map<LiftStatus, int> lift;  ///< boxes, by what became of them
+  std::set<std::string> unknown;   ///< labels of boxes that lifting knows no sizes of
   int detections = 0;
   TimingTable timing;
 };
@@ -63,7 +65,8 @@ class ImageFrontend {
   /// there but are no pair, or have the wrong number of channels, and where a model fails.
   std::optional<Frame> Next();
 
-  /// Labels whose front and back lifting does not tell apart become Symmetry::kPi, but for those in the table.
+  /// Labels of lifted cuboids, whose front and back are not told apart: Symmetry::kNone, of the table or by default,
+  /// becomes kPi.
   void AddLabels(LabelTable& labels) const;
 
   /// Of the frames begun: more than were handed out where there is more than one thread and it ends early. Ends the
