@@ -200,7 +200,7 @@ SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& 
 std::vector<Frame> MakeFrames(const Trajectory& odometry, const SimulatedDetections& detections) {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < std::min(odometry.size(), detections.frames.size()); ++i) {
-    frames.push_back({static_cast<int>(i), odometry.stamps[i], odometry.poses[i], detections.frames[i], ""});
+    frames.push_back({static_cast<int>(i), odometry.stamps[i], odometry.poses[i], detections.frames[i], "", ""});
   }
   return frames;
 }
