@@ -4,18 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "sslcd/core/error.h"
+#include "temp_folder.h"
 
 namespace sslcd {
 namespace {
 
 std::map<int, std::vector<ImageDetection>> Read(const std::string& text) {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "boxes_reader_test.txt").string();
-  std::ofstream(path) << text;
-  return ReadBoxes(path);
+  const TempFolder folder;
+  return ReadBoxes(folder.Write("boxes_reader_test.txt", text));
 }
 
 TEST(ReadBoxes, KeepsTheOrderWithinAFrame) {
