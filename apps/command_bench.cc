@@ -6,7 +6,6 @@
 #include <functional>
 #include <memory>
 #include <sstream>
-#include <thread>
 
 #include "bench_kitti.h"
 #include "commands.h"
@@ -267,7 +266,7 @@ class Bench {
 };
 
 int RunBench(BenchArguments& arguments, const Console& console) {
-  if (arguments.threads == 0) arguments.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (arguments.threads == 0) arguments.threads = HardwareThreads();
   std::sort(arguments.cases.begin(), arguments.cases.end());
   arguments.cases.erase(std::unique(arguments.cases.begin(), arguments.cases.end()), arguments.cases.end());
   CatchInterrupt();

@@ -109,10 +109,17 @@ int Run(RunArguments& a, const Console& console) {
   if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
   CatchInterrupt();
   RunResult result;
-  std::vector<Frame> made;  // as the frontend has completed them
+  std::vector<Frame> made;       // as the frontend has completed them
+  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   if (frontend) {
     const auto next = [&] {
-      std::optional<Frame> frame = frontend->Next();
+      std::optional<Frame> frame;
+      try {
+        frame = frontend->Next();
+      } catch (const Error& error) {
+        if (made.empty()) throw;
+        failure = error;
+      }
       if (frame) made.push_back(*frame);
       return frame;
     };
@@ -149,6 +156,10 @@ int Run(RunArguments& a, const Console& console) {
   console.Say(ResultTable(result, outputs.metrics));
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
+  if (failure) {
+    Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
+    throw *failure;
+  }
   if (result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
   return result.stopped ? 130 : 0;
 }

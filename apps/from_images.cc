@@ -2,7 +2,6 @@
 #include "from_images.h"
 
 #include <algorithm>
-#include <thread>
 
 #include "console.h"
 #include "image_loader.h"
@@ -90,7 +89,5 @@ std::string FrontendTable(const FrontendReport& report) {
   rows.push_back({"detections", std::to_string(report.detections)});
   return AlignedTable(rows);
 }
-
-int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 }  // namespace sslcd::apps

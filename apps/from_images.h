@@ -36,7 +36,4 @@ void ChooseOdometry(DatasetRequest& request);
 /// What became of images and boxes: for people.
 std::string FrontendTable(const FrontendReport& report);
 
-/// What the machine has, for --threads.
-int HardwareThreads();
-
 }  // namespace sslcd::apps

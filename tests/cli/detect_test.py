@@ -195,6 +195,10 @@ class DetectTest(CliCase):
         for threads in (1, 4):
             self.refused(self.detect('--boxes', self.boxes, '--threads', threads), 3, 'image_2/000003.png',
                          f'{WIDTH}x{HEIGHT}', f'{WIDTH}x{HEIGHT // 2}')
+            result = call('run', self.data, '--boxes', self.boxes, '--out', self.data + '/run', '--threads', threads)
+            self.assertEqual(result.returncode, 3)
+            self.assertIn('image_2/000003.png', result.stderr)
+            self.assertEqual(len(read(self.data + '/run/trajectory_tum.txt').splitlines()), 3, 'the frames before it')
 
     def test_no_images(self):
         shutil.rmtree(self.data + '/image_3')

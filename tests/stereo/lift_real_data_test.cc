@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "io/temp_folder.h"
 #include "sslcd/io/calib_reader.h"
 #include "sslcd/perception/opencv_image.h"
 #include "sslcd/stereo/lift.h"
@@ -21,9 +20,7 @@ const std::map<int, Box2d> kOncoming{{7, {391, 180, 462, 228}},  {8, {364, 182, 
                                      {10, {265, 183, 400, 262}}, {11, {170, 185, 361, 283}}, {12, {1, 186, 302, 323}}};
 
 TEST(LiftBoxes, OncomingCarMovesSmoothlyAndHasTheSizeOfACar) {
-  const char* root = std::getenv("SSLCD_DATA_DIR");
-  const std::string folder = std::string(root ? root : "../shared/data") + "/kitti-stereo-color";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  SSLCD_REAL_DATA(folder, "kitti-stereo-color");
   const Calibration calibration = ReadCalibration(folder + "/calib.txt");
   const StereoCamera camera = MakeStereoCamera(*calibration.left, *calibration.right);
   LiftOptions options;
