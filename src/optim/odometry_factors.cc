@@ -15,12 +15,13 @@ namespace {
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kApart = 40;        // [m] of path between the loops of a cycle, so that cycles tell different things
-constexpr double kPriorSigma = 0.5;  // of the log of a factor
+constexpr double kPriorSigma = 0.3;  // of the log of a factor
 
-/// The odometry alone: its trajectory, its path, and of the step to each vertex the variances and where up is.
+/// The odometry alone: its trajectory, its path, and of the step to each vertex the covariances and where up is.
 struct Chain {
   std::vector<Pose> poses;
-  std::vector<double> travelled, translation_variance, rotation_variance;
+  std::vector<double> travelled;
+  std::vector<Eigen::Matrix3d> translation_covariance, rotation_covariance;
   std::vector<Vec3> up;      // in the vertex's frame
   std::map<int, int> index;  // id -> vertex
 };
@@ -48,8 +49,8 @@ Chain ChainOf(const PoseGraph& graph, const Vec3& up) {
     chain.poses.push_back(first ? Pose() : chain.poses.back() * step.T_from_to);
     chain.travelled.push_back(first ? 0. : chain.travelled.back() + step.T_from_to.translation().norm());
     chain.up.push_back(graph.vertices[i].T_world_vertex.so3().inverse() * up);
-    chain.translation_variance.push_back(1 / step.information(0, 0));
-    chain.rotation_variance.push_back(1 / step.information(3, 3));
+    chain.translation_covariance.push_back(step.information.topLeftCorner<3, 3>().inverse());
+    chain.rotation_covariance.push_back(step.information.bottomRightCorner<3, 3>().inverse());
   }
   return chain;
 }
@@ -79,13 +80,13 @@ void AddSteps(const Chain& chain, int a, int b, const Pose& T_end_world, Cycle& 
     const Mat6 J = (T_end_world * chain.poses[k]).Adj();
     const Eigen::Matrix3d vertical = chain.up[k] * chain.up[k].transpose();
     const Eigen::Matrix3d level = Eigen::Matrix3d::Identity() - vertical;
-    const auto add = [&J](double variance, int first, const Eigen::Matrix3d& along, Mat6& to) {
-      to += variance * J.middleCols<3>(first) * along * J.middleCols<3>(first).transpose();
+    const auto add = [&J](const Eigen::Matrix3d& covariance, int first, const Eigen::Matrix3d& along, Mat6& to) {
+      to += J.middleCols<3>(first) * along * covariance * along * J.middleCols<3>(first).transpose();
     };
-    add(chain.translation_variance[k], 0, level, cycle.horizontal);
-    add(chain.translation_variance[k], 0, vertical, cycle.fixed);
-    add(chain.rotation_variance[k], 3, vertical, cycle.heading);
-    add(chain.rotation_variance[k], 3, level, cycle.fixed);
+    add(chain.translation_covariance[k], 0, level, cycle.horizontal);
+    add(chain.translation_covariance[k], 0, vertical, cycle.fixed);
+    add(chain.rotation_covariance[k], 3, vertical, cycle.heading);
+    add(chain.rotation_covariance[k], 3, level, cycle.fixed);
   }
 }
 

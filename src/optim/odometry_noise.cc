@@ -7,7 +7,8 @@ namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
   visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10, "translation error of any two frames");
-  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "translation random walk, m per sqrt(m)");
+  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "horizontal random walk, m per sqrt(m)");
+  visitor.Real("vertical_walk", noise.vertical_walk, 0, 10, "vertical random walk, m per sqrt(m)");
   visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1, "rotation error of any two frames");
   visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
   visitor.Real("rotation_turn", noise.rotation_turn, 0, 1, "rotation error per turn, rad per rad");
@@ -20,13 +21,22 @@ OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
   const double turn = T_from_to.so3().Log().norm();
   const double walked = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * root);
   return {std::hypot(noise.translation_floor_m, noise.translation_walk * root),
+          std::hypot(noise.translation_floor_m, noise.vertical_walk * root),
           std::hypot(walked, noise.rotation_turn * turn)};
 }
 
 OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors, const Vec3& up) {
   const Eigen::Matrix3d vertical = up * up.transpose(), horizontal = Eigen::Matrix3d::Identity() - vertical;
-  return {(horizontal / factors.horizontal + vertical) / sigmas.translation,
+  return {horizontal / (factors.horizontal * sigmas.horizontal) + vertical / sigmas.vertical,
           (horizontal + vertical / factors.heading) / sigmas.rotation};
+}
+
+Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up) {
+  const OdometryWhitening whitening = WhiteningOf(sigmas, {}, up);
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  information.topLeftCorner<3, 3>() = whitening.translation * whitening.translation;
+  information.bottomRightCorner<3, 3>() = whitening.rotation * whitening.rotation;
+  return information;
 }
 
 }  // namespace sslcd

@@ -221,7 +221,7 @@ void LoopCloser::Correct(double here_m, double scale) {
     loops.push_back(&attempt);
     edges.push_back({attempt.loop.match, attempt.loop.query, &attempt.loop.row});
   }
-  LoopGraph graph = BuildLoopGraph(frames_, edges, scale, options_.loop);
+  LoopGraph graph = BuildLoopGraph(frames_, edges, scale, map_.gravity().up, options_.loop);
   if (options_.mode == Options::Mode::kPaper) {
     if (!SolvePoseGraph(graph.graph, options_.loop.graph.graph).usable) return;
   } else {
@@ -271,7 +271,8 @@ OdometryFactors LoopCloser::LearnOdometry(double scale) const {
     if (attempt.loop.row.decision == LoopDecision::kAccepted)
       edges.push_back({attempt.loop.match, attempt.loop.query, &attempt.loop.row});
   if (!options_.loop.learn_odometry || options_.mode == Options::Mode::kPaper) return {};
-  return LearnOdometryFactors(BuildLoopGraph(frames_, edges, scale, options_.loop).graph, map_.gravity().up);
+  const Vec3 up = map_.gravity().up;
+  return LearnOdometryFactors(BuildLoopGraph(frames_, edges, scale, up, options_.loop).graph, up);
 }
 
 void LoopCloser::Review() {

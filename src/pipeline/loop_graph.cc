@@ -10,7 +10,7 @@
 namespace sslcd {
 
 LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vector<LoopEdge>& loops, double scale,
-                         const LoopOptions& options) {
+                         const Vec3& up, const LoopOptions& options) {
   constexpr double kTurn = 0.5;  // [rad] that makes a keyframe
   LoopGraph result;
   std::set<int> chosen;
@@ -25,11 +25,9 @@ LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vect
     edge.from = result.keyframes[k - 1];
     edge.to = result.keyframes[k];
     edge.T_from_to = frames[edge.from].T_odom_cam.inverse() * frames[edge.to].T_odom_cam;
-    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options.odometry);
+    const Vec3 up_here = frames[edge.to].T_world_cam.so3().inverse() * up;
+    edge.information = InformationOf(SigmasOf(edge.T_from_to, options.odometry), up_here);
     edge.T_from_to.translation() *= scale;
-    edge.information.setZero();
-    edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));
-    edge.information.diagonal().tail<3>().setConstant(1 / (sigmas.rotation * sigmas.rotation));
   }
   result.first_loop = graph.edges.size();
   result.kept_before.assign(graph.edges.size(), 1.);

@@ -22,9 +22,9 @@ struct LoopGraph {
   std::vector<double> kept_before;  ///< per edge, for SolveRobust
 };
 
-/// `scale`: metres per odometry metre.
+/// `scale`: metres per odometry metre. `up`: unit vector against gravity. [world]
 LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vector<LoopEdge>& loops, double scale,
-                         const LoopOptions& options);
+                         const Vec3& up, const LoopOptions& options);
 
 /// How the layout around a camera moves with it: yaw about its place. Heights are the layout's own and stay.
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity);

@@ -79,7 +79,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLa
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
   const Pose since = frames_[last_seen].T_odom_cam.inverse() * frames_[loop.query].T_odom_cam;
   const OdometrySigmas walked = loop.query > last_seen ? SigmasOf(since, options_.odometry) : OdometrySigmas{};
-  row.covariance.diagonal().head<3>().array() += std::pow(std::hypot(options_.sigma_m, walked.translation), 2);
+  row.covariance.diagonal().head<3>().array() += std::pow(std::hypot(options_.sigma_m, walked.horizontal), 2);
   row.covariance.diagonal().tail<3>().array() += std::pow(std::hypot(options_.sigma_rad, walked.rotation), 2);
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
@@ -116,7 +116,7 @@ double LoopMeter::Bent(int frame, double seen_m) const {
   constexpr double kRange = 10.;  // from which an object is seen [m]
   const Pose step = frames_[frame].T_odom_cam.inverse() * frames_[FrameAt(seen_m)].T_odom_cam;
   const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
-  return std::hypot(sigmas.translation, sigmas.rotation * (0.5 * step.translation().norm() + kRange));
+  return std::hypot(sigmas.horizontal, sigmas.rotation * (0.5 * step.translation().norm() + kRange));
 }
 
 // Turns the world about a camera so that the cameras around it stand upright on average.

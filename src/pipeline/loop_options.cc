@@ -10,7 +10,8 @@ LoopOptions::LoopOptions() {
   drift.six_dof = true;                 // odometry's tilt drifts, too
   drift.tilt_sigma_rad = 0.03;
   odometry.translation_floor_m = 0.02;
-  odometry.translation_walk = 0.1;
+  odometry.translation_walk = 0.05;
+  odometry.vertical_walk = 0.1;
   odometry.rotation_floor_rad = 2e-3;
   odometry.rotation_walk = 5e-3;
   odometry.rotation_turn = 0.05;

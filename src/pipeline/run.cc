@@ -29,11 +29,9 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     edge.from = frames[i - 1].frame;
     edge.to = frames[i].frame;
     edge.T_from_to = frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam;
-    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, noise);
+    const Vec3 up_here = frames[i].T_world_cam.so3().inverse() * mapper.map().gravity().up;
+    edge.information = InformationOf(SigmasOf(edge.T_from_to, noise), up_here);
     edge.T_from_to.translation() *= mapper.scale();
-    edge.information.setZero();
-    edge.information.diagonal().head<3>().setConstant(1 / (sigmas.translation * sigmas.translation));
-    edge.information.diagonal().tail<3>().setConstant(1 / (sigmas.rotation * sigmas.rotation));
   }
   for (const LoopClosure& loop : mapper.LoopClosures()) {
     if (loop.decision != LoopDecision::kAccepted) continue;

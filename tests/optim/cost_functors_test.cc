@@ -80,7 +80,7 @@ TEST_P(Functors, ObjectCostIsObjectResidual) {
 }
 
 TEST_P(Functors, OdometryCostIsOdometryResidual) {
-  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.01}, {0.5, 3}, gravity.up)};
+  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
   const OdometryCost cost(residual);
   Check(cost, {camera.data(), next.data(), &log_scale}, {&pose_manifold, &pose_manifold, nullptr});
   ExpectSame(cost, ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1>(new OdometryResidual(residual)),
@@ -94,7 +94,7 @@ TEST_P(Functors, PaperObjectResidualGradient) {
 }
 
 TEST_P(Functors, OdometryResidualGradient) {
-  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.01}, {0.5, 3}, gravity.up)};
+  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
   const ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1> cost(new OdometryResidual(residual));
   Check(cost, {camera.data(), next.data(), &log_scale}, {&pose_manifold, &pose_manifold, nullptr});
 }
@@ -160,7 +160,8 @@ TEST(OdometryResidual, ScaleStretchesTranslationOnly) {
   const Pose from;
   const double log_scale = std::log(0.97);
   double r[6];
-  OdometryResidual{odometry, WhiteningOf({0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), metric.data(), &log_scale, r);
+  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), metric.data(), &log_scale,
+                                                                              r);
   for (const double component : r) EXPECT_NEAR(component, 0, 1e-9);
 }
 
@@ -168,7 +169,7 @@ TEST(OdometryResidual, IsInTheOdometrysOwnUnits) {  // else a small scale would 
   const Pose odometry = Pose::Trans(1, 0, 0), from, to = Pose::Trans(2.2, 0, 0);
   const double log_scale = std::log(2.);
   double r[6];
-  OdometryResidual{odometry, WhiteningOf({0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), to.data(), &log_scale, r);
+  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), to.data(), &log_scale, r);
   EXPECT_NEAR(r[0], 1, 1e-9) << "the odometry says 1 m where it was 1.1 m: one sigma";
 }
 
