@@ -93,9 +93,10 @@ int Detect(DetectArguments& a, const Console& console) {
   if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
   files.up_axis = dataset.up_axis;
   files.labels = dataset.labels;
+  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   CatchInterrupt();
   while (!Interrupted()) {
-    std::optional<Frame> frame = frontend.Next();
+    std::optional<Frame> frame = NextFrame(frontend, files.detections.size(), failure);
     if (!frame) break;
     files.odometry.stamps.push_back(frame->stamp);
     files.odometry.poses.push_back(frame->T_odom_cam);
@@ -115,6 +116,11 @@ int Detect(DetectArguments& a, const Console& console) {
   WriteFileAtomically((out / "config.yaml").string(), yaml);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
               "; map it with: sslcd_run run " + a.out + " --config " + (out / "config.yaml").string());
+  if (failure) {
+    Log(LogLevel::kWarning, "stopped by an error: " + a.out + " holds the frames before it (" +
+                                std::to_string(files.detections.size()) + ")");
+    throw *failure;
+  }
   return 0;
 }
 

@@ -113,13 +113,7 @@ int Run(RunArguments& a, const Console& console) {
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   if (frontend) {
     const auto next = [&] {
-      std::optional<Frame> frame;
-      try {
-        frame = frontend->Next();
-      } catch (const Error& error) {
-        if (made.empty()) throw;
-        failure = error;
-      }
+      std::optional<Frame> frame = NextFrame(*frontend, made.size(), failure);
       if (frame) made.push_back(*frame);
       return frame;
     };

@@ -5,7 +5,6 @@
 
 #include "console.h"
 #include "image_loader.h"
-#include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
@@ -66,6 +65,16 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
                          {LoadImage, std::move(watch)}, threads);
   frontend.AddLabels(dataset.labels);
   return frontend;
+}
+
+std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure) {
+  try {
+    return frontend.Next();
+  } catch (const Error& error) {
+    if (done == 0) throw;
+    failure = error;
+    return std::nullopt;
+  }
 }
 
 void ChooseOdometry(DatasetRequest& request) {

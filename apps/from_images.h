@@ -6,6 +6,7 @@
 #include <string>
 
 #include "commands.h"
+#include "sslcd/core/error.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/io/dataset.h"
 
@@ -29,6 +30,10 @@ struct ImageArguments {
   std::optional<ImageFrontend> Make(Dataset& dataset, const Configuration& configuration, bool detections, int threads,
                                     std::function<void(const Frame&, const ImageView&)> watch = {}) const;
 };
+
+/// The next frame. Its error is thrown where it is the first one (`done` is 0), else kept in `failure`, so that the
+/// results of the frames before are not lost: then, as at the end, there is none.
+std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure);
 
 /// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is one.
 void ChooseOdometry(DatasetRequest& request);

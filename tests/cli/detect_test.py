@@ -193,8 +193,13 @@ class DetectTest(CliCase):
     def test_no_pair(self):
         write_png(self.data + '/image_3/000003.png', look(0, 0)[:HEIGHT // 2])
         for threads in (1, 4):
-            self.refused(self.detect('--boxes', self.boxes, '--threads', threads), 3, 'image_2/000003.png',
-                         f'{WIDTH}x{HEIGHT}', f'{WIDTH}x{HEIGHT // 2}')
+            out = f'{self.out}{threads}'
+            result = call('detect', self.data, '--boxes', self.boxes, '--out', out, '--threads', threads)
+            self.refused(result, 3, 'image_2/000003.png', f'{WIDTH}x{HEIGHT}', f'{WIDTH}x{HEIGHT // 2}',
+                         f'{out} holds the frames before it (3)')
+            self.assertEqual(sorted(os.listdir(out)), SEQUENCE)
+            self.assertEqual(len(read(out + '/odometry.txt').splitlines()), 3)
+            self.assertEqual([row.split()[0] for row in read(out + '/detections.txt').splitlines()], ['0', '1', '2'])
             result = call('run', self.data, '--boxes', self.boxes, '--out', self.data + '/run', '--threads', threads)
             self.assertEqual(result.returncode, 3)
             self.assertIn('image_2/000003.png', result.stderr)
@@ -240,9 +245,9 @@ class DetectTest(CliCase):
         self.detected('--boxes', self.boxes, '--force')
         self.assertEqual(read(self.out + '/notes.txt'), 'precious')
         before = read(self.out + '/detections.txt')
-        write_png(self.data + '/image_3/000003.png', look(0, 0)[:HEIGHT // 2])
+        write_png(self.data + '/image_3/000000.png', look(0, 0)[:HEIGHT // 2])
         self.assertEqual(self.detect('--boxes', self.boxes, '--force').returncode, 3)
-        self.assertEqual(read(self.out + '/detections.txt'), before, 'a run that fails must leave what was there')
+        self.assertEqual(read(self.out + '/detections.txt'), before, 'a run without any frame must leave what was there')
 
     def test_interrupt_leaves_nothing_half_done(self):
         for folder in ('image_2', 'image_3'):
