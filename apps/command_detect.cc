@@ -11,6 +11,7 @@
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -39,8 +40,7 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
   command.add_flag("--force", a.force, "write into a folder that is not empty");
   command.add_flag("--overlays", a.overlays, "and OUT/overlays: the left images with boxes and cuboids");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
-  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
-      ->check(CLI::PositiveNumber);
+  AddThreads(command, a.threads);
 }
 
 void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections) {

@@ -15,6 +15,7 @@
 #include "sslcd/io/dataset.h"
 #include "sslcd/io/run_folder.h"
 #include "sslcd/pipeline/run.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -43,8 +44,7 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   a.config.AddTo(command);
   command.add_option("--out", a.out, "folder to write; default runs/latest")->default_str("runs/latest");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
-  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
-      ->check(CLI::PositiveNumber);
+  AddThreads(command, a.threads);
   command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
 }
 

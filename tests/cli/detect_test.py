@@ -8,6 +8,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import unittest
 
 from cli_case import CliCase, binaries, call, main, read, write
 from stereo_world import BASELINE, CALIB, CAR, HEIGHT, STEP, WIDTH, look, write_drive, write_png
@@ -105,6 +106,19 @@ class DetectTest(CliCase):
         for name in SEQUENCE:
             with open(f'{self.out}1/{name}', 'rb') as one, open(f'{self.out}4/{name}', 'rb') as four:
                 self.assertEqual(one.read(), four.read(), name)
+
+    @unittest.skipUnless(os.path.isdir('/proc/self/task'), 'skipped: no /proc')
+    def test_one_thread_is_one(self):
+        process = subprocess.Popen([binaries['run'], 'detect', self.data, '--boxes', self.boxes, '--out', self.out, '--threads', '1'],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        most = 0
+        while process.poll() is None:
+            try:
+                most = max(most, len(os.listdir(f'/proc/{process.pid}/task')))
+            except OSError:  # it has just ended
+                pass
+            time.sleep(0.002)
+        self.assertEqual((process.returncode, most), (0, 1))
 
     def test_odometry_that_is_there_is_taken(self):
         poses = ''.join(f'{0.1 * i:.1f} 0 0 {i} 0 0 0 1\n' for i in range(FRAMES))
