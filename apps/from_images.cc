@@ -18,27 +18,24 @@ void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
 
-Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset& dataset, bool detections) const {
-  Configuration all = config.Load();
-  const auto name_models = [this](Configuration& c) {
-    if (!detector.empty()) c.vision.detector = detector;
-    if (!embedder.empty()) c.vision.embedder = embedder;
-  };
-  name_models(all);
-  const auto detects_2d = [&all] {
-    return !all.vision.detector.empty() &&
-           TaskOf(LoadModelDescription(all.vision.detector).output.layout) == ModelTask::kDetect2d;
+Configuration ImageArguments::Load(ConfigArguments config, const Dataset& dataset, bool detections) const {
+  if (!detector.empty()) config.settings.push_back("vision.detector=" + detector);
+  if (!embedder.empty()) config.settings.push_back("vision.embedder=" + embedder);
+  const VisionOptions vision = config.Load().vision;
+  if (detections && boxes.empty()) config.CheckPath(vision.detector);
+  if (detections) config.CheckPath(vision.embedder);
+  const auto detects_2d = [&vision] {
+    return !vision.detector.empty() &&
+           TaskOf(LoadModelDescription(vision.detector).output.layout) == ModelTask::kDetect2d;
   };
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
-  all = config.Load([&](Configuration& c) {
+  return config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise();
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry;
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
-  name_models(all);
-  return all;
 }
 
 std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Configuration& configuration, bool detections,

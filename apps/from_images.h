@@ -23,7 +23,7 @@ struct ImageArguments {
   /// odometry from images is good enough for `loop.odometry` to be `ba.odometry`, and where both come from the same
   /// images there is no scale to estimate, since a wrong baseline stretches both alike.
   /// `detections`: they are made, too.
-  Configuration Load(const ConfigArguments& config, const Dataset& dataset, bool detections) const;
+  Configuration Load(ConfigArguments config, const Dataset& dataset, bool detections) const;
 
   /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if `detections`.
   /// Takes the frames out of `dataset`, and adds labels to it. None: nothing is lacking.

@@ -41,9 +41,9 @@ class DetectTest(CliCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 
-    def detected_with_models(self, *args):
+    def detected_with_models(self, *args, **kwargs):
         """The result, or no test where there is no ONNX Runtime."""
-        result = self.detect(*args)
+        result = self.detect(*args, **kwargs)
         if 'which was not found' in result.stderr or 'this build cannot' in result.stderr:
             self.skipTest('skipped: no ONNX Runtime: ' + result.stderr)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -157,6 +157,25 @@ class DetectTest(CliCase):
         by_file = read(self.out + '/config.yaml')
         self.detected('--detector', MODELS + '/yolo_v8.yaml', '--force')
         self.assertEqual(by_file, read(self.out + '/config.yaml'))
+
+    def test_paths_of_models(self):
+        # In a file: relative to it, or else to the current folder. On the command line: to the current folder.
+        models, here = self.data + '/conf/models', self.data + '/here'
+        shutil.copytree(MODELS, models)
+        os.mkdir(here)
+        for path, args, folder in (('models/yolo_v8.yaml', (), here), ('conf/models/yolo_v8.yaml', (), self.data),
+                                   ('none.yaml', ('--detector', 'yolo_v8.yaml'), models)):
+            write(self.data + '/conf/c.yaml', f'vision: {{detector: {path}}}\n')
+            self.detected_with_models('--config', self.data + '/conf/c.yaml', '--force', *args, cwd=folder)
+            self.assertIn(f"detector: '{models}/yolo_v8.yaml'", read(self.out + '/config.yaml'), 'to be found from anywhere')
+        shutil.rmtree(self.out, ignore_errors=True)
+        for key in ('detector', 'embedder'):
+            write(self.data + '/conf/c.yaml', f'vision: {{{key}: yolo_v8.yaml}}\n')
+            args = () if key == 'detector' else ('--detector', models + '/yolo_v8.yaml')
+            self.refused(self.detect('--config', self.data + '/conf/c.yaml', *args, cwd=here), 3, 'yolo_v8.yaml: no such file',
+                         'current folder', self.data + '/conf if')
+        self.refused(self.detect('--detector', 'models/yolo_v8.yaml', '--config', self.data + '/conf/c.yaml', cwd=here), 3,
+                     'models/yolo_v8.yaml: no such file')
 
     def test_grey_images_and_a_detector_of_colours(self):
         self.detected_with_models('--detector', MODELS + '/yolo_v8.yaml')
