@@ -54,14 +54,14 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
 
 // What is written has the names of what was read.
 void RefuseInput(const fs::path& out, const Dataset& dataset) {
-  std::vector<fs::path> inputs = {dataset.odometry_path};
+  std::vector<fs::path> inputs = {dataset.odometry_path, dataset.groundtruth_path};
   for (const Frame& frame : dataset.frames)
     if (!frame.image_left.empty()) inputs.push_back(fs::path(frame.image_left).parent_path());
   std::error_code none;
   for (const fs::path& input : inputs)
     if (!input.empty() && fs::equivalent(out, input.parent_path(), none))
       throw Error(ErrorKind::kUsage,
-                  out.string() + ": holds the images or the odometry that are read; write elsewhere");
+                  out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
 }
 
 int Detect(DetectArguments& a, const Console& console) {
@@ -93,6 +93,7 @@ int Detect(DetectArguments& a, const Console& console) {
   if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
   files.up_axis = dataset.up_axis;
   files.labels = dataset.labels;
+  files.groundtruth = dataset.groundtruth;
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   CatchInterrupt();
   while (!Interrupted()) {

@@ -87,6 +87,7 @@ class Loader {
     if (!layout_.sequence_yaml.empty()) {
       const SequenceInfo info = ReadSequenceYaml(layout_.sequence_yaml);
       up_axis_ = info.up_axis;
+      image_size_ = {info.image_width, info.image_height};
       out_.labels = info.labels;
     }
     if (!layout_.calib.empty()) {
@@ -114,8 +115,9 @@ class Loader {
   DatasetRequest request_;
   DatasetLayout layout_;
   Calibration calibration_;
-  std::optional<Vec3> up_axis_;     // as sequence.yaml says
-  std::size_t frames_in_file_ = 0;  // before max_frames
+  std::optional<Vec3> up_axis_;      // as sequence.yaml says
+  std::array<int, 2> image_size_{};  // likewise; 0: it does not
+  std::size_t frames_in_file_ = 0;   // before max_frames
   Dataset out_;
 };
 
@@ -189,7 +191,7 @@ void Loader::AddFramesWithoutPoses() {
 void Loader::AddImages() {
   out_.camera = calibration_.left;
   out_.camera_right = calibration_.right;
-  std::array<int, 2> size{};
+  std::array<int, 2> size = image_size_;
   if (layout_.format == DatasetFormat::kKittiTracking) size = {kKittiTrackingWidth, kKittiTrackingHeight};
   for (Frame& frame : out_.frames) {
     frame.image_left = ImageOf(layout_.images, layout_.image_digits, frame.index);

@@ -75,6 +75,7 @@ class DetectTest(CliCase):
         for i, row in enumerate(read(self.out + '/odometry.txt').splitlines()):
             self.assertAlmostEqual(float(row.split()[3]), STEP * i, delta=0.02 + 0.01 * i)
         self.assertIn('Car: {symmetry: pi}', read(self.out + '/sequence.yaml'))
+        self.assertIn(f'image_size_px: [{WIDTH}, {HEIGHT}]', read(self.out + '/sequence.yaml'))
 
         run = call('run', self.out, '--config', self.out + '/config.yaml', '--out', self.out + '/run')
         self.assertEqual((run.returncode, run.stderr), (0, ''))
@@ -128,6 +129,19 @@ class DetectTest(CliCase):
         self.detected('--boxes', self.boxes, '--force', '--odometry', 'stereo', '--max-frames', 3)
         self.assertEqual(len(read(self.out + '/odometry.txt').splitlines()), 3)
         self.assertAlmostEqual(float(read(self.out + '/odometry.txt').split()[-5]), 2 * STEP, delta=0.04)
+
+    def test_ground_truth_goes_along(self):
+        write(self.data + '/groundtruth.txt', ''.join(f'1 0 0 0 0 1 0 0 0 0 1 {STEP * i}\n' for i in range(FRAMES)))
+        self.detected('--boxes', self.boxes)
+        self.assertEqual(len(read(self.out + '/groundtruth.txt').splitlines()), FRAMES)
+        run = call('run', self.out, '--json', '--out', self.out + '/run')
+        self.assertEqual((run.returncode, run.stderr), (0, ''))
+        self.assertLess(json.loads(run.stdout)['ate_se3_rmse_m'], 0.1)
+        ev = call('eval', self.out + '/run', '--groundtruth', self.out + '/groundtruth.txt', '--json')
+        self.assertAlmostEqual(json.loads(ev.stdout)['ate_se3_rmse_m'], json.loads(run.stdout)['ate_se3_rmse_m'], places=6)
+        os.remove(self.data + '/groundtruth.txt')
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertFalse(os.path.exists(self.out + '/groundtruth.txt'), 'that of before would be of other frames')
 
     def test_grey_images_do_for_boxes(self):
         self.make_grey()
