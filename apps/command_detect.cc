@@ -76,13 +76,9 @@ int Detect(DetectArguments& a, const Console& console) {
 
   const fs::path out = a.out;
   const Camera camera = dataset.camera.value_or(Camera());
+  Overlays overlays(out / "overlays");
   std::function<void(const Frame&, const ImageView&)> watch;
-  if (a.overlays)
-    watch = [&](const Frame& frame, const ImageView& left) {
-      std::string number = std::to_string(frame.index);
-      number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
-      WriteOverlay((out / "overlays" / (number + ".jpg")).string(), frame, left, camera);
-    };
+  if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
   RefuseInput(out, dataset);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
@@ -112,6 +108,7 @@ int Detect(DetectArguments& a, const Console& console) {
   }
   WarnOfMissingColours(files.detections);
   WriteSequenceFiles(out, files);
+  overlays.RemoveOthers();
   Configuration resolved = configuration;
   const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
   WriteFileAtomically((out / "config.yaml").string(), yaml);

@@ -296,6 +296,21 @@ class DetectTest(CliCase):
         self.assertEqual(self.detect('--boxes', self.boxes, '--force').returncode, 3)
         self.assertEqual(read(self.out + '/detections.txt'), before, 'a run without any frame must leave what was there')
 
+    def test_overlays_of_an_earlier_run_go(self):
+        self.detected('--boxes', self.boxes, '--overlays')
+        mine = ['00007.jpg', '000007.png', '000007a.jpg', 'notes.txt']
+        for name in mine:
+            write(f'{self.out}/overlays/{name}', 'precious')
+        self.detected('--boxes', self.boxes, '--overlays', '--force', '--max-frames', 3)
+        self.assertEqual(sorted(os.listdir(self.out + '/overlays')), sorted(mine + [f'{i:06d}.jpg' for i in range(3)]))
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertEqual(sorted(os.listdir(self.out + '/overlays')), sorted(mine), 'they showed other detections')
+        for name in mine:
+            os.remove(f'{self.out}/overlays/{name}')
+        write(self.out + '/overlays/000000.jpg', 'old')
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertEqual(sorted(os.listdir(self.out)), SEQUENCE)
+
     def test_interrupt_leaves_nothing_half_done(self):
         for folder in ('image_2', 'image_3'):
             for i in range(FRAMES, 400):
