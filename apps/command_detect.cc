@@ -64,6 +64,16 @@ void RefuseInput(const fs::path& out, const Dataset& dataset) {
                   out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
 }
 
+// All but the frames.
+SequenceFiles FilesOf(const Dataset& dataset) {
+  SequenceFiles files;
+  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  files.up_axis = dataset.up_axis;
+  files.labels = dataset.labels;
+  files.groundtruth = dataset.groundtruth;
+  return files;
+}
+
 int Detect(DetectArguments& a, const Console& console) {
   a.config.Load();  // wrong ones first
   a.request.format = *ParseDatasetFormat(a.format);
@@ -85,11 +95,7 @@ int Detect(DetectArguments& a, const Console& console) {
   ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
   if (dataset.odometry_path.empty()) console.Say("odometry: made from the images");
 
-  SequenceFiles files;
-  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  files.up_axis = dataset.up_axis;
-  files.labels = dataset.labels;
-  files.groundtruth = dataset.groundtruth;
+  SequenceFiles files = FilesOf(dataset);
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   CatchInterrupt();
   while (!Interrupted()) {

@@ -91,42 +91,43 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
 }
 
-int Run(RunArguments& a, const Console& console) {
-  if (a.out.empty()) a.out = "runs/latest";
-  a.config.Load();            // wrong ones first,
-  MakeWritableFolder(a.out);  // and rather now than after the run
-  Dataset dataset = Load(a, console);
-  Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
-  const Options& options = configuration.options;
+struct Mapped {
+  RunResult result;
+  std::vector<Frame> frames;     // as they went in: from the dataset, or as the frontend has completed them
+  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
+};
+
+Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
-  MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
-
+  const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
   if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
   CatchInterrupt();
-  RunResult result;
-  std::vector<Frame> made;       // as the frontend has completed them
-  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
-  if (frontend) {
-    const auto next = [&] {
-      std::optional<Frame> frame = NextFrame(*frontend, made.size(), failure);
-      if (frame) made.push_back(*frame);
-      return frame;
-    };
-    result = RunSequence(next, total, context, options, hooks);
-    const FrontendReport report = frontend->Finish();
-    result.timing.Append(report.timing);
+  Mapped mapped;
+  if (!frontend) {
+    mapped.result = RunSequence(dataset.frames, context, configuration.options, hooks);
+    mapped.frames = std::move(dataset.frames);
     console.EndProgress();
-    console.Say(FrontendTable(report) + "\n");
-  } else {
-    result = RunSequence(dataset.frames, context, options, hooks);
-    console.EndProgress();
+    return mapped;
   }
+  const auto next = [&] {
+    std::optional<Frame> frame = NextFrame(*frontend, mapped.frames.size(), mapped.failure);
+    if (frame) mapped.frames.push_back(*frame);
+    return frame;
+  };
+  mapped.result = RunSequence(next, total, context, configuration.options, hooks);
+  const FrontendReport report = frontend->Finish();
+  mapped.result.timing.Append(report.timing);
+  console.EndProgress();
+  console.Say(FrontendTable(report) + "\n");
+  return mapped;
+}
 
+RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configuration configuration) {
   RunOutputs outputs;
   outputs.trajectory = result.trajectory;
   outputs.odometry = result.odometry;
@@ -135,27 +136,43 @@ int Run(RunArguments& a, const Console& console) {
   outputs.loops = result.loops;
   outputs.timing = result.timing;
   outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
+  return outputs;
+}
+
+Metrics Judge(const RunArguments& a, const Dataset& dataset, const Mapped& mapped, const RunOutputs& outputs) {
+  if (mapped.result.frames.empty()) return {};
   EvaluationInput evaluation;
-  evaluation.estimate = result.trajectory;
-  evaluation.frames = result.frames;
+  evaluation.estimate = mapped.result.trajectory;
+  evaluation.frames = mapped.result.frames;
   evaluation.groundtruth = dataset.groundtruth;
-  evaluation.odometry = result.odometry;
+  evaluation.odometry = mapped.result.odometry;
   evaluation.map = &outputs.map;
-  evaluation.detections = frontend ? &made : &dataset.frames;
+  evaluation.detections = &mapped.frames;
   evaluation.labels_path = LabelsOf(a, dataset);
-  if (!result.frames.empty()) outputs.metrics = Evaluate(evaluation);
+  return Evaluate(evaluation);
+}
+
+int Run(RunArguments& a, const Console& console) {
+  if (a.out.empty()) a.out = "runs/latest";
+  a.config.Load();            // wrong ones first,
+  MakeWritableFolder(a.out);  // and rather now than after the run
+  Dataset dataset = Load(a, console);
+  const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
+  const Mapped mapped = MapFrames(a, dataset, configuration, console);
+  RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
+  outputs.metrics = Judge(a, dataset, mapped, outputs);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
-  console.Say(ResultTable(result, outputs.metrics));
+  console.Say(ResultTable(mapped.result, outputs.metrics));
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
-  if (failure) {
+  if (mapped.failure) {
     Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
-    throw *failure;
+    throw *mapped.failure;
   }
-  if (result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
-  return result.stopped ? 130 : 0;
+  if (mapped.result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
+  return mapped.result.stopped ? 130 : 0;
 }
 
 }  // namespace
