@@ -6,10 +6,24 @@
 #include "console.h"
 #include "image_loader.h"
 #include "sslcd/core/log.h"
+#include "sslcd/core/median.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
 
 namespace sslcd::apps {
+namespace {
+
+void WarnOfGround(const GroundReport& ground) {
+  if (2 * ground.elsewhere <= ground.frames) return;
+  std::string message = "the ground is not where vision.lift.ground has it in " + std::to_string(ground.elsewhere) +
+                        " of " + std::to_string(ground.frames) +
+                        " frames looked at, so cuboids are poor: set vision.lift.ground.height_m to the height of "
+                        "the camera over the ground";
+  if (!ground.heights_m.empty()) message += "; that seems to be " + Number("%.2f", Median(ground.heights_m)) + " m";
+  Log(LogLevel::kWarning, message);
+}
+
+}  // namespace
 
 void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--boxes", boxes, "make detections from 2D boxes: rows 'frame label score left top right bottom'");
@@ -87,6 +101,7 @@ std::string FrontendTable(const FrontendReport& report) {
   if (!unknown.empty())
     Log(LogLevel::kWarning, "boxes that no sizes are known for are not lifted:" + unknown +
                                 "; map them to known labels (docs/models.md), which vision.lift.classes lists");
+  WarnOfGround(report.ground);
   std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(report.frames)},
                                                 {"without images", std::to_string(report.images_failed)},
                                                 {"odometry guessed", std::to_string(report.lost)}};

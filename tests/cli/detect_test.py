@@ -143,6 +143,13 @@ class DetectTest(CliCase):
         self.detected('--boxes', self.boxes, '--force')
         self.assertFalse(os.path.exists(self.out + '/groundtruth.txt'), 'that of before would be of other frames')
 
+    def test_a_camera_at_another_height_than_expected(self):
+        for height, poor in ((1.2, False), (0.4, True), (6, True)):
+            result = self.detected('--boxes', self.boxes, '--force', '--set', f'vision.lift.ground.height_m={height}')
+            self.assertEqual('vision.lift.ground.height_m' in result.stderr, poor, result.stderr)
+            if poor:
+                self.assertAlmostEqual(float(result.stderr.split()[-2]), 1.5, delta=0.1)
+
     def test_grey_images_do_for_boxes(self):
         self.make_grey()
         result = self.detected('--boxes', self.boxes)
