@@ -10,6 +10,7 @@
 #include "image_loader.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
+#include "sslcd/eval/kitti_ground_truth.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/dataset.h"
@@ -75,6 +76,19 @@ std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path path = std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
   const bool tracking = dataset.format == DatasetFormat::kKittiTracking;
   return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
+}
+
+// The true identity of each detection row, where a sequence folder has them and there are true poses to go with them.
+std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
+  const std::filesystem::path path = std::filesystem::path(dataset.detections_path).parent_path() / "landmark_ids.txt";
+  if (!dataset.groundtruth || dataset.detections_path.empty() || !a.request.detections.empty() ||
+      !std::filesystem::is_regular_file(path))
+    return {};
+  std::vector<int> identities = ReadLandmarkIds(path.string());
+  if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
+  Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) + " rows, but there are " +
+                              std::to_string(dataset.rows_read) + " detections: loops are not judged");
+  return {};
 }
 
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
@@ -149,6 +163,8 @@ Metrics Judge(const RunArguments& a, const Dataset& dataset, const Mapped& mappe
   evaluation.map = &outputs.map;
   evaluation.detections = &mapped.frames;
   evaluation.labels_path = LabelsOf(a, dataset);
+  evaluation.identities = IdentitiesOf(a, dataset);
+  evaluation.loops = mapped.result.loops;
   return Evaluate(evaluation);
 }
 
