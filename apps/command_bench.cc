@@ -16,6 +16,7 @@
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd_commit.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -322,9 +323,7 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
       ->delimiter(',');
   command->add_option("--docs", a->docs,
                       "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
-  command
-      ->add_option("--threads", a->threads, "runs at a time; the figures but times do not depend on it; 0: all cores")
-      ->check(CLI::Range(0, 1024));
+  AddThreads(*command, a->threads, 0, "runs at a time; the figures but times do not depend on it; 0: all cores");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
   return [a, &console] {
     console.InstallLog();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "commands.h"
@@ -9,8 +10,27 @@
 namespace sslcd::apps {
 namespace {
 
+namespace fs = std::filesystem;
+
 Describe Fields(Configuration& configuration) {
   return [&configuration](FieldVisitor& visitor) { DescribeFields(visitor, configuration); };
+}
+
+fs::path FolderOf(const std::string& file) { return fs::absolute(file).parent_path(); }
+
+// Where there is nothing in `folder` nor here it may not be needed: left as it is.
+void Resolve(const fs::path& folder, std::string& path) {
+  if (path.empty()) return;
+  std::error_code none;
+  for (const fs::path& candidate : {folder / path, fs::absolute(path)}) {
+    if (!fs::exists(candidate, none)) continue;
+    path = candidate.string();
+    return;
+  }
+}
+
+void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
+  for (std::string* path : {&vision.detector, &vision.embedder}) Resolve(folder, *path);
 }
 
 }  // namespace
@@ -31,8 +51,12 @@ Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& a
   // The mode decides the defaults that the file and the settings then change, wherever it is named.
   Configuration all;
   const auto apply = [&] {
-    if (!file.empty()) LoadConfigFile(file, Fields(all));
+    if (!file.empty()) {
+      LoadConfigFile(file, Fields(all));
+      ResolvePaths(FolderOf(file), all.vision);
+    }
     ApplySettings(settings, Fields(all));
+    ResolvePaths(fs::current_path(), all.vision);
     if (!mode.empty()) all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
   };
   apply();
@@ -40,6 +64,14 @@ Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& a
   if (adapt) adapt(all);
   apply();
   return all;
+}
+
+void ConfigArguments::CheckPath(const std::string& path) const {
+  std::error_code none;
+  if (path.empty() || fs::exists(path, none)) return;
+  std::string message = "no such file in the current folder";
+  if (!file.empty()) message += ", nor in " + FolderOf(file).string() + " if it is " + file + " that names it";
+  throw Error(ErrorKind::kBadInput, {path}, message);
 }
 
 Command AddCheckConfigCommand(CLI::App& app, Console& console) {

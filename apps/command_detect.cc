@@ -11,6 +11,7 @@
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -39,8 +40,7 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
   command.add_flag("--force", a.force, "write into a folder that is not empty");
   command.add_flag("--overlays", a.overlays, "and OUT/overlays: the left images with boxes and cuboids");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
-  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
-      ->check(CLI::PositiveNumber);
+  AddThreads(command, a.threads);
 }
 
 void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections) {
@@ -54,14 +54,24 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
 
 // What is written has the names of what was read.
 void RefuseInput(const fs::path& out, const Dataset& dataset) {
-  std::vector<fs::path> inputs = {dataset.odometry_path};
+  std::vector<fs::path> inputs = {dataset.odometry_path, dataset.groundtruth_path};
   for (const Frame& frame : dataset.frames)
     if (!frame.image_left.empty()) inputs.push_back(fs::path(frame.image_left).parent_path());
   std::error_code none;
   for (const fs::path& input : inputs)
     if (!input.empty() && fs::equivalent(out, input.parent_path(), none))
       throw Error(ErrorKind::kUsage,
-                  out.string() + ": holds the images or the odometry that are read; write elsewhere");
+                  out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
+}
+
+// All but the frames.
+SequenceFiles FilesOf(const Dataset& dataset) {
+  SequenceFiles files;
+  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  files.up_axis = dataset.up_axis;
+  files.labels = dataset.labels;
+  files.groundtruth = dataset.groundtruth;
+  return files;
 }
 
 int Detect(DetectArguments& a, const Console& console) {
@@ -76,26 +86,20 @@ int Detect(DetectArguments& a, const Console& console) {
 
   const fs::path out = a.out;
   const Camera camera = dataset.camera.value_or(Camera());
+  Overlays overlays(out / "overlays");
   std::function<void(const Frame&, const ImageView&)> watch;
-  if (a.overlays)
-    watch = [&](const Frame& frame, const ImageView& left) {
-      std::string number = std::to_string(frame.index);
-      number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
-      WriteOverlay((out / "overlays" / (number + ".jpg")).string(), frame, left, camera);
-    };
+  if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
   RefuseInput(out, dataset);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
   ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
   if (dataset.odometry_path.empty()) console.Say("odometry: made from the images");
 
-  SequenceFiles files;
-  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  files.up_axis = dataset.up_axis;
-  files.labels = dataset.labels;
+  SequenceFiles files = FilesOf(dataset);
+  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   CatchInterrupt();
   while (!Interrupted()) {
-    std::optional<Frame> frame = frontend.Next();
+    std::optional<Frame> frame = NextFrame(frontend, files.detections.size(), failure);
     if (!frame) break;
     files.odometry.stamps.push_back(frame->stamp);
     files.odometry.poses.push_back(frame->T_odom_cam);
@@ -110,11 +114,17 @@ int Detect(DetectArguments& a, const Console& console) {
   }
   WarnOfMissingColours(files.detections);
   WriteSequenceFiles(out, files);
+  overlays.RemoveOthers();
   Configuration resolved = configuration;
   const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
   WriteFileAtomically((out / "config.yaml").string(), yaml);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
               "; map it with: sslcd_run run " + a.out + " --config " + (out / "config.yaml").string());
+  if (failure) {
+    Log(LogLevel::kWarning, "stopped by an error: " + a.out + " holds the frames before it (" +
+                                std::to_string(files.detections.size()) + ")");
+    throw *failure;
+  }
   return 0;
 }
 

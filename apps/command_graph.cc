@@ -12,6 +12,7 @@
 #include "sslcd/io/g2o.h"
 #include "sslcd/io/run_folder.h"
 #include "sslcd/optim/pose_graph_robust.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -123,8 +124,7 @@ Command AddGraphCommand(CLI::App& app, Console& console) {
       ->default_str("z");
   command->add_option("--start", arguments->start, "poses to start from: as given, chordal, or the better ones")
       ->check(CLI::IsMember({"auto", "given", "chordal"}));
-  command->add_option("--threads", arguments->threads, "upper limit; the answer does not depend on it")
-      ->check(CLI::Range(1, 1024));
+  AddThreads(*command, arguments->threads);
   command->add_flag("--json", arguments->json, "print JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
   return [arguments, &console] {

@@ -10,6 +10,7 @@
 #include "sslcd/io/pairs_reader.h"
 #include "sslcd/loop/decision.h"
 #include "sslcd/loop/paper_match.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -120,7 +121,7 @@ Command AddMatchCommand(CLI::App& app, Console& console) {
   command->add_option("PAIRS", arguments->pairs, "file of map pairs, see docs/formats.md")->required();
   command->add_option("--out", arguments->out, "CSV file to write; default: standard output");
   arguments->config.AddTo(*command);
-  command->add_option("--threads", arguments->threads, "the answers do not depend on it")->check(CLI::Range(1, 1024));
+  AddThreads(*command, arguments->threads);
   command->add_flag("-q,--quiet", console.quiet, "print the answers and errors only");
   return [arguments, &console] {
     console.InstallLog();

@@ -10,11 +10,13 @@
 #include "image_loader.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
+#include "sslcd/eval/kitti_ground_truth.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/dataset.h"
 #include "sslcd/io/run_folder.h"
 #include "sslcd/pipeline/run.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -43,8 +45,7 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   a.config.AddTo(command);
   command.add_option("--out", a.out, "folder to write; default runs/latest")->default_str("runs/latest");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
-  command.add_option("--threads", a.threads, "upper limit; the answer does not depend on it")
-      ->check(CLI::PositiveNumber);
+  AddThreads(command, a.threads);
   command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
 }
 
@@ -77,6 +78,19 @@ std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
   return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
 }
 
+// The true identity of each detection row, where a sequence folder has them and there are true poses to go with them.
+std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
+  const std::filesystem::path path = std::filesystem::path(dataset.detections_path).parent_path() / "landmark_ids.txt";
+  if (!dataset.groundtruth || dataset.detections_path.empty() || !a.request.detections.empty() ||
+      !std::filesystem::is_regular_file(path))
+    return {};
+  std::vector<int> identities = ReadLandmarkIds(path.string());
+  if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
+  Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) + " rows, but there are " +
+                              std::to_string(dataset.rows_read) + " detections: loops are not judged");
+  return {};
+}
+
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   int landmarks = 0;
   for (const MapObject& object : result.objects) landmarks += object.state == LandmarkState::kConfirmed;
@@ -91,48 +105,43 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
 }
 
-int Run(RunArguments& a, const Console& console) {
-  if (a.out.empty()) a.out = "runs/latest";
-  a.config.Load();            // wrong ones first,
-  MakeWritableFolder(a.out);  // and rather now than after the run
-  Dataset dataset = Load(a, console);
-  Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
-  const Options& options = configuration.options;
+struct Mapped {
+  RunResult result;
+  std::vector<Frame> frames;     // as they went in: from the dataset, or as the frontend has completed them
+  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
+};
+
+Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
-  MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
-
+  const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
   if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
   CatchInterrupt();
-  RunResult result;
-  std::vector<Frame> made;       // as the frontend has completed them
-  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
-  if (frontend) {
-    const auto next = [&] {
-      std::optional<Frame> frame;
-      try {
-        frame = frontend->Next();
-      } catch (const Error& error) {
-        if (made.empty()) throw;
-        failure = error;
-      }
-      if (frame) made.push_back(*frame);
-      return frame;
-    };
-    result = RunSequence(next, total, context, options, hooks);
-    const FrontendReport report = frontend->Finish();
-    result.timing.Append(report.timing);
+  Mapped mapped;
+  if (!frontend) {
+    mapped.result = RunSequence(dataset.frames, context, configuration.options, hooks);
+    mapped.frames = std::move(dataset.frames);
     console.EndProgress();
-    console.Say(FrontendTable(report) + "\n");
-  } else {
-    result = RunSequence(dataset.frames, context, options, hooks);
-    console.EndProgress();
+    return mapped;
   }
+  const auto next = [&] {
+    std::optional<Frame> frame = NextFrame(*frontend, mapped.frames.size(), mapped.failure);
+    if (frame) mapped.frames.push_back(*frame);
+    return frame;
+  };
+  mapped.result = RunSequence(next, total, context, configuration.options, hooks);
+  const FrontendReport report = frontend->Finish();
+  mapped.result.timing.Append(report.timing);
+  console.EndProgress();
+  console.Say(FrontendTable(report) + "\n");
+  return mapped;
+}
 
+RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configuration configuration) {
   RunOutputs outputs;
   outputs.trajectory = result.trajectory;
   outputs.odometry = result.odometry;
@@ -141,27 +150,45 @@ int Run(RunArguments& a, const Console& console) {
   outputs.loops = result.loops;
   outputs.timing = result.timing;
   outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
+  return outputs;
+}
+
+Metrics Judge(const RunArguments& a, const Dataset& dataset, const Mapped& mapped, const RunOutputs& outputs) {
+  if (mapped.result.frames.empty()) return {};
   EvaluationInput evaluation;
-  evaluation.estimate = result.trajectory;
-  evaluation.frames = result.frames;
+  evaluation.estimate = mapped.result.trajectory;
+  evaluation.frames = mapped.result.frames;
   evaluation.groundtruth = dataset.groundtruth;
-  evaluation.odometry = result.odometry;
+  evaluation.odometry = mapped.result.odometry;
   evaluation.map = &outputs.map;
-  evaluation.detections = frontend ? &made : &dataset.frames;
+  evaluation.detections = &mapped.frames;
   evaluation.labels_path = LabelsOf(a, dataset);
-  if (!result.frames.empty()) outputs.metrics = Evaluate(evaluation);
+  evaluation.identities = IdentitiesOf(a, dataset);
+  evaluation.loops = mapped.result.loops;
+  return Evaluate(evaluation);
+}
+
+int Run(RunArguments& a, const Console& console) {
+  if (a.out.empty()) a.out = "runs/latest";
+  a.config.Load();            // wrong ones first,
+  MakeWritableFolder(a.out);  // and rather now than after the run
+  Dataset dataset = Load(a, console);
+  const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
+  const Mapped mapped = MapFrames(a, dataset, configuration, console);
+  RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
+  outputs.metrics = Judge(a, dataset, mapped, outputs);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
-  console.Say(ResultTable(result, outputs.metrics));
+  console.Say(ResultTable(mapped.result, outputs.metrics));
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
-  if (failure) {
+  if (mapped.failure) {
     Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
-    throw *failure;
+    throw *mapped.failure;
   }
-  if (result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
-  return result.stopped ? 130 : 0;
+  if (mapped.result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
+  return mapped.result.stopped ? 130 : 0;
 }
 
 }  // namespace

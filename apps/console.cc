@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <thread>
 
 #include "sslcd/core/log.h"
 
@@ -90,8 +89,6 @@ std::string TimingText(const TimingTable& timing) {
         {stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
   return AlignedTable(rows);
 }
-
-int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 void CatchInterrupt() { std::signal(SIGINT, OnInterrupt); }
 

@@ -34,9 +34,6 @@ std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);
 /// printf-style number, e.g. Number("%.3f", 1.2).
 std::string Number(const char* format, double value);
 
-/// What the machine has, for --threads.
-int HardwareThreads();
-
 /// Installs a SIGINT handler that only sets a flag; a second ctrl-C ends the program at once.
 void CatchInterrupt();
 bool Interrupted();

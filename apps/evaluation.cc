@@ -2,8 +2,10 @@
 #include "evaluation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sslcd/eval/map_metrics.h"
+#include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::apps {
@@ -78,6 +80,38 @@ void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("driving_in_map", map.driving_in_map);
 }
 
+// Whether row i is the pose of frame i: only then it can be said where a loop should lead.
+bool IsByFrame(const Trajectory& groundtruth, const std::vector<Frame>& frames) {
+  if (groundtruth.size() < frames.size()) return false;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    if (!(std::abs(groundtruth.stamps[i] - frames[i].stamp) < 1e-3)) return false;
+  return true;
+}
+
+void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
+  SequenceRun run;
+  run.estimate = ByFrame(input.estimate, input.frames);
+  run.odometry = ByFrame(*input.odometry, input.frames);
+  run.reference = input.groundtruth->poses;
+  run.frames = *input.detections;
+  run.identities = input.identities;
+  run.loops = input.loops;
+  run.objects = input.map->objects;
+  const SequenceMetrics m = ComputeSequenceMetrics(run);
+  metrics.emplace_back("path_m", m.path);
+  metrics.emplace_back("loops", m.loops);
+  metrics.emplace_back("loops_wrong", m.wrong_loops);
+  for (int bin = 0; bin < kViewpointBins; ++bin)
+    metrics.emplace_back(std::string("loops_true_") + kViewpointBinNames[bin] + "_deg", m.true_by_viewpoint[bin]);
+  metrics.emplace_back("loop_error_median_m", m.loop_error_median_m);
+  metrics.emplace_back("loop_error_median_rad", m.loop_error_median_rad);
+  metrics.emplace_back("revisited_stretches", m.revisited_stretches);
+  metrics.emplace_back("revisits_recognised", m.recall);
+  metrics.emplace_back("landmarks", m.landmarks);
+  metrics.emplace_back("landmarks_per_true", m.landmarks_per_true);
+  metrics.emplace_back("purity", m.purity);
+}
+
 }  // namespace
 
 Metrics Evaluate(const EvaluationInput& input) {
@@ -86,6 +120,9 @@ Metrics Evaluate(const EvaluationInput& input) {
   const bool reference = input.groundtruth.has_value() || input.odometry.has_value();
   if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr && reference)
     AddMapErrors(input, metrics);
+  if (!input.identities.empty() && input.groundtruth && input.odometry && input.map != nullptr &&
+      input.detections != nullptr && IsByFrame(*input.groundtruth, *input.detections))
+    AddSequenceErrors(input, metrics);
   return metrics;
 }
 

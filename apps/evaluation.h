@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/loop_closure.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/io/map_json.h"
 #include "sslcd/io/run_folder.h"
@@ -22,9 +23,12 @@ struct EvaluationInput {
   const MapFile* map = nullptr;
   std::string labels_path;  ///< KITTI tracking label_02 file; empty: no map metrics
   const std::vector<Frame>* detections = nullptr;
+  std::vector<int> identities;  ///< the true one of each detection row; empty: no metrics of loops
+  std::vector<LoopClosure> loops;
 };
 
-/// Trajectory error (all alignments), relative error, and the map's accuracy and identities where labels are there.
+/// Trajectory error (all alignments), relative error, the map's accuracy and identities where labels are there, and
+/// loops, revisits and identities where true identities are.
 Metrics Evaluate(const EvaluationInput& input);
 
 }  // namespace sslcd::apps

@@ -5,12 +5,25 @@
 
 #include "console.h"
 #include "image_loader.h"
-#include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
+#include "sslcd/core/median.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
 
 namespace sslcd::apps {
+namespace {
+
+void WarnOfGround(const GroundReport& ground) {
+  if (2 * ground.elsewhere <= ground.frames) return;
+  std::string message = "the ground is not where vision.lift.ground has it in " + std::to_string(ground.elsewhere) +
+                        " of " + std::to_string(ground.frames) +
+                        " frames looked at, so cuboids are poor: set vision.lift.ground.height_m to the height of "
+                        "the camera over the ground";
+  if (!ground.heights_m.empty()) message += "; that seems to be " + Number("%.2f", Median(ground.heights_m)) + " m";
+  Log(LogLevel::kWarning, message);
+}
+
+}  // namespace
 
 void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--boxes", boxes, "make detections from 2D boxes: rows 'frame label score left top right bottom'");
@@ -19,27 +32,24 @@ void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
 
-Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset& dataset, bool detections) const {
-  Configuration all = config.Load();
-  const auto name_models = [this](Configuration& c) {
-    if (!detector.empty()) c.vision.detector = detector;
-    if (!embedder.empty()) c.vision.embedder = embedder;
-  };
-  name_models(all);
-  const auto detects_2d = [&all] {
-    return !all.vision.detector.empty() &&
-           TaskOf(LoadModelDescription(all.vision.detector).output.layout) == ModelTask::kDetect2d;
+Configuration ImageArguments::Load(ConfigArguments config, const Dataset& dataset, bool detections) const {
+  if (!detector.empty()) config.settings.push_back("vision.detector=" + detector);
+  if (!embedder.empty()) config.settings.push_back("vision.embedder=" + embedder);
+  const VisionOptions vision = config.Load().vision;
+  if (detections && boxes.empty()) config.CheckPath(vision.detector);
+  if (detections) config.CheckPath(vision.embedder);
+  const auto detects_2d = [&vision] {
+    return !vision.detector.empty() &&
+           TaskOf(LoadModelDescription(vision.detector).output.layout) == ModelTask::kDetect2d;
   };
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
-  all = config.Load([&](Configuration& c) {
+  return config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise();
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry;
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
-  name_models(all);
-  return all;
 }
 
 std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Configuration& configuration, bool detections,
@@ -68,6 +78,16 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   return frontend;
 }
 
+std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure) {
+  try {
+    return frontend.Next();
+  } catch (const Error& error) {
+    if (done == 0) throw;
+    failure = error;
+    return std::nullopt;
+  }
+}
+
 void ChooseOdometry(DatasetRequest& request) {
   request.odometry_policy = PartPolicy::kIfThere;
   if (request.odometry != "stereo") return;
@@ -81,6 +101,7 @@ std::string FrontendTable(const FrontendReport& report) {
   if (!unknown.empty())
     Log(LogLevel::kWarning, "boxes that no sizes are known for are not lifted:" + unknown +
                                 "; map them to known labels (docs/models.md), which vision.lift.classes lists");
+  WarnOfGround(report.ground);
   std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(report.frames)},
                                                 {"without images", std::to_string(report.images_failed)},
                                                 {"odometry guessed", std::to_string(report.lost)}};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "commands.h"
+#include "sslcd/core/error.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/io/dataset.h"
 
@@ -22,13 +23,17 @@ struct ImageArguments {
   /// odometry from images is good enough for `loop.odometry` to be `ba.odometry`, and where both come from the same
   /// images there is no scale to estimate, since a wrong baseline stretches both alike.
   /// `detections`: they are made, too.
-  Configuration Load(const ConfigArguments& config, const Dataset& dataset, bool detections) const;
+  Configuration Load(ConfigArguments config, const Dataset& dataset, bool detections) const;
 
   /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if `detections`.
   /// Takes the frames out of `dataset`, and adds labels to it. None: nothing is lacking.
   std::optional<ImageFrontend> Make(Dataset& dataset, const Configuration& configuration, bool detections, int threads,
                                     std::function<void(const Frame&, const ImageView&)> watch = {}) const;
 };
+
+/// The next frame. Its error is thrown where it is the first one (`done` is 0), else kept in `failure`, so that the
+/// results of the frames before are not lost: then, as at the end, there is none.
+std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure);
 
 /// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is one.
 void ChooseOdometry(DatasetRequest& request);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "overlay.h"
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "console.h"
 #include "sslcd/core/error.h"
@@ -27,9 +29,21 @@ void DrawCuboid(cv::Mat& image, const Detection& detection, const Camera& camera
       if (!(k & bit)) cv::line(image, corners[k], corners[k | bit], colour, 1, cv::LINE_AA);
 }
 
+std::string NameOf(int frame) {
+  std::string number = std::to_string(frame);
+  number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
+  return number + ".jpg";
+}
+
+bool IsName(const std::string& name) {
+  const std::size_t digits = name.find_first_not_of("0123456789");
+  return digits >= 6 && digits != std::string::npos && name.substr(digits) == ".jpg";
+}
+
 }  // namespace
 
-void WriteOverlay(const std::string& path, const Frame& frame, const ImageView& left, const Camera& camera) {
+void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& camera) {
+  const std::string path = (folder_ / *written_.insert(NameOf(frame.index)).first).string();
   cv::Mat image;
   if (left.channels == 3)
     image = MatOf(left).clone();
@@ -50,6 +64,21 @@ void WriteOverlay(const std::string& path, const Frame& frame, const ImageView& 
   } catch (const cv::Exception&) {
   }
   if (!written) throw Error(ErrorKind::kOutput, path + ": cannot be written; is the disk full?");
+}
+
+void Overlays::RemoveOthers() const {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  std::vector<fs::path> others;
+  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(it->path())) others.push_back(it->path());
+  }
+  for (const fs::path& path : others) {
+    fs::remove(path, error);
+    if (error) throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
+  }
+  if (!others.empty()) fs::remove(folder_, error);  // which fails, and should, where anything is left
 }
 
 }  // namespace sslcd::apps

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
@@ -9,7 +12,21 @@
 
 namespace sslcd::apps {
 
-/// Draws the boxes and cuboids of a frame over its left image. Throws Error(kOutput).
-void WriteOverlay(const std::string& path, const Frame& frame, const ImageView& left, const Camera& camera);
+/// Left images with what was found in them, one file a frame: FOLDER/000007.jpg. Whatever else lies there is left
+/// alone.
+class Overlays {
+ public:
+  explicit Overlays(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Draws the boxes and cuboids of a frame over its left image. Throws Error(kOutput).
+  void Write(const Frame& frame, const ImageView& left, const Camera& camera);
+
+  /// Removes those of an earlier run, of frames that were not drawn this time. Throws Error(kOutput).
+  void RemoveOthers() const;
+
+ private:
+  std::filesystem::path folder_;
+  std::set<std::string> written_;  // names
+};
 
 }  // namespace sslcd::apps

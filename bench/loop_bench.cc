@@ -21,7 +21,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kQueries = 200;
 
 // Of CPU: what other programs take does not count.
@@ -94,7 +93,7 @@ void Measure(int count, bool streets) {
   const LayoutIndex index(map, options.max_pair_m, options.reach_m);
   int right = 0, accepted = 0, wrong = 0;
   for (int query = 0; query < kQueries; ++query) {
-    YawShift pose{random.Uniform(-kPi, kPi), Vec3(random.Uniform(-500, 500), random.Uniform(-500, 500), 2)};
+    YawShift pose{random.Uniform(-M_PI, M_PI), Vec3(random.Uniform(-500, 500), random.Uniform(-500, 500), 2)};
     const std::vector<LayoutObject> local = LocalMap(map, pose, random);
     auto start = std::clock();
     SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);

@@ -17,7 +17,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kKeyframes = 500, kObjects = 275;  // about 200 of them stand in sight and end up in the map
 constexpr double kStep = 2.;                     // from keyframe to keyframe [m]
 
@@ -26,7 +25,7 @@ sim::World Block(std::uint64_t seed) {
   std::vector<sim::PathPiece> lap;
   for (int i = 0; i < 4; ++i) {
     lap.push_back({87.5, 0});
-    lap.push_back({0.5 * kPi * kRadius, 1 / kRadius});
+    lap.push_back({0.5 * M_PI * kRadius, 1 / kRadius});
   }
   const sim::Path path(lap, true);
   sim::World world;

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs every KITTI tracking sequence that is there with one configuration and prints the table of docs/results.md.
-#   scripts/kitti_results.sh KITTI_TRACKING [DETECTIONS...]     e.g. ../shared/data/kitti-tracking det_pointrcnn_car
+#   scripts/kitti_results.sh KITTI_TRACKING [DETECTIONS...]     e.g. DATA/kitti-tracking det_pointrcnn_car
 # SSLCD_BUILD_DIR: where sslcd_run was built (default build/release). Needs python3.
 set -euo pipefail
 data=${1:?usage: scripts/kitti_results.sh KITTI_TRACKING [DETECTIONS...]}

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "sslcd/core/sigmoid.h"
+
 namespace sslcd {
 namespace {
 
 Box2d Centred(double cx, double cy, double width, double height) {
   return {cx - 0.5 * width, cy - 0.5 * height, cx + 0.5 * width, cy + 0.5 * height};
 }
-
-double Sigmoid(double x) { return 1 / (1 + std::exp(-x)); }
 
 /// Keeps what is good enough and wanted.
 class Collector {

@@ -4,18 +4,16 @@
 
 #include "detectors/decode_3d.h"
 #include "sslcd/core/error.h"
+#include "sslcd/core/sigmoid.h"
 #include "sslcd/io/npy.h"
 
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // What the regression values were divided by in training: boxes' centre and size, the centre's image.
 constexpr double kCentreUnit = 0.1, kSizeUnit = 0.2;
 enum Regression { kDx, kDy, kDw, kDh, kCx, kCy, kZ, kSin, kCos, kWidth, kHeight, kLength, kRegressions };
 enum Prior { kPriorZ, kPriorSin, kPriorCos, kPriorWidth, kPriorHeight, kPriorLength, kPriorCount };
-
-double Sigmoid(double x) { return 1 / (1 + std::exp(-x)); }
 
 std::vector<std::array<double, 6>> ReadPriors(const std::string& path, std::size_t rows) {
   const NpyMatrix matrix = ReadNpy(path);
@@ -62,7 +60,7 @@ ClassCuboid Decode(const Anchor& anchor, const float* v, const std::array<double
   cuboid.centre_y = anchor.y + v[kCy] * kCentreUnit * anchor.height;
   cuboid.depth_m = scaled(kZ, kPriorZ);
   // Twice the angle is regressed, which a car's front and back share; the axis score tells them apart.
-  cuboid.alpha_rad = 0.5 * std::atan2(scaled(kSin, kPriorSin), scaled(kCos, kPriorCos)) + (points_forward ? 0 : kPi);
+  cuboid.alpha_rad = 0.5 * std::atan2(scaled(kSin, kPriorSin), scaled(kCos, kPriorCos)) + (points_forward ? 0 : M_PI);
   cuboid.dims = {scaled(kLength, kPriorLength), scaled(kWidth, kPriorWidth), scaled(kHeight, kPriorHeight)};
   return cuboid;
 }

@@ -9,8 +9,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// One image's C x H x W.
 struct Maps {
   explicit Maps(const Tensor& tensor)
@@ -42,8 +40,8 @@ double Alpha(const Maps& rotation, int channels, int y, int x) {
     int yes, sin;  // channels
   };
   if (channels == 2) return std::atan2(rotation(0, y, x), rotation(1, y, x));
-  static constexpr std::array<Bin, 2> kTwo = {{{-kPi / 2, 1, 2}, {kPi / 2, 5, 6}}};
-  static constexpr std::array<Bin, 4> kFour = {{{0, 1, 8}, {kPi / 2, 3, 10}, {kPi, 5, 12}, {-kPi / 2, 7, 14}}};
+  static constexpr std::array<Bin, 2> kTwo = {{{-M_PI / 2, 1, 2}, {M_PI / 2, 5, 6}}};
+  static constexpr std::array<Bin, 4> kFour = {{{0, 1, 8}, {M_PI / 2, 3, 10}, {M_PI, 5, 12}, {-M_PI / 2, 7, 14}}};
   const Bin* bins = channels == 8 ? kTwo.data() : kFour.data();
   const auto sureness = [&](const Bin& bin) { return rotation(bin.yes, y, x) - rotation(bin.yes - 1, y, x); };
   const Bin& best = *std::max_element(bins, bins + channels / 4,

@@ -197,8 +197,6 @@ MapMetrics ComputeMapMetrics(const MapRun& run, const MapMetricOptions& options)
   return metrics;
 }
 
-double ProbabilityOfLogit(double logit) { return 1 / (1 + std::exp(-logit)); }
-
 std::vector<Pose> ScaledPath(const std::vector<Pose>& T_world_cam, double scale) {
   std::vector<Pose> scaled;
   for (const Pose& T : T_world_cam) scaled.emplace_back(T.so3(), scale * T.translation());

@@ -4,17 +4,14 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
-namespace sslcd {
+#include "sslcd/core/source.h"
 
-/// Hands out items in order; none: that was the last one. May throw, and is not asked again then.
-template <class T>
-using Source = std::function<std::optional<T>()>;
+namespace sslcd {
 
 /// Runs a source on a thread of its own, up to `ahead` items in front of whoever asks for them. Items come in the order
 /// of the source, and what it throws comes when its turn has come.

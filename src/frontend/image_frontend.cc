@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "frontend/background.h"
+#include "frontend/ground_check.h"
 #include "frontend/object_finder.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 
 namespace sslcd {
 namespace {
+
+constexpr int kGroundEvery = 10;  // frames
 
 /// A frame on its way through the stages.
 struct Item {
@@ -99,6 +102,10 @@ struct ImageFrontend::Impl {
     Frame& frame = item->frame;
     if (item->complete()) {
       Naming(frame, [&] { frame.detections = finder->Find(frame.index, item->view(), found); });
+      if (finder->lifts() && frame.index % kGroundEvery == 0) {
+        const ScopedTimer timer(found.timing, "ground check");
+        CheckGround(item->view(), sequence.camera, frame.detections, options.lift.ground, found.ground);
+      }
       for (Detection& detection : frame.detections) detection.row = rows++;
       found.detections += static_cast<int>(frame.detections.size());
       if (hooks.watch) hooks.watch(frame, item->left.view());

@@ -4,8 +4,11 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options) {
-  visitor.Text("detector", options.detector, "YAML description of a 2D or 3D detector");
-  visitor.Text("embedder", options.embedder, "YAML description of a re-identification model; empty: no embeddings");
+  visitor.Text(
+      "detector", options.detector,
+      "YAML description of a 2D or 3D detector; relative to the configuration file, else to the current folder");
+  visitor.Text("embedder", options.embedder,
+               "YAML description of a re-identification model, likewise; empty: no embeddings");
   visitor.Nested("inference", options.inference, "how models are run (ONNX Runtime)");
   visitor.Nested("lift", options.lift, "cuboids from 2D boxes and stereo");
   visitor.Nested("odometry", options.odometry, "stereo odometry, where no other is given");

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <set>
 
+#include "io/dataset_images.h"
 #include "io/dataset_layout.h"
 #include "io/files.h"
 #include "io/stamps.h"
@@ -21,9 +21,7 @@
 namespace sslcd {
 namespace {
 
-constexpr double kKittiFrameStep = 0.1;                                // [s]
-constexpr int kMostFrames = 1'000'000;                                 // by their images: the digits of a name
-constexpr int kKittiTrackingWidth = 1242, kKittiTrackingHeight = 375;  // [px]; a few sequences are some pixels off
+constexpr double kKittiFrameStep = 0.1;  // [s]
 constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking", "kitti-raw",
                                                      "sequence"};
 
@@ -43,40 +41,6 @@ PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
   return file;
 }
 
-/// Width and height from a PNG's header; 0 when it is none.
-std::array<int, 2> PngSize(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  unsigned char head[24] = {};
-  if (!file.read(reinterpret_cast<char*>(head), sizeof(head)) || head[1] != 'P' || head[2] != 'N' || head[3] != 'G')
-    return {};
-  const auto size_at = [&head](int i) { return head[i] << 24 | head[i + 1] << 16 | head[i + 2] << 8 | head[i + 3]; };
-  return {size_at(16), size_at(20)};
-}
-
-/// The image of a frame; empty: there is none.
-std::string ImageOf(const std::string& folder, int digits, int frame) {
-  if (folder.empty()) return "";
-  std::string number = std::to_string(frame);
-  number.insert(0, std::max<std::size_t>(number.size(), digits) - number.size(), '0');
-  for (const char* ending : {".png", ".jpg"})
-    if (IsFile(folder + "/" + number + ending)) return folder + "/" + number + ending;
-  return "";
-}
-
-/// As many frames as it takes to reach the last image: one that is missing before it does not make the others later.
-int FramesOfImages(const std::string& folder) {
-  int count = 0;
-  for (const char* ending : {".png", ".jpg"}) {
-    const std::vector<NumberedFile> images = NumberedFiles(folder, ending);
-    if (images.empty()) continue;
-    const auto& [number, path] = images.back();
-    if (number >= kMostFrames)
-      throw Error(ErrorKind::kBadInput, {path}, "is no frame's number; they count from 000000");
-    count = std::max(count, number + 1);
-  }
-  return count;
-}
-
 class Loader {
  public:
   explicit Loader(const DatasetRequest& request) : request_(request), layout_(FindDatasetLayout(request)) {}
@@ -84,17 +48,18 @@ class Loader {
   Dataset Load() {
     out_.format = layout_.format;
     out_.name = layout_.name;
-    if (!layout_.sequence_yaml.empty()) {
-      const SequenceInfo info = ReadSequenceYaml(layout_.sequence_yaml);
-      up_axis_ = info.up_axis;
-      out_.labels = info.labels;
-    }
+    if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
+    out_.labels = info_.labels;
     if (!layout_.calib.empty()) {
       const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
       calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib);
     }
     layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
-    AddImages();
+    out_.camera = calibration_.left;
+    out_.camera_right = calibration_.right;
+    const std::size_t frames = out_.frames.size();
+    AddImages(layout_, info_, out_);
+    if (out_.frames.size() < frames) frames_in_file_ = out_.frames.size();
     if (!layout_.detections.empty()) AddDetections();
     AddGroundtruth();
     return std::move(out_);
@@ -103,7 +68,6 @@ class Loader {
  private:
   void AddFrames();
   void AddFramesWithoutPoses();
-  void AddImages();
   void AddDetections();
   void AddAppearance();
   int AddVectors(const std::string& path, std::vector<float> Detection::*vector);  // returns how many are unusable
@@ -114,7 +78,7 @@ class Loader {
   DatasetRequest request_;
   DatasetLayout layout_;
   Calibration calibration_;
-  std::optional<Vec3> up_axis_;     // as sequence.yaml says
+  SequenceInfo info_;
   std::size_t frames_in_file_ = 0;  // before max_frames
   Dataset out_;
 };
@@ -127,7 +91,7 @@ void Loader::AddFrames() {
     throw Error(ErrorKind::kBadInput, {layout_.odometry}, "holds no poses: there is nothing to run on");
   }
   const bool is_vins = odometry.format == PoseFormat::kVinsCsv;
-  out_.up_axis = up_axis_.value_or(is_vins ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
+  out_.up_axis = info_.up_axis.value_or(is_vins ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
   if (is_vins) Warn(layout_.odometry + ": VINS-Fusion csv; its poses are taken as the camera's");
   const bool has_stamps = odometry.format != PoseFormat::kKitti;
   std::vector<double> stamps = odometry.trajectory.stamps;
@@ -183,33 +147,6 @@ void Loader::AddFramesWithoutPoses() {
   for (std::size_t i = 0; i < out_.frames.size(); ++i) {
     out_.frames[i].index = static_cast<int>(i);
     out_.frames[i].stamp = stamps[i];
-  }
-}
-
-void Loader::AddImages() {
-  out_.camera = calibration_.left;
-  out_.camera_right = calibration_.right;
-  std::array<int, 2> size{};
-  if (layout_.format == DatasetFormat::kKittiTracking) size = {kKittiTrackingWidth, kKittiTrackingHeight};
-  for (Frame& frame : out_.frames) {
-    frame.image_left = ImageOf(layout_.images, layout_.image_digits, frame.index);
-    frame.image_right = ImageOf(layout_.images_right, layout_.image_digits, frame.index);
-    if (frame.index > 0 || frame.image_left.empty()) continue;
-    if (const auto in_file = PngSize(frame.image_left); in_file[0] > 0) size = in_file;
-  }
-  if (layout_.odometry.empty()) {  // a stamp is no frame
-    const auto last = std::find_if(out_.frames.rbegin(), out_.frames.rend(),
-                                   [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });
-    const auto frames = static_cast<std::size_t>(out_.frames.rend() - last);
-    if (frames > 0 && frames < out_.frames.size()) {
-      Warn(layout_.times + ": " + std::to_string(out_.frames.size()) + " stamps, but images of " +
-           std::to_string(frames) + " frames only; the others are left out");
-      out_.frames.resize(frames);
-      frames_in_file_ = frames;
-    }
-  }
-  for (std::optional<Camera>* camera : {&out_.camera, &out_.camera_right}) {
-    if (*camera && (*camera)->width == 0) (*camera)->width = size[0], (*camera)->height = size[1];
   }
 }
 

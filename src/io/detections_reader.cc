@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/files.h"
+#include "sslcd/core/sigmoid.h"
 #include "sslcd/io/text_rows.h"
 
 namespace sslcd {
@@ -158,7 +159,7 @@ DetectionFile Reader::Finish() {
   const bool has_scores = ColumnsOf(out_.format, row_size_).score >= 0;
   if (out_.logits && has_scores) {
     for (auto& [frame, detections] : out_.by_frame) {
-      for (Detection& detection : detections) detection.score = 1 / (1 + std::exp(-detection.score));
+      for (Detection& detection : detections) detection.score = Sigmoid(detection.score);
     }
   }
   if (out_.dropped > 0) {

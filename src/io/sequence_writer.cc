@@ -68,6 +68,8 @@ std::string Rows(const Detections& detections) {
 std::string SequenceYaml(const SequenceFiles& files) {
   std::string text = files.comment.empty() ? "" : "# " + files.comment + "\n";
   text += Format("up_axis: [%.9g, %.9g, %.9g]\n", files.up_axis.x(), files.up_axis.y(), files.up_axis.z());
+  if (files.camera && files.camera->left.width > 0)
+    text += Format("image_size_px: [%d, %d]\n", files.camera->left.width, files.camera->left.height);
   if (!files.labels.entries().empty()) text += "labels:\n";
   for (const auto& [label, info] : files.labels.entries())
     text += "  " + label + ": {symmetry: " + ToString(info.symmetry) + "}\n";
@@ -110,6 +112,7 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   write_or_remove("calib.txt", files.camera ? Calib(*files.camera) : "");
   write("times.txt", Times(files.odometry.stamps));
   write("odometry.txt", TumText(files.odometry));
+  write_or_remove("groundtruth.txt", files.groundtruth ? TumText(*files.groundtruth) : "");
   write("detections.txt", Rows(files.detections));
   write("sequence.yaml", SequenceYaml(files));
   write_or_remove("embeddings.npy", Npy(files.detections, &Detection::embedding, false));

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
 #include <set>
 
 #include "sslcd/core/error.h"
@@ -24,8 +25,9 @@ class Reader {
       Fail(error.mark, error.msg);
     }
     if (root.IsNull()) return info;
-    CheckKeys(root, {"up_axis", "labels"});
+    CheckKeys(root, {"up_axis", "image_size_px", "labels"});
     if (root["up_axis"]) info.up_axis = UpAxis(root["up_axis"]);
+    if (root["image_size_px"]) ReadImageSize(root["image_size_px"], info);
     if (root["labels"]) info.labels = Labels(root["labels"]);
     return info;
   }
@@ -51,16 +53,28 @@ class Reader {
     }
   }
 
+  double Number(const YAML::Node& node, const std::string& key) const {
+    const auto value = node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
+    if (!value) Fail(node.Mark(), key + ": expected a number");
+    return *value;
+  }
+
   Vec3 UpAxis(const YAML::Node& node) const {
-    Vec3 up(0, 0, 0);
     if (!node.IsSequence() || node.size() != 3) Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto value = node[i].IsScalar() ? ParseNumber(node[i].Scalar()) : std::nullopt;
-      if (!value) Fail(node[i].Mark(), "up_axis: expected a number");
-      up[static_cast<int>(i)] = *value;
-    }
+    const Vec3 up(Number(node[0], "up_axis"), Number(node[1], "up_axis"), Number(node[2], "up_axis"));
     if (!(up.allFinite() && up.norm() > 1e-6)) Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
     return up.normalized();
+  }
+
+  void ReadImageSize(const YAML::Node& node, SequenceInfo& info) const {
+    if (!node.IsSequence() || node.size() != 2)
+      Fail(node.Mark(), "image_size_px: expected width and height, like [1242, 375]");
+    const double width = Number(node[0], "image_size_px"), height = Number(node[1], "image_size_px");
+    for (const double side : {width, height})
+      if (!(side >= 1 && side <= 1e5 && side == std::floor(side)))
+        Fail(node.Mark(), "image_size_px: expected whole numbers of pixels, like [1242, 375]");
+    info.image_width = static_cast<int>(width);
+    info.image_height = static_cast<int>(height);
   }
 
   LabelTable Labels(const YAML::Node& node) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/median.h"
 #include "sslcd/io/text_rows.h"
 
 namespace sslcd {
@@ -41,9 +42,7 @@ double MedianStep(const std::vector<double>& stamps) {
   if (stamps.size() < 2) return 0;
   std::vector<double> steps;
   for (std::size_t i = 1; i < stamps.size(); ++i) steps.push_back(stamps[i] - stamps[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return Median(std::move(steps));
 }
 
 std::optional<std::string> GapWarning(const std::vector<double>& stamps) {

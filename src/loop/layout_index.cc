@@ -9,7 +9,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBin = 0.25;             // of pair distances [m]
 constexpr double kSurroundings = 15.;     // radius in which density and heights are judged [m]
 constexpr double kBlock = 10.;            // [m]
@@ -118,7 +117,7 @@ void LayoutIndex::Count(int i, int by) {
   const auto label = label_counts_.insert({object.label, 0}).first;
   if ((label->second += by) == 0) label_counts_.erase(label);
   if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) return;
-  const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * 360 + 0.5)) % 360;
+  const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * 360 + 0.5)) % 360;
   headings_[object.symmetry == Symmetry::kPi][degree] += by;
 }
 
@@ -160,7 +159,7 @@ void LayoutIndex::CountNeighbours(int i, int by) {
 void LayoutIndex::Judge() {
   const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
   const double near = static_cast<double>(neighbours_), heights = static_cast<double>(height_sum_) * kHeightUnit;
-  density_ = (1 + 2 * near / n) / (kPi * kSurroundings * kSurroundings);
+  density_ = (1 + 2 * near / n) / (M_PI * kSurroundings * kSurroundings);
   height_spread_ = near > 0 ? std::sqrt(heights / near / 2) : 0.;
 }
 

@@ -8,7 +8,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Scatter between the two maps' idea of one object. Which it is, the data say: [m].
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
 constexpr double kHullMargin = 1.;  // objects of a straight row lie on its edge, this side or that [m]
@@ -52,18 +51,18 @@ bool HasHeading(const LayoutObject& object) { return object.symmetry != Symmetry
 // Density of the difference of two headings of one object [1/rad]. Some are taken for their reverse, some for anything.
 double HeadingDensity(double difference, Symmetry symmetry) {
   constexpr double kSharpness = 16., kFlipped = 0.05, kAny = 0.1;  // of a von Mises density: 15 degrees
-  const double peak = std::sqrt(kSharpness / (2 * kPi));
+  const double peak = std::sqrt(kSharpness / (2 * M_PI));
   const double forward = peak * std::exp(kSharpness * (std::cos(difference) - 1));
   const double reverse = peak * std::exp(kSharpness * (-std::cos(difference) - 1));
   const double flipped = symmetry == Symmetry::kPi ? 0.5 : kFlipped;
-  return (1 - kAny) * ((1 - flipped) * forward + flipped * reverse) + kAny / (2 * kPi);
+  return (1 - kAny) * ((1 - flipped) * forward + flipped * reverse) + kAny / (2 * M_PI);
 }
 
 // The same by degrees.
 const std::vector<double>& HeadingDensities(Symmetry symmetry) {
   const auto compute = [](Symmetry s) {
     std::vector<double> densities;
-    for (int degree = 0; degree < 360; ++degree) densities.push_back(HeadingDensity(degree * kPi / 180, s));
+    for (int degree = 0; degree < 360; ++degree) densities.push_back(HeadingDensity(degree * M_PI / 180, s));
     return densities;
   };
   static const std::vector<double> kFullTurn = compute(Symmetry::kNone), kHalfTurn = compute(Symmetry::kPi);
@@ -161,9 +160,9 @@ void LayoutLikelihood::PrepareHeadings() {
         background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
     }
   }
-  for (double& density : background) density = std::log((density + 1 / (2 * kPi)) / (headings + 1));
+  for (double& density : background) density = std::log((density + 1 / (2 * M_PI)) / (headings + 1));
   const auto under = [&](const LayoutObject& object, int turn) {
-    const int bin = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * kPi) + 1) * kHeadings + 0.5));
+    const int bin = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
     return background[(bin + turn) % kHeadings];
   };
   int best = 0;
@@ -251,7 +250,7 @@ int LayoutLikelihood::OnMap(const YawShift& pose) const {
 LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
                                    double sigma) const {
   const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
-  const double constant = -std::log(2 * kPi * sigma * sigma * index_.density());
+  const double constant = -std::log(2 * M_PI * sigma * sigma * index_.density());
   const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z), wrong = options_.wrong_height;
   const double most_by_height = std::log(wrong + (1 - wrong) * background_z / sigma_z) + 1e-9;
   struct Ranked {
@@ -308,7 +307,7 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose, true);
   const int in_view = CountInView(pose);
   const int on_map = OnMap(pose);
-  const double searched = 2 * kPi * static_cast<double>(index_.objects().size()) / index_.density();
+  const double searched = 2 * M_PI * static_cast<double>(index_.objects().size()) / index_.density();
   LayoutFit best;
   best.score = best.evidence = -1e9;
   double score = -1e9, evidence = -1e9;
@@ -319,7 +318,7 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
     for (const auto& [i, j] : fit.matches) centre += index_.objects()[j].position.head<2>() / n;
     double spread = 1e-3;
     for (const auto& [i, j] : fit.matches) spread += (index_.objects()[j].position.head<2>() - centre).squaredNorm();
-    const double volume = std::pow(2 * kPi, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
+    const double volume = std::pow(2 * M_PI, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
     fit.evidence = fit.score + std::log(volume / searched);
     score = LogAdd(score, fit.score - std::log(4.));
     evidence = LogAdd(evidence, fit.evidence - std::log(4.));

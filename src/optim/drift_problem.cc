@@ -6,6 +6,8 @@
 #include <complex>
 #include <limits>
 
+#include "sslcd/core/median.h"
+
 namespace sslcd::drift {
 namespace {
 
@@ -21,12 +23,6 @@ double Cost(const Problem& problem, const State& state) {
     if (match.period > 0) cost += Loss(std::pow(YawError(match, state) / match.sigma_yaw, 2), problem.loss_scale);
   }
   return cost;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The shift that goes with a yaw: the median over the matches, which a few wrong ones do not move.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "optim/ba_terms.h"
+#include "sslcd/core/median.h"
 #include "sslcd/optim/cost_functors.h"
 
 namespace sslcd {
@@ -42,12 +43,6 @@ bool Finite(const BaProblem& problem) {
   for (const BaOdometry& edge : problem.odometry)
     if (!finite(edge.T_from_to)) return false;
   return std::isfinite(problem.log_scale);
-}
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

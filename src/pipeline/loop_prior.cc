@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sslcd/core/median.h"
+
 namespace sslcd {
 namespace {
 
@@ -24,8 +26,7 @@ PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distance
       paths.push_back(distances.To(passes.passes()[first_pass].last_m));
       centre += local.objects[i].position / static_cast<double>(fit.matches.size());
     }
-    std::nth_element(paths.begin(), paths.begin() + static_cast<std::ptrdiff_t>(paths.size() / 2), paths.end());
-    const double path = paths[paths.size() / 2];
+    const double path = Median(std::move(paths));
     const double sigma_yaw = std::hypot(kStartRad, options.drift_yaw * std::sqrt(path));
     const double sigma = std::hypot(kStartMetres, options.drift_share * path, sigma_yaw * path / std::sqrt(3.));
     const double moved = (Apply(pose, centre) - centre).head<2>().norm() / sigma;

@@ -13,7 +13,8 @@ void DescribeFields(FieldVisitor& visitor, WindowOptions& options) {
 }
 
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
-  visitor.Flag("enabled", options.enabled, "optimise the full map at the end of a run");
+  visitor.Flag("enabled", options.enabled,
+               "look for loops once more and optimise the full map at the end of a run; false: neither");
   visitor.Integer("rounds", options.rounds, 1, 20, "times to optimise, associate anew and fuse");
   visitor.Real("keyframe_m", options.keyframe_m, 0, 1000, "a camera of the optimisation every so many metres of path");
   visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7, "or after such a turn; all other frames follow");

@@ -8,6 +8,7 @@
 #include "pipeline/fuse.h"
 #include "pipeline/move.h"
 #include "pipeline/stretches.h"
+#include "sslcd/core/median.h"
 
 namespace sslcd {
 namespace {
@@ -170,8 +171,7 @@ bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity,
   const auto median = [&](int from, const Vec3& axis) {
     std::vector<double> values;
     for (int i = from; i < from + third; ++i) values.push_back(seen[i].position.dot(axis));
-    std::nth_element(values.begin(), values.begin() + third / 2, values.end());
-    return values[third / 2];
+    return Median(std::move(values));
   };
   const int late = static_cast<int>(seen.size()) - third;
   const double distance = std::hypot(median(late, gravity.forward) - median(0, gravity.forward),

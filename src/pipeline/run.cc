@@ -52,7 +52,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
   return RunSequence(source, static_cast<int>(frames.size()), context, options, hooks);
 }
 
-RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context, const Options& options,
+RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context, const Options& options,
                       const RunHooks& hooks) {
   RunResult result;
   Mapper mapper(options, context);

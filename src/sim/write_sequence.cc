@@ -4,7 +4,6 @@
 #include <string>
 
 #include "sslcd/io/atomic_file.h"
-#include "sslcd/io/run_folder.h"
 #include "sslcd/io/sequence_writer.h"
 
 namespace sslcd::sim {
@@ -16,13 +15,13 @@ void WriteSequence(const World& world, const Trajectory& odometry, const Simulat
   files.comment = "a synthetic world; axes of the first camera: x right, y down, z forward";
   files.camera = StereoCamera{world.camera, world.baseline_m};
   files.odometry = odometry;
+  files.groundtruth = world.truth;
   files.detections = detections.frames;
   files.up_axis = world.gravity.up;
   files.labels = world.labels;
   WriteSequenceFiles(folder, files);
   std::string identities;
   for (const int id : detections.identity) identities += std::to_string(id) + "\n";
-  WriteFileAtomically((folder / "groundtruth.txt").string(), TumText(world.truth));
   WriteFileAtomically((folder / "landmark_ids.txt").string(), identities);
 }
 

@@ -210,4 +210,20 @@ GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera,
   return EstimateGround(GreyPair{Grey(images.left), Grey(images.right)}, camera, objects, options);
 }
 
+std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
+                                       const std::vector<Box2d>& objects, const GroundOptions& options) {
+  CheckImages(images);
+  const GreyPair grey{Grey(images.left), Grey(images.right)};
+  GroundPlane best;
+  for (const double factor : {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.}) {
+    GroundOptions there = options;
+    there.height_m = factor * options.height_m;
+    there.height_sigma_m = 0.15 * there.height_m;  // neighbours overlap
+    const GroundPlane plane = EstimateGround(grey, camera, objects, there);
+    if (plane.support > best.support) best = plane;
+  }
+  if (best.support < kGroundSupport) return std::nullopt;
+  return best.height_m;
+}
+
 }  // namespace sslcd

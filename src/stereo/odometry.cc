@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/median.h"
 #include "stereo/odometry_follow.h"
 #include "stereo/odometry_images.h"
 #include "stereo/odometry_window.h"
@@ -24,13 +25,6 @@ constexpr int kFixedKeyframes = 2;
 
 const char* const kNothingToFollow = "nothing to follow: too few corners in the images";
 const char* const kMissing = "its images are missing";
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the step itself and
 /// something on top, for each.
@@ -190,7 +184,7 @@ class StereoOdometry::Impl {
       const StereoPixel& was = then.at(sighting.point);
       ways.push_back(std::hypot(sighting.pixel.left - was.left, sighting.pixel.row - was.row));
     }
-    return Median(ways) > options_.keyframe_px;
+    return !ways.empty() && Median(ways) > options_.keyframe_px;
   }
 
   void AddKeyframe(StereoFrame& frame, const StereoPyramids& current) {

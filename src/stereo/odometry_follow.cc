@@ -64,8 +64,8 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   const cv::Matx33d K(left.fx, 0, left.cx, 0, left.fy, left.cy, 0, 0, 1);
   cv::Vec3d rotation, translation;
   std::vector<int> inliers;
-  cv::setRNGSeed(0);
   reason = kNoAgreement;
+  // It draws from a generator of its own, always the same; OpenCV's global one is the host's.
   const bool found =
       cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation, false, f.options.ransac_iterations,
                          static_cast<float>(f.options.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);

@@ -29,6 +29,9 @@ class CliTest(CliCase):
                 self.assertEqual(len(row.split(' ')), columns, row)
         metrics = json.loads(read(self.out + '/metrics.json'))
         self.assertLess(metrics['ate_se3_rmse_m'], metrics['odometry_ate_se3_rmse_m'])
+        # True identities lie beside the detections.
+        self.assertEqual((metrics['loops'], metrics['loops_wrong'], metrics['loop_error_median_m']), (0, 0, None))
+        self.assertGreater(metrics['purity'], 0.95)
         self.assertGreater(sum(o['state'] == 'confirmed' for o in json.loads(read(self.out + '/map.json'))['objects']), 3)
         json.loads(read(self.out + '/timing.json'))
         again = call('eval', self.out, '--groundtruth', self.data + '/groundtruth.txt', '--json')
@@ -43,6 +46,14 @@ class CliTest(CliCase):
             results.append([read(f'{out}/{n}') for n in ('trajectory_tum.txt', 'map.json', 'graph.g2o', 'map.ply')])
         self.assertEqual(results[0], results[1])
         self.assertEqual(results[0], results[2])
+
+    def test_true_identities_need_true_poses_and_a_row_for_each_detection(self):
+        write(self.data + '/landmark_ids.txt', '1\n2\n')
+        self.assertIn('landmark_ids.txt: has 2 rows', self.run_data().stderr)
+        self.assertNotIn('purity', json.loads(read(self.out + '/metrics.json')))
+        os.remove(self.data + '/groundtruth.txt')
+        self.assertEqual(self.run_data().stderr, '')
+        self.assertEqual(json.loads(read(self.out + '/metrics.json')), {})
 
     def test_quiet_and_json(self):
         quiet = self.run_data('--quiet')

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import tempfile
 import time
+import unittest
 
 from cli_case import CliCase, binaries, call, main, read, write
 from stereo_world import BASELINE, CALIB, CAR, HEIGHT, STEP, WIDTH, look, write_drive, write_png
@@ -40,9 +41,9 @@ class DetectTest(CliCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         return result
 
-    def detected_with_models(self, *args):
+    def detected_with_models(self, *args, **kwargs):
         """The result, or no test where there is no ONNX Runtime."""
-        result = self.detect(*args)
+        result = self.detect(*args, **kwargs)
         if 'which was not found' in result.stderr or 'this build cannot' in result.stderr:
             self.skipTest('skipped: no ONNX Runtime: ' + result.stderr)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -74,6 +75,7 @@ class DetectTest(CliCase):
         for i, row in enumerate(read(self.out + '/odometry.txt').splitlines()):
             self.assertAlmostEqual(float(row.split()[3]), STEP * i, delta=0.02 + 0.01 * i)
         self.assertIn('Car: {symmetry: pi}', read(self.out + '/sequence.yaml'))
+        self.assertIn(f'image_size_px: [{WIDTH}, {HEIGHT}]', read(self.out + '/sequence.yaml'))
 
         run = call('run', self.out, '--config', self.out + '/config.yaml', '--out', self.out + '/run')
         self.assertEqual((run.returncode, run.stderr), (0, ''))
@@ -106,6 +108,19 @@ class DetectTest(CliCase):
             with open(f'{self.out}1/{name}', 'rb') as one, open(f'{self.out}4/{name}', 'rb') as four:
                 self.assertEqual(one.read(), four.read(), name)
 
+    @unittest.skipUnless(os.path.isdir('/proc/self/task'), 'skipped: no /proc')
+    def test_one_thread_is_one(self):
+        process = subprocess.Popen([binaries['run'], 'detect', self.data, '--boxes', self.boxes, '--out', self.out, '--threads', '1'],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        most = 0
+        while process.poll() is None:
+            try:
+                most = max(most, len(os.listdir(f'/proc/{process.pid}/task')))
+            except OSError:  # it has just ended
+                pass
+            time.sleep(0.002)
+        self.assertEqual((process.returncode, most), (0, 1))
+
     def test_odometry_that_is_there_is_taken(self):
         poses = ''.join(f'{0.1 * i:.1f} 0 0 {i} 0 0 0 1\n' for i in range(FRAMES))
         write(self.data + '/odometry.txt', poses)
@@ -114,6 +129,26 @@ class DetectTest(CliCase):
         self.detected('--boxes', self.boxes, '--force', '--odometry', 'stereo', '--max-frames', 3)
         self.assertEqual(len(read(self.out + '/odometry.txt').splitlines()), 3)
         self.assertAlmostEqual(float(read(self.out + '/odometry.txt').split()[-5]), 2 * STEP, delta=0.04)
+
+    def test_ground_truth_goes_along(self):
+        write(self.data + '/groundtruth.txt', ''.join(f'1 0 0 0 0 1 0 0 0 0 1 {STEP * i}\n' for i in range(FRAMES)))
+        self.detected('--boxes', self.boxes)
+        self.assertEqual(len(read(self.out + '/groundtruth.txt').splitlines()), FRAMES)
+        run = call('run', self.out, '--json', '--out', self.out + '/run')
+        self.assertEqual((run.returncode, run.stderr), (0, ''))
+        self.assertLess(json.loads(run.stdout)['ate_se3_rmse_m'], 0.1)
+        ev = call('eval', self.out + '/run', '--groundtruth', self.out + '/groundtruth.txt', '--json')
+        self.assertAlmostEqual(json.loads(ev.stdout)['ate_se3_rmse_m'], json.loads(run.stdout)['ate_se3_rmse_m'], places=6)
+        os.remove(self.data + '/groundtruth.txt')
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertFalse(os.path.exists(self.out + '/groundtruth.txt'), 'that of before would be of other frames')
+
+    def test_a_camera_at_another_height_than_expected(self):
+        for height, poor in ((1.2, False), (0.4, True), (6, True)):
+            result = self.detected('--boxes', self.boxes, '--force', '--set', f'vision.lift.ground.height_m={height}')
+            self.assertEqual('vision.lift.ground.height_m' in result.stderr, poor, result.stderr)
+            if poor:
+                self.assertAlmostEqual(float(result.stderr.split()[-2]), 1.5, delta=0.1)
 
     def test_grey_images_do_for_boxes(self):
         self.make_grey()
@@ -143,6 +178,25 @@ class DetectTest(CliCase):
         by_file = read(self.out + '/config.yaml')
         self.detected('--detector', MODELS + '/yolo_v8.yaml', '--force')
         self.assertEqual(by_file, read(self.out + '/config.yaml'))
+
+    def test_paths_of_models(self):
+        # In a file: relative to it, or else to the current folder. On the command line: to the current folder.
+        models, here = self.data + '/conf/models', self.data + '/here'
+        shutil.copytree(MODELS, models)
+        os.mkdir(here)
+        for path, args, folder in (('models/yolo_v8.yaml', (), here), ('conf/models/yolo_v8.yaml', (), self.data),
+                                   ('none.yaml', ('--detector', 'yolo_v8.yaml'), models)):
+            write(self.data + '/conf/c.yaml', f'vision: {{detector: {path}}}\n')
+            self.detected_with_models('--config', self.data + '/conf/c.yaml', '--force', *args, cwd=folder)
+            self.assertIn(f"detector: '{models}/yolo_v8.yaml'", read(self.out + '/config.yaml'), 'to be found from anywhere')
+        shutil.rmtree(self.out, ignore_errors=True)
+        for key in ('detector', 'embedder'):
+            write(self.data + '/conf/c.yaml', f'vision: {{{key}: yolo_v8.yaml}}\n')
+            args = () if key == 'detector' else ('--detector', models + '/yolo_v8.yaml')
+            self.refused(self.detect('--config', self.data + '/conf/c.yaml', *args, cwd=here), 3, 'yolo_v8.yaml: no such file',
+                         'current folder', self.data + '/conf if')
+        self.refused(self.detect('--detector', 'models/yolo_v8.yaml', '--config', self.data + '/conf/c.yaml', cwd=here), 3,
+                     'models/yolo_v8.yaml: no such file')
 
     def test_grey_images_and_a_detector_of_colours(self):
         self.detected_with_models('--detector', MODELS + '/yolo_v8.yaml')
@@ -193,8 +247,13 @@ class DetectTest(CliCase):
     def test_no_pair(self):
         write_png(self.data + '/image_3/000003.png', look(0, 0)[:HEIGHT // 2])
         for threads in (1, 4):
-            self.refused(self.detect('--boxes', self.boxes, '--threads', threads), 3, 'image_2/000003.png',
-                         f'{WIDTH}x{HEIGHT}', f'{WIDTH}x{HEIGHT // 2}')
+            out = f'{self.out}{threads}'
+            result = call('detect', self.data, '--boxes', self.boxes, '--out', out, '--threads', threads)
+            self.refused(result, 3, 'image_2/000003.png', f'{WIDTH}x{HEIGHT}', f'{WIDTH}x{HEIGHT // 2}',
+                         f'{out} holds the frames before it (3)')
+            self.assertEqual(sorted(os.listdir(out)), SEQUENCE)
+            self.assertEqual(len(read(out + '/odometry.txt').splitlines()), 3)
+            self.assertEqual([row.split()[0] for row in read(out + '/detections.txt').splitlines()], ['0', '1', '2'])
             result = call('run', self.data, '--boxes', self.boxes, '--out', self.data + '/run', '--threads', threads)
             self.assertEqual(result.returncode, 3)
             self.assertIn('image_2/000003.png', result.stderr)
@@ -240,9 +299,24 @@ class DetectTest(CliCase):
         self.detected('--boxes', self.boxes, '--force')
         self.assertEqual(read(self.out + '/notes.txt'), 'precious')
         before = read(self.out + '/detections.txt')
-        write_png(self.data + '/image_3/000003.png', look(0, 0)[:HEIGHT // 2])
+        write_png(self.data + '/image_3/000000.png', look(0, 0)[:HEIGHT // 2])
         self.assertEqual(self.detect('--boxes', self.boxes, '--force').returncode, 3)
-        self.assertEqual(read(self.out + '/detections.txt'), before, 'a run that fails must leave what was there')
+        self.assertEqual(read(self.out + '/detections.txt'), before, 'a run without any frame must leave what was there')
+
+    def test_overlays_of_an_earlier_run_go(self):
+        self.detected('--boxes', self.boxes, '--overlays')
+        mine = ['00007.jpg', '000007.png', '000007a.jpg', 'notes.txt']
+        for name in mine:
+            write(f'{self.out}/overlays/{name}', 'precious')
+        self.detected('--boxes', self.boxes, '--overlays', '--force', '--max-frames', 3)
+        self.assertEqual(sorted(os.listdir(self.out + '/overlays')), sorted(mine + [f'{i:06d}.jpg' for i in range(3)]))
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertEqual(sorted(os.listdir(self.out + '/overlays')), sorted(mine), 'they showed other detections')
+        for name in mine:
+            os.remove(f'{self.out}/overlays/{name}')
+        write(self.out + '/overlays/000000.jpg', 'old')
+        self.detected('--boxes', self.boxes, '--force')
+        self.assertEqual(sorted(os.listdir(self.out)), SEQUENCE)
 
     def test_interrupt_leaves_nothing_half_done(self):
         for folder in ('image_2', 'image_3'):

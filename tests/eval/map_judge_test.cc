@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "judge.h"
+#include "sslcd/core/sigmoid.h"
 #include "sslcd/eval/map_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
 
@@ -32,7 +33,7 @@ std::vector<Frame> ReadDetections(const outside::fs::path& path) {
     Detection detection;
     detection.row = row++;
     detection.label = "Car";
-    detection.score = ProbabilityOfLogit(v[6]);
+    detection.score = Sigmoid(v[6]);
     detection.dims = {v[9], v[8], v[7]};
     detection.T_cam_object = Pose(GravityFrame().Upright(-v[13]), Vec3(v[10], v[11] - 0.5 * v[7], v[12]));
     frames[static_cast<std::size_t>(v[0])].detections.push_back(detection);

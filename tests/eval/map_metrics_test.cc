@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/sigmoid.h"
 #include "sslcd/core/upright.h"
 
 namespace sslcd {
@@ -87,8 +88,8 @@ TEST(MapMetricsTest, MistakesShow) {
 }
 
 TEST(MapMetricsTest, TheScoreThresholdIsAProbability) {
-  EXPECT_DOUBLE_EQ(ProbabilityOfLogit(3), MapMetricOptions().min_score);
-  EXPECT_DOUBLE_EQ(ProbabilityOfLogit(0), 0.5);
+  EXPECT_DOUBLE_EQ(Sigmoid(3), MapMetricOptions().min_score);
+  EXPECT_DOUBLE_EQ(Sigmoid(0), 0.5);
   MapRun run = SmallRun();
   for (Frame& frame : run.frames) frame.detections[0].score = 0.95;
   MapMetrics metrics = ComputeMapMetrics(run);

@@ -109,6 +109,8 @@ TEST_F(ImageFrontendTest, FindsItsWayAndLooksIntoBoxes) {
   int boxes = 0;
   for (const auto& [status, count] : report.lift) boxes += count;
   EXPECT_EQ(boxes, 12) << "each is accounted for, lifted or not";
+  EXPECT_EQ(report.ground.frames, 2) << "the first and the eleventh";
+  EXPECT_EQ(report.ground.elsewhere, 2) << "there is only a wall";
   EXPECT_EQ(watched.size(), 12u);
   EXPECT_TRUE(std::is_sorted(watched.begin(), watched.end()));
   EXPECT_EQ(report.timing.Summary().count("stereo odometry"), 1u);

@@ -96,6 +96,30 @@ TEST_F(SequenceWriter, CamerasComeBack) {
   EXPECT_FALSE(WriteAndLoad().camera) << "calib.txt of before is gone";
 }
 
+TEST_F(SequenceWriter, TheImagesSizeComesBack) {
+  EXPECT_EQ(WriteAndLoad().camera->width, 0) << "not known";
+  files_.camera->left.width = 1242;
+  files_.camera->left.height = 375;
+  const Dataset dataset = WriteAndLoad();
+  EXPECT_EQ(dataset.camera->width, 1242);
+  EXPECT_EQ(dataset.camera_right->height, 375);
+}
+
+TEST_F(SequenceWriter, GroundTruthComesBackBesideTheOdometry) {
+  EXPECT_FALSE(WriteAndLoad().groundtruth);
+  files_.groundtruth = files_.odometry;
+  for (Pose& pose : files_.groundtruth->poses) pose = Pose::Trans(0.5, 0, 0) * pose;
+  const Dataset dataset = WriteAndLoad();
+  ASSERT_TRUE(dataset.groundtruth);
+  ASSERT_EQ(dataset.groundtruth->size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT((dataset.groundtruth->poses[i].inverse() * files_.groundtruth->poses[i]).Log().norm(), 1e-8);
+    EXPECT_LT((dataset.frames[i].T_odom_cam.inverse() * files_.odometry.poses[i]).Log().norm(), 1e-8);
+  }
+  files_.groundtruth.reset();
+  EXPECT_FALSE(WriteAndLoad().groundtruth) << "groundtruth.txt of before is gone";
+}
+
 TEST_F(SequenceWriter, EmbeddingsMayHaveGaps) {
   files_.detections[0][0].embedding = {0.6f, 0.8f};
   files_.detections[2][0].embedding = {1, 0};

@@ -120,7 +120,7 @@ TEST(RunSequence, FramesThatComeOneByOneAreTheSame) {
     EXPECT_EQ(done, static_cast<int>(next)) << "a frame is asked for when it is needed, no sooner";
     last_total = total;
   };
-  const FrameSource source = [&]() -> std::optional<Frame> {
+  const Source<Frame> source = [&]() -> std::optional<Frame> {
     return next < scene.frames.size() ? std::optional<Frame>(scene.frames[next++]) : std::nullopt;
   };
   const RunResult streamed = RunSequence(source, 7, scene.context, {}, hooks);
@@ -153,7 +153,7 @@ TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
   EXPECT_TRUE(nothing.objects.empty());
   EXPECT_FALSE(nothing.stopped);
   int asked = 0;
-  const FrameSource broken = [&]() -> std::optional<Frame> {
+  const Source<Frame> broken = [&]() -> std::optional<Frame> {
     if (asked == 3) throw Error(ErrorKind::kBadInput, "the camera is gone");
     return scene.frames[asked++];
   };

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sslcd/core/error.h"
 #include "stereo_scene.h"
 
 namespace sslcd {
@@ -52,6 +53,21 @@ TEST(EstimateGround, WithoutEvidenceThePriorIsTheAnswer) {
   }
   scene.camera.left.cy = 1000;  // no pixel looks down
   EXPECT_NEAR(EstimateGround(scene.view(), scene.camera, {}, options).height_m, 1.4, 1e-9);
+}
+
+TEST(FindGroundHeight, FromFarOff) {
+  StereoScene scene;
+  scene.Render();
+  for (const double prior : {0.4, 1.2, 4.}) {
+    GroundOptions options;
+    options.height_m = prior;
+    const std::optional<double> height = FindGroundHeight(scene.view(), scene.camera, {}, options);
+    ASSERT_TRUE(height) << prior;
+    EXPECT_NEAR(*height, 1.2, 0.06) << prior;
+  }
+  const cv::Mat black(scene.left.size(), CV_8U, cv::Scalar(0));
+  EXPECT_FALSE(FindGroundHeight({ViewOf(black), ViewOf(black)}, scene.camera, {}, {}));
+  EXPECT_THROW(FindGroundHeight({}, scene.camera, {}, {}), Error);
 }
 
 TEST(EstimateGround, SameBytesTwice) {

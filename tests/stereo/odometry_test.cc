@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Cholesky>
+#include <cstdint>
 #include <cstring>
 #include <opencv2/core/utility.hpp>
 #include <vector>
@@ -205,6 +206,22 @@ TEST(StereoOdometry, IsTheSameForAnyNumberOfThreads) {
     for (const Pose& pose : Course(8)) poses[run].push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
   }
   cv::setNumThreads(threads);
+  for (std::size_t i = 0; i < poses[0].size(); ++i)
+    EXPECT_EQ(std::memcmp(poses[0][i].data(), poses[1][i].data(), 7 * sizeof(double)), 0) << i;
+}
+
+TEST(StereoOdometry, NeitherUsesNorMovesTheHostsRandomNumbers) {
+  const Tunnel tunnel;
+  const std::uint64_t before = cv::theRNG().state;
+  std::vector<Pose> poses[2];
+  for (const std::uint64_t state : {std::uint64_t{1}, std::uint64_t{77777}}) {
+    cv::theRNG().state = state;
+    StereoOdometry odometry(Tunnel::Camera(), {});
+    std::vector<Pose>& run = poses[state != 1];
+    for (const Pose& pose : Course(4)) run.push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
+    EXPECT_EQ(cv::theRNG().state, state);
+  }
+  cv::theRNG().state = before;
   for (std::size_t i = 0; i < poses[0].size(); ++i)
     EXPECT_EQ(std::memcmp(poses[0][i].data(), poses[1][i].data(), 7 * sizeof(double)), 0) << i;
 }

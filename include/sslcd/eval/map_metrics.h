@@ -22,7 +22,7 @@ struct MapRun {
 
 struct MapMetricOptions {
   /// A detection counts as raw result from this score on. Scores are probabilities: a threshold on a detector's raw
-  /// (logit) score goes through ProbabilityOfLogit(). The default belongs to the raw score 3.
+  /// (logit) score goes through Sigmoid(). The default belongs to the raw score 3.
   double min_score = 0.9525741268224334;
   std::vector<std::string> labels{"Car", "Van"};  ///< annotated classes that count
   double static_below_m = 2.;    ///< a track that extends less than this in the reference world is static
@@ -49,9 +49,6 @@ struct MapMetrics {
 
 /// Throws Error (kUsage) when two frames carry the same number or an annotated box a negative one.
 MapMetrics ComputeMapMetrics(const MapRun& run, const MapMetricOptions& options = {});
-
-/// 1 / (1 + exp(-logit)).
-double ProbabilityOfLogit(double logit);
 
 /// The path with its positions multiplied by `scale`, the rotations kept: a stand-in for true poses where an odometry
 /// is known to be too long (KITTI tracking's ORB-SLAM3 poses: 0.975).

@@ -36,6 +36,13 @@ struct ImageSequence {
   std::optional<BoxesByFrame> boxes;  ///< instead of a detector
 };
 
+/// Whether the ground is where VisionOptions::lift has it, which cuboids lifted from boxes stand on: looked at in
+/// every tenth frame.
+struct GroundReport {
+  int frames = 0, elsewhere = 0;  ///< that were looked at; those among them where it is not
+  std::vector<double> heights_m;  ///< of the camera over the ground, in the first of those where that can be told
+};
+
 /// What became of a sequence.
 struct FrontendReport {
   int frames = 0;
@@ -43,6 +50,7 @@ struct FrontendReport {
   int lost = 0;                    ///< frames whose odometry had to be guessed, those among them
   std::map<LiftStatus, int> lift;  ///< boxes, by what became of them
   std::set<std::string> unknown;   ///< labels of boxes that lifting knows no sizes of
+  GroundReport ground;
   int detections = 0;
   TimingTable timing;
 };

@@ -18,15 +18,16 @@ struct SequenceFiles {
   std::string comment;  ///< first line of sequence.yaml; empty: none
   std::optional<StereoCamera> camera;
   Trajectory odometry;                             ///< one pose a frame, with stamps
+  std::optional<Trajectory> groundtruth;           ///< for evaluation only
   std::vector<std::vector<Detection>> detections;  ///< of each frame
   Vec3 up_axis{0, -1, 0};
   LabelTable labels;
 };
 
 /// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score), sequence.yaml, and where
-/// there are such things calib.txt, embeddings.npy (a detection without one has a row of zeros) and colours.npy (all
-/// have one, or there is no file: the reader would fill gaps from images). What an earlier run left of these is
-/// removed. Each file appears complete or not at all. Throws Error(kOutput).
+/// there are such things calib.txt, groundtruth.txt (TUM), embeddings.npy (a detection without one has a row of zeros)
+/// and colours.npy (all have one, or there is no file: the reader would fill gaps from images). What an earlier run
+/// left of these is removed. Each file appears complete or not at all. Throws Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
 /// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not set, Error(kOutput)

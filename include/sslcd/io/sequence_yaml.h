@@ -11,16 +11,18 @@ namespace sslcd {
 
 /// What a sequence folder says about itself.
 struct SequenceInfo {
-  std::optional<Vec3> up_axis;  ///< unit vector in the world (odometry) frame
+  std::optional<Vec3> up_axis;            ///< unit vector in the world (odometry) frame
+  int image_width = 0, image_height = 0;  ///< [px]; 0: not given
   LabelTable labels;
 };
 
 /// Reads sequence.yaml:
 ///
 ///   up_axis: [0, -1, 0]
+///   image_size_px: [1242, 375]
 ///   labels: {Car: {symmetry: none}, Tree: {symmetry: full}}
 ///
-/// Both keys are optional. Throws Error with file:line:column for unknown or duplicate keys and for wrong values.
+/// All keys are optional. Throws Error with file:line:column for unknown or duplicate keys and for wrong values.
 SequenceInfo ReadSequenceYaml(const std::string& path);
 
 }  // namespace sslcd

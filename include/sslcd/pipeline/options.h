@@ -24,7 +24,7 @@ void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
 
 /// The full-map optimisation at the end of a run (callable any time).
 struct RefineOptions {
-  bool enabled = true;
+  bool enabled = true;        ///< false: loops are not looked for once more, with hindsight, either
   int rounds = 2;             ///< optimise, associate anew, fuse, and again
   double keyframe_m = 1.;     ///< cameras of the optimisation: a keyframe every so far ...
   double keyframe_rad = 0.1;  ///< ... or every such turn; all other frames follow

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "sslcd/core/detection.h"
 #include "sslcd/core/pose_graph.h"
+#include "sslcd/core/source.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/perception/colour.h"
@@ -39,9 +39,6 @@ struct RunResult {
   bool stopped = false;  ///< the stop hook ended it early
 };
 
-/// Hands out the frames of a sequence in order; none: that was the last one. May throw.
-using FrameSource = std::function<std::optional<Frame>()>;
-
 /// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop). Deterministic.
 /// Throws what Mapper::AddFrame throws.
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
@@ -49,7 +46,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
 
 /// The same for frames that come one by one, e.g. made from images (frontend/image_frontend.h). `total` is for the
 /// progress only.
-RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context, const Options& options,
+RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context, const Options& options,
                       const RunHooks& hooks = {});
 
 }  // namespace sslcd

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sslcd/core/camera.h"
@@ -29,10 +30,19 @@ struct GroundPlane {
   double HeightOf(const Vec3& point_cam) const { return up.dot(point_cam) + height_m; }
 };
 
+/// With less support than this a plane is hardly the ground. Streets and car parks had 0.5 to 0.95, from heights twice
+/// and three times the true one 0 to 0.3.
+inline constexpr double kGroundSupport = 0.3;
+
 /// The ground in front of the camera: a plane in disparity (d = -f b up.ray / height is linear in up / height), found
 /// by RANSAC in the lower part of the images outside of `objects`, then adjusted together with the prior. Where there
 /// is no evidence the prior is the answer. Throws Error(kBadInput) as CheckImages does.
 GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
                            const GroundOptions& options);
+
+/// How high the camera stands where `options` may be far off: EstimateGround from heights of a quarter to four times
+/// `options.height_m`, the one with the largest support; none where that is less than kGroundSupport.
+std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
+                                       const std::vector<Box2d>& objects, const GroundOptions& options);
 
 }  // namespace sslcd
