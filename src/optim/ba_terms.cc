@@ -50,6 +50,7 @@ BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
   ceres_.AddParameterBlock(&log_scale_, 1);
   AddSightings(problem, options);
   AddOdometry(problem, options);
+  AddSlopes(problem);
   AddPriors(problem, options);
 }
 
@@ -85,6 +86,23 @@ void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
     const OdometryResidual residual{edge.T_from_to, WhiteningOf(sigmas, problem.odometry_factors, up)};
     ceres_.AddResidualBlock(new OdometryCost(residual), nullptr, cameras_[edge.from].data(), cameras_[edge.to].data(),
                             &log_scale_);
+  }
+}
+
+void BaTerms::AddSlopes(const BaProblem& problem) {
+  if (problem.slope.sigma_rad <= 0 || problem.cameras.empty()) return;
+  const Vec3 up_in_cam = problem.cameras.front().T_world_cam.so3().inverse() * problem.gravity.up;
+  std::copy_n(problem.gravity.up.data(), 3, up_.data());
+  ceres_.AddParameterBlock(up_.data(), 3, &direction_manifold_);
+  const DirectionPrior first_slope{problem.gravity.up, problem.slope.sigma_rad};
+  ceres_.AddResidualBlock(AutoDiff<DirectionPrior, 3, 3>(first_slope), nullptr, up_.data());
+  for (const BaOdometry& edge : problem.odometry) {
+    const double path = edge.T_from_to.translation().norm();
+    if (path <= 0) continue;
+    // Cameras on one slope share what is known of it.
+    const double sigma = problem.slope.sigma_rad * std::sqrt(std::max(1., problem.slope.length_m / path));
+    const SlopeResidual residual{up_in_cam, sigma};
+    ceres_.AddResidualBlock(AutoDiff<SlopeResidual, 3, 7, 3>(residual), nullptr, cameras_[edge.to].data(), up_.data());
   }
 }
 

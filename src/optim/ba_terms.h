@@ -4,6 +4,7 @@
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
+#include <ceres/sphere_manifold.h>
 
 #include <array>
 #include <vector>
@@ -29,15 +30,18 @@ class BaTerms {
  private:
   void AddSightings(const BaProblem& problem, const BaOptions& options);
   void AddOdometry(const BaProblem& problem, const BaOptions& options);
+  void AddSlopes(const BaProblem& problem);
   void AddPriors(const BaProblem& problem, const BaOptions& options);
 
   PoseManifold pose_manifold_;
   ceres::SubsetManifold without_yaw_{4, {3}};
+  ceres::SphereManifold<3> direction_manifold_;
   ceres::CauchyLoss loss_;
   ceres::Problem ceres_;  // refers to what stands above
   std::vector<std::array<double, 7>> cameras_;
   std::vector<std::array<double, 4>> objects_;
   double log_scale_ = 0;
+  std::array<double, 3> up_{};  // where slopes are known: against gravity, in the world
 };
 
 }  // namespace sslcd

@@ -31,6 +31,8 @@ void DescribeFields(FieldVisitor& visitor, LevelOptions& options) {
   visitor.Flag("enabled", options.enabled, "turn the odometry back upright where its vertical has drifted");
   visitor.Real("max_slope_rad", options.max_slope_rad, 0, 1.5, "no ground is steeper than this on average ...");
   visitor.Real("window_m", options.window_m, 1, 1e5, "... over so many metres of path");
+  visitor.Real("slope_rad", options.slope_rad, 0, 1.5,
+               "how steep it usually is over that path, a standard deviation; 0: nothing is known");
 }
 
 void DescribeFields(FieldVisitor& visitor, Options& options) {

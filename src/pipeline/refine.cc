@@ -73,6 +73,7 @@ BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& fram
   problem.noise = options.noise;
   problem.noise_scale = map.noise_scale();
   problem.log_scale = log_scale;
+  if (options.level.enabled) problem.slope = {options.level.slope_rad, options.level.window_m};
   for (const int keyframe : keyframes) {
     const FrameRecord& record = frames[keyframe];
     const int camera = static_cast<int>(problem.cameras.size());

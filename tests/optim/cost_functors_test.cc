@@ -3,6 +3,7 @@
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/gradient_checker.h>
+#include <ceres/sphere_manifold.h>
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -104,6 +105,13 @@ TEST_P(Functors, PosePriorGradient) {
   Check(cost, {camera.data()}, {&pose_manifold});
 }
 
+TEST_P(Functors, SlopeResidualGradient) {
+  const Vec3 up_in_cam = next.so3() * Vec3(0, -1, 0);
+  const ceres::AutoDiffCostFunction<SlopeResidual, 3, 7, 3> cost(new SlopeResidual{up_in_cam, 0.05});
+  const ceres::SphereManifold<3> directions;
+  Check(cost, {camera.data(), gravity.up.data()}, {&pose_manifold, &directions});
+}
+
 TEST_P(Functors, MarginalPriorGradient) {
   BaPrior prior;
   prior.frames = {3};
@@ -150,6 +158,17 @@ TEST(ObjectResidual, ComponentsAreRadialLateralVertical) {
   EXPECT_NEAR(std::abs(r[1]), 4, 1e-9);
   off(0, 1, 0);
   EXPECT_NEAR(std::abs(r[2]), 8, 1e-9);
+}
+
+TEST(SlopeResidual, IsTheSlopeInSigmasWhicheverWayTheCameraLooks) {
+  const Vec3 up(0, -1, 0);
+  const SlopeResidual residual{up, 0.05};
+  for (const double heading : {0., 1., 3.}) {
+    const Pose camera = Pose::Trans(5, 2, 1) * Pose::RotY(heading) * Pose::RotX(0.1);
+    Eigen::Vector3d r;
+    residual(camera.data(), up.data(), r.data());
+    EXPECT_NEAR(r.norm(), 2, 1e-3);
+  }
 }
 
 TEST(OdometryResidual, ScaleStretchesTranslationOnly) {

@@ -107,6 +107,48 @@ TEST(SolveBa, HalfTurnsAndOutliersDoNoHarm) {
   for (const BaObject& object : problem.objects) EXPECT_NEAR(object.pose.yaw, 1.5, 0.1);
 }
 
+// The cameras follow the odometry, and but for one sighting there is nothing else.
+void OnlyOdometry(BaProblem& problem) {
+  problem.sightings = {problem.sightings.front()};
+  problem.objects = {problem.objects[problem.sightings[0].object]};
+  problem.sightings[0].object = 0;
+  for (std::size_t i = 1; i < problem.cameras.size(); ++i)
+    problem.cameras[i].T_world_cam = problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
+}
+
+TEST(SolveBa, OnTheGroundAPitchingOdometryDoesNotClimb) {
+  const auto highest = [](const SlopePrior& slope) {
+    Truth truth;
+    BaProblem problem = Street(200, 1, 1, truth);
+    for (BaOdometry& edge : problem.odometry) edge.T_from_to = edge.T_from_to * Pose::RotX(5e-4);
+    OnlyOdometry(problem);
+    EXPECT_GT(std::abs(problem.cameras.back().T_world_cam.translation().y()), 9);
+    problem.slope = slope;
+    BaOptions options;
+    options.odometry.rotation_walk = 5e-3;
+    EXPECT_TRUE(SolveBa(problem, options).usable);
+    return std::abs(problem.cameras.back().T_world_cam.translation().y());
+  };
+  const double as_before = highest({}), level = highest({0.05, 20});
+  EXPECT_LT(level, 0.4 * as_before);
+}
+
+TEST(SolveBa, AHillStaysWhereTheOdometryIsGood) {
+  Truth truth;
+  BaProblem problem = Street(200, 1, 0, truth);
+  for (std::size_t i = 0; i < problem.odometry.size(); ++i)  // up by 3 degrees and down again
+    if (i == 50 || i == 149)
+      problem.odometry[i].T_from_to = problem.odometry[i].T_from_to * Pose::RotX(0.05);
+    else if (i == 99)
+      problem.odometry[i].T_from_to = problem.odometry[i].T_from_to * Pose::RotX(-0.1);
+  OnlyOdometry(problem);
+  const double top = problem.cameras[100].T_world_cam.translation().y();
+  EXPECT_GT(std::abs(top), 2);
+  problem.slope = {0.05, 200};
+  EXPECT_TRUE(SolveBa(problem, {}).usable);
+  EXPECT_NEAR(problem.cameras[100].T_world_cam.translation().y(), top, 0.1 * std::abs(top));
+}
+
 TEST(SolveBa, IsDeterministic) {
   Truth truth;
   BaProblem a = Street(30, 1.03, 1., truth), b = a;

@@ -39,8 +39,8 @@ TEST_P(LearnsFactors, OfAnOdometryThatIsBetterOrWorseThanItSays) {
     horizontal_off += std::log(factors.horizontal / horizontal) / kWorlds;
     heading_off += std::log(factors.heading / heading) / kWorlds;
   }
-  EXPECT_NEAR(horizontal_off, 0, 0.35) << "the prior pulls towards one";
-  EXPECT_NEAR(heading_off, 0, 0.35);
+  EXPECT_NEAR(horizontal_off, 0, 0.5 * std::abs(std::log(horizontal)) + 0.15) << "the prior pulls towards one";
+  EXPECT_NEAR(heading_off, 0, 0.5 * std::abs(std::log(heading)) + 0.15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, LearnsFactors,

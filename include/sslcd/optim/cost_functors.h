@@ -118,6 +118,33 @@ struct PosePrior {
   }
 };
 
+/// A camera on the ground stands upright up to the ground's slope: r = (R_world_cam up_in_cam - up) / sigma, about the
+/// slope's angle in sigmas. `up`: unit vector in the world.
+struct SlopeResidual {
+  Vec3 up_in_cam;    ///< unit vector
+  double sigma = 1;  ///< [rad]
+
+  template <class T>
+  bool operator()(const T* camera, const T* up, T* residual) const {
+    const lie::SE3<T> T_world_cam = lie::SE3Map<const T>(camera);
+    const Eigen::Matrix<T, 3, 1> stands = T_world_cam.so3() * Eigen::Matrix<T, 3, 1>(up_in_cam.cast<T>());
+    for (int i = 0; i < 3; ++i) residual[i] = (stands[i] - up[i]) / sigma;
+    return true;
+  }
+};
+
+/// r = (x - mean) / sigma, for directions as unit vectors.
+struct DirectionPrior {
+  Vec3 mean;
+  double sigma = 1;  ///< [rad]
+
+  template <class T>
+  bool operator()(const T* x, T* residual) const {
+    for (int i = 0; i < 3; ++i) residual[i] = (x[i] - mean[i]) / sigma;
+    return true;
+  }
+};
+
 /// r = (x - mean) / sigma.
 struct ScalarPrior {
   double mean = 0, sigma = 1;

@@ -60,6 +60,13 @@ struct BaPrior {
   bool empty() const { return J.rows() == 0; }
 };
 
+/// What is known of a vehicle's road: how steep it is, and that elsewhere it is steep otherwise. Nothing else holds the
+/// roll and pitch of an odometry that does not measure gravity, and with them its height, between the ends of a loop.
+struct SlopePrior {
+  double sigma_rad = 0;   ///< standard deviation of the slope; 0: nothing is known
+  double length_m = 200;  ///< of path, after which the slope is another one
+};
+
 struct BaProblem {
   GravityFrame gravity;
   std::vector<BaCamera> cameras;
@@ -75,6 +82,8 @@ struct BaProblem {
   DetectionNoise noise;
   NoiseScale noise_scale;
   OdometryFactors odometry_factors;  ///< on BaOptions::odometry
+  /// The first camera, which stands on a slope like all others, tells which direction of the cameras is up.
+  SlopePrior slope;
 };
 
 struct BaSummary {

@@ -41,6 +41,8 @@ struct LevelOptions {
   bool enabled = true;
   double max_slope_rad = 0.1;  ///< no ground is steeper than this on average ...
   double window_m = 200.;      ///< ... over so much path
+  /// How steep it usually is over so much path, a standard deviation, for the adjustments of all cameras: SlopePrior.
+  double slope_rad = 0.05;
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
 
