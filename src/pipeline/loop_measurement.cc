@@ -52,9 +52,9 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLa
   if (!drift.usable) return std::nullopt;
 
   std::sort(seen.begin(), seen.end());
-  // Where the matched objects were in sight, or later on the odometry's word.
-  const int last_seen = FrameAt(std::clamp(query_m, seen.front(), seen.back()));
-  loop.query = FrameAt(std::clamp(query_m, seen.front(), seen.back() + beyond_m));
+  // Where the matched objects were in sight, or before or after that on the odometry's word.
+  const int in_sight = FrameAt(std::clamp(query_m, seen.front(), seen.back()));
+  loop.query = FrameAt(std::clamp(query_m, seen.front() - beyond_m, seen.back() + beyond_m));
   loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
   if (loop.match < 0) return std::nullopt;
   const Pose &T_world_query = frames_[loop.query].T_world_cam, &T_world_match = frames_[loop.match].T_world_cam;
@@ -77,12 +77,18 @@ std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLa
   row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected) - Heading(T_world_match)));
   const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
-  const Pose since = frames_[last_seen].T_odom_cam.inverse() * frames_[loop.query].T_odom_cam;
-  const OdometrySigmas walked = loop.query > last_seen ? SigmasOf(since, options_.odometry) : OdometrySigmas{};
-  row.covariance.diagonal().head<3>().array() += std::pow(std::hypot(options_.sigma_m, walked.horizontal), 2);
-  row.covariance.diagonal().tail<3>().array() += std::pow(std::hypot(options_.sigma_rad, walked.rotation), 2);
+  const auto add = [&row](double translation, double rotation) {
+    row.covariance.diagonal().head<3>().array() += translation * translation;
+    row.covariance.diagonal().tail<3>().array() += rotation * rotation;
+  };
+  add(options_.sigma_m, options_.sigma_rad);
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
+  if (loop.query != in_sight) {
+    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[loop.query].T_odom_cam;
+    const OdometrySigmas sigmas = SigmasOf(walked, options_.odometry);
+    add(sigmas.horizontal, sigmas.rotation);
+  }
   return loop;
 }
 

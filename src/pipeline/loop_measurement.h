@@ -15,7 +15,7 @@ namespace sslcd {
 struct LoopMeasurement {
   LoopClosure row;
   int query = 0, match = 0;  ///< the two cameras: indices into the frames
-  double heading_sigma = 0;  ///< of T_match_query about the vertical [rad]
+  double heading_sigma = 0;  ///< of T_match_query about the vertical, by its matches [rad]
 };
 
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
@@ -33,8 +33,8 @@ class LoopMeter {
 
   /// `matches`: index of local, of global; `sigma_m`: how well their positions agree; `old_until_m`: where the path of
   /// the global map ends. Tries the camera at `query_m` and, while the heading remains too uncertain, cameras further
-  /// back; none that stood before the first matched object or more than `beyond_m` after the last one. What odometry
-  /// may have done since that one counts in the covariance. None where the matches fix no pose.
+  /// back; none that stood more than `beyond_m` before the first matched object or after the last one. What odometry
+  /// may do over that stretch counts in the covariance. None where the matches fix no pose.
   std::optional<LoopMeasurement> Measure(const PassLayout& local, const LayoutIndex& global,
                                          const std::vector<std::pair<int, int>>& matches, double sigma_m,
                                          double query_m, double old_until_m, double beyond_m) const;
