@@ -4,8 +4,8 @@
 namespace sslcd {
 
 std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
-  // Usual sizes on European roads; KITTI's labels.
-  return {{"Car", {4.3, 1.8, 1.53, 0.45, 0.12, 0.12, 0.18, 0.5}},
+  // Usual sizes on European roads; a car is what the 307 of KITTI tracking are labelled as.
+  return {{"Car", {3.93, 1.63, 1.53, 0.44, 0.11, 0.13, 0.18, 0.5}},
           {"Van", {5.1, 1.95, 2.1, 0.6, 0.12, 0.25, 0.16, 0.8}},
           {"Truck", {7, 2.4, 3, 2, 0.2, 0.4, 0.16, 0.95}},
           {"Bus", {11, 2.55, 3.2, 2, 0.1, 0.4, 0.16, 0.98}},
@@ -50,6 +50,8 @@ void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
                "boxes whose heading stays less certain than this are not lifted");
   visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100, "standard deviation of each side of a box");
+  visitor.Real("box_sigma_share", options.box_sigma_share, 0, 1,
+               "... of a coarse detector: share of the box's width or height; its description may say more");
   visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10, "what the object's own shape adds to it");
   visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10, "of the disparity of a column of pixels");
   visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10, "what all columns of an object share");
