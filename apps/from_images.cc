@@ -35,7 +35,7 @@ Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset&
   all = config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise();
     if (!tracked) return;
-    c.options.loop.odometry = c.options.ba.odometry;
+    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise();
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
   name_models(all);

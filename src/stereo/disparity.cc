@@ -29,42 +29,50 @@ float Between(const float* row, int columns, float x) {
 }
 
 /// Semi-global matching pulls disparities to whole pixels, by up to a fifth of one: a metre at 20 m and a baseline of
-/// 12 cm. A step of Lucas and Kanade's (IJCAI 1981) goes to where the grey values fit: windows less their means, each
-/// pixel with its own disparity. Where there is nothing to fit, the matcher has but guessed.
-/// `step`: pixels of the whole image to one of these.
-void RefineDisparities(const cv::Mat& left, const cv::Mat& right, float step, cv::Mat& disparities) {
-  constexpr float kLongest = 0.6F, kFlattest = 4;  // [px], [grey values per px of the whole image, squared]
-  const float flattest = kFlattest * step * step;
+/// 12 cm. Lucas and Kanade's steps (IJCAI 1981) go to where the grey values fit: windows less their means, each pixel
+/// with its own disparity. Blurred, since what is finer than a pixel sticks to the pixels. Where there is nothing to
+/// fit, the matcher has but guessed. `step`: pixels of the whole image to one of these.
+void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step, cv::Mat& disparities) {
+  constexpr int kSteps = 2;
+  constexpr double kBlur = 1.2, kFlattest = 2;  // [px], [grey values per px, squared], both of the whole image
+  constexpr float kLongest = 0.6F;              // [px]
   const cv::Size window(9, 9);
-  cv::Mat l, r;
-  left.convertTo(l, CV_32F);
-  right.convertTo(r, CV_32F);
-  cv::Mat error = cv::Mat::zeros(l.size(), CV_32F), slope = error.clone();
-  for (int y = 0; y < l.rows; ++y) {
-    const float *in_left = l.ptr<float>(y), *in_right = r.ptr<float>(y), *disparity = disparities.ptr<float>(y);
-    for (int x = 0; x < l.cols; ++x) {
-      if (!(disparity[x] > 0)) continue;
-      const auto there = [&](int column) { return Between(in_right, l.cols, column - disparity[x]); };
-      error.at<float>(y, x) = there(x) - in_left[x];
-      slope.at<float>(y, x) = 0.5F * (there(x + 1) - there(x - 1));
-    }
-  }
-  const auto mean = [&](const cv::Mat& values) {
-    cv::Mat blurred;
-    cv::boxFilter(values, blurred, CV_32F, window);
-    return blurred;
+  const auto blurred = [&](const cv::Mat& image) {
+    cv::Mat out;
+    image.convertTo(out, CV_32F);
+    cv::GaussianBlur(out, out, {}, kBlur / step);
+    return out;
   };
-  const cv::Mat mean_error = mean(error), mean_slope = mean(slope);
-  const cv::Mat product = mean(slope.mul(error)) - mean_slope.mul(mean_error);
-  const cv::Mat square = mean(slope.mul(slope)) - mean_slope.mul(mean_slope);
-  for (int y = 0; y < l.rows; ++y) {
-    for (int x = 0; x < l.cols; ++x) {
-      const float steepness = square.at<float>(y, x), move = product.at<float>(y, x) / steepness;
-      float& disparity = disparities.at<float>(y, x);
-      if (!(steepness > flattest)) {
-        disparity = std::numeric_limits<float>::quiet_NaN();
-      } else if (std::abs(move) < kLongest) {
-        disparity += move;
+  const auto mean = [&](const cv::Mat& values) {
+    cv::Mat out;
+    cv::boxFilter(values, out, CV_32F, window);
+    return out;
+  };
+  const cv::Mat l = blurred(left), r = blurred(right);
+  const auto flattest = static_cast<float>(kFlattest * step * step);
+  for (int i = 0; i < kSteps; ++i) {
+    cv::Mat error = cv::Mat::zeros(l.size(), CV_32F), slope = error.clone();
+    for (int y = 0; y < l.rows; ++y) {
+      const float *in_left = l.ptr<float>(y), *in_right = r.ptr<float>(y), *disparity = disparities.ptr<float>(y);
+      for (int x = 0; x < l.cols; ++x) {
+        if (!(disparity[x] > 0)) continue;
+        const auto there = [&](int column) { return Between(in_right, l.cols, column - disparity[x]); };
+        error.at<float>(y, x) = there(x) - in_left[x];
+        slope.at<float>(y, x) = 0.5F * (there(x + 1) - there(x - 1));
+      }
+    }
+    const cv::Mat mean_error = mean(error), mean_slope = mean(slope);
+    const cv::Mat product = mean(slope.mul(error)) - mean_slope.mul(mean_error);
+    const cv::Mat square = mean(slope.mul(slope)) - mean_slope.mul(mean_slope);
+    for (int y = 0; y < l.rows; ++y) {
+      for (int x = 0; x < l.cols; ++x) {
+        const float steepness = square.at<float>(y, x), move = product.at<float>(y, x) / steepness;
+        float& disparity = disparities.at<float>(y, x);
+        if (!(steepness > flattest)) {
+          disparity = std::numeric_limits<float>::quiet_NaN();
+        } else if (std::abs(move) < kLongest) {
+          disparity += move;
+        }
       }
     }
   }
@@ -99,7 +107,7 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   patch.y0 = part.y + 0.5 * patch.step_y - 0.5;
   cv::Mat disparities;
   sixteenths.convertTo(disparities, CV_32F, 1. / 16);
-  RefineDisparities(left_part, right_part, static_cast<float>(patch.step_x), disparities);
+  RefineDisparities(left_part, right_part, patch.step_x, disparities);
   patch.values = disparities.colRange(skip, disparities.cols) * patch.step_x;
   patch.values.setTo(std::numeric_limits<float>::quiet_NaN(), ~(patch.values > 0));
   return patch;

@@ -15,14 +15,14 @@ std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
 
 DetectionNoise LiftNoise() {
   DetectionNoise noise;
-  noise.radial_m = 0.1;
-  noise.radial_per_m = 0.035;
-  noise.lateral_m = 0.12;
-  noise.lateral_per_m = 0.012;
-  noise.vertical_m = 0.04;
+  noise.radial_m = 0.02;
+  noise.radial_per_m = 0.03;
+  noise.lateral_m = 0.11;
+  noise.lateral_per_m = 0.002;
+  noise.vertical_m = 0.03;
   noise.vertical_per_m = 0.0005;
-  noise.yaw_rad = 0.1;
-  noise.yaw_per_m = 0.01;
+  noise.yaw_rad = 0.03;
+  noise.yaw_per_m = 0.009;
   noise.size_relative = 0.1;
   noise.initial_scale = 1;
   return noise;
