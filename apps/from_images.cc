@@ -33,7 +33,7 @@ Configuration ImageArguments::Load(const ConfigArguments& config, const Dataset&
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
   all = config.Load([&](Configuration& c) {
-    if (lifted) c.options.noise = LiftNoise();
+    if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1;
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise();
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;

@@ -21,9 +21,9 @@ void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
 OdometryNoise StereoOdometryNoise() {
   OdometryNoise noise;
   noise.translation_floor_m = 0.001;
-  noise.translation_walk = 0.0025;
+  noise.translation_walk = 0.004;
   noise.rotation_floor_rad = 1e-4;
-  noise.rotation_walk = 2e-4;
+  noise.rotation_walk = 2.5e-4;
   noise.rotation_turn = 1e-3;
   return noise;
 }
