@@ -14,7 +14,7 @@ namespace sslcd {
 struct StereoOdometryOptions {
   int points = 400;               ///< image points followed, spread over the image; time grows with them
   double min_corner = 0.01;       ///< a corner's least share of the strongest corner's smaller eigenvalue
-  int patch_px = 9;               ///< side of the patches that are compared; large ones do not fit on slanted ground
+  int patch_px = 9;               ///< side of the patches that are compared; small ones fit slanted ground
   double min_disparity_px = 0.5;  ///< points further away than that are not used
   double max_row_error_px = 1.5;  ///< left and right of a point; more: not the same point, or images not rectified
   double ransac_px = 2;           ///< a point fits a pose if it appears so near to where it should
