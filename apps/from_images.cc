@@ -45,9 +45,9 @@ Configuration ImageArguments::Load(ConfigArguments config, const Dataset& datase
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
   return config.Load([&](Configuration& c) {
-    if (lifted) c.options.noise = LiftNoise();
+    if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1;
     if (!tracked) return;
-    c.options.loop.odometry = c.options.ba.odometry;
+    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise();
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY]
+// Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]
 // SEQUENCE: `sslcd_sim halv --case CASE --seed SEED --render --render-truth`; BOXES: scripts/instance_boxes.py or a
 // detector's; every EVERYth frame. Each box is that object's whose visible part it covers best; the truth is the world
 // itself.
@@ -77,6 +77,26 @@ Judged Judge(const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
           size.x(),      size.y(),  size.z(),  Iou3d(a, b), lifted.sigmas};
 }
 
+constexpr const char* kRowNames =
+    "frame,identity,status,range,view,ahead,left,radial,lateral,vertical,yaw,length,width,height,sigma_radial,"
+    "sigma_lateral,sigma_yaw,box_left,box_top,box_right,box_bottom";
+
+/// One box, for scripts. view: where the camera stands in the object's true frame, from its front to its left [rad];
+/// ahead, left: the error of the centre in that frame.
+void WriteRow(std::FILE* rows, int frame, int identity, const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
+  const bool known = lifted.status == LiftStatus::kLifted || lifted.status == LiftStatus::kAmbiguous;
+  const Judged judged = known ? Judge(lifted, truth, dims) : Judged{};
+  const Vec3 camera = truth.inverse() * Vec3::Zero();
+  const Vec3 off = known ? Vec3(truth.inverse() * lifted.detection.T_cam_object.translation()) : Vec3(Vec3::Zero());
+  const Box2d box = lifted.detection.box.value_or(Box2d());
+  std::fprintf(rows,
+               "%d,%d,%d,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.1f,%.1f,%.1f,%.1f\n",
+               frame, identity, static_cast<int>(lifted.status), truth.translation().norm(),
+               std::atan2(camera.y(), camera.x()), off.x(), off.y(), judged.radial, judged.lateral, judged.vertical,
+               judged.yaw, judged.length, judged.width, judged.height, judged.sigmas.radial, judged.sigmas.lateral,
+               judged.sigmas.yaw, box.left, box.top, box.right, box.bottom);
+}
+
 template <class Of>
 double Quantile(const std::vector<Judged>& judged, double share, Of of) {
   std::vector<double> values;
@@ -107,7 +127,7 @@ void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
 }
 
 int Run(int argc, char** argv) {
-  if (argc < 5) throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY]");
+  if (argc < 5) throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]");
   const std::string folder = argv[1];
   const auto boxes = ReadBoxes(argv[2]);
   sim::HalvScene scene;
@@ -126,6 +146,8 @@ int Run(int argc, char** argv) {
   int near_boxes = 0, all_boxes = 0, frames = 0;
   double ms = 0;
   std::map<std::string, int> statuses;
+  std::FILE* rows = argc > 6 ? std::fopen(argv[6], "w") : nullptr;
+  if (rows) std::fprintf(rows, "%s\n", kRowNames);
   for (const auto& [frame, list] : boxes) {
     if (frame % every != 0) continue;
     const cv::Mat left = Read(folder, "image_2", frame, cv::IMREAD_COLOR);
@@ -148,6 +170,7 @@ int Run(int argc, char** argv) {
       ++counts[bin];
       ++all_boxes;
       near_boxes += range <= 25;
+      if (rows) WriteRow(rows, frame, identity, lifted[i], truth, object.dims);
       if (lifted[i].status != LiftStatus::kLifted) continue;
       const Judged judged = Judge(lifted[i], truth, object.dims);
       bins[bin].push_back(judged);
@@ -155,6 +178,7 @@ int Run(int argc, char** argv) {
       if (range <= 25) near.push_back(judged);
     }
   }
+  if (rows) std::fclose(rows);
   std::printf(
       "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, 90 %% [deg] | "
       "length, width, "

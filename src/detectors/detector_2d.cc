@@ -45,4 +45,6 @@ std::vector<ImageDetection> Detector2d::Detect(const ImageView& image, TimingTab
 
 const std::string& Detector2d::name() const { return impl_->model.description().name; }
 
+double Detector2d::box_sigma() const { return impl_->model.description().output.box_sigma; }
+
 }  // namespace sslcd

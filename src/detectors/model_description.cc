@@ -74,6 +74,8 @@ void DescribeFields(FieldVisitor& visitor, ModelOutput& output) {
   visitor.Names("labels", output.labels, "class number -> label; classes that are not listed are dropped");
   visitor.Real("min_score", output.min_score, 0, 1, "detections with a lower score are dropped");
   visitor.Real("nms_iou", output.nms_iou, 0, 1, "of two boxes of one label that overlap more, the better one stays");
+  visitor.Real("box_sigma", output.box_sigma, 0, 1,
+               "2D detectors: standard deviation of a box's sides, share of its width or height");
   visitor.Enum("box_format", output.box_format, {"corners", "centre"}, "boxes_scores_labels: what a box's numbers are");
   visitor.Flag("normalised_boxes", output.normalised_boxes, "boxes_scores_labels: boxes in 0..1 instead of pixels");
   visitor.Nested("anchors", output.anchors, "stereo3d, mono3d: anchors and what is known about them");

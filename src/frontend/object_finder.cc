@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frontend/object_finder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sslcd/core/error.h"
@@ -20,6 +21,7 @@ ObjectFinder::ObjectFinder(const StereoCamera& camera, const VisionOptions& opti
       detector_3d_.emplace(Detector3d::Load(options.detector, options.inference));
     else
       detector_2d_.emplace(Detector2d::Load(options.detector, options.inference));
+    if (detector_2d_) lift_.box_sigma_share = std::max(lift_.box_sigma_share, detector_2d_->box_sigma());
   }
   if (!options.embedder.empty()) embedder_.emplace(Embedder::Load(options.embedder, options.inference));
 }

@@ -57,15 +57,15 @@ class Problem {
     }
     const Box2d seen = Silhouette(p);
     const double shape_px = options_.shape_sigma_m / std::max(p[kZ], 0.5);
-    const double sigma_x = std::hypot(options_.box_sigma_px, camera_.fx * shape_px);
-    const double sigma_y = std::hypot(options_.box_sigma_px, camera_.fy * shape_px);
-    const auto side = [](double beyond, bool open, double sigma) {
-      return open ? std::min(beyond, 0.) / sigma : beyond / sigma;
+    const auto side = [](double beyond, bool open, double sigma, double shape) {
+      return (open ? std::min(beyond, 0.) : beyond) / std::hypot(sigma, shape);
     };
-    out[row++] = side(input_.box.left - seen.left, input_.sides.left_open, sigma_x);
-    out[row++] = side(seen.right - input_.box.right, input_.sides.right_open, sigma_x);
-    out[row++] = side(input_.box.top - seen.top, input_.sides.top_open, sigma_y);
-    out[row++] = side(seen.bottom - input_.box.bottom, input_.sides.bottom_open, sigma_y);
+    const double shape_x = camera_.fx * shape_px, shape_y = camera_.fy * shape_px;
+    const Box2d &box = input_.box, &sigmas = input_.sigmas;
+    out[row++] = side(box.left - seen.left, input_.sides.left_open, sigmas.left, shape_x);
+    out[row++] = side(seen.right - box.right, input_.sides.right_open, sigmas.right, shape_x);
+    out[row++] = side(box.top - seen.top, input_.sides.top_open, sigmas.top, shape_y);
+    out[row++] = side(seen.bottom - box.bottom, input_.sides.bottom_open, sigmas.bottom, shape_y);
     const ClassPrior& prior = input_.prior;
     out[row++] = (p[kLength] - prior.length_m) / prior.length_sigma_m;
     out[row++] = (p[kWidth] - prior.width_m) / prior.width_sigma_m;

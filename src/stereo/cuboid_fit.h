@@ -18,6 +18,7 @@ struct BoxSides {
 struct FitInput {
   Box2d box;
   BoxSides sides;
+  Box2d sigmas;  ///< of its sides [px]
   std::vector<ScanPoint> scan;
   ClassPrior prior;
   std::vector<Footprint> taken;  ///< ground on which others stand

@@ -100,29 +100,79 @@ std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& 
   return std::nullopt;
 }
 
+/// Standard deviations of the sides of a box.
+Box2d SigmasOf(const Box2d& box, const LiftOptions& options) {
+  const double x = std::hypot(options.box_sigma_px, options.box_sigma_share * (box.right - box.left));
+  const double y = std::hypot(options.box_sigma_px, options.box_sigma_share * (box.bottom - box.top));
+  return {x, y, x, y};
+}
+
+/// As far as the object of a coarse box may reach.
+Box2d Around(const Box2d& box, const Box2d& sigmas, const ImageView& image) {
+  constexpr double kSigmas = 2;
+  return Clipped({box.left - kSigmas * sigmas.left, box.top - kSigmas * sigmas.top, box.right + kSigmas * sigmas.right,
+                  box.bottom + kSigmas * sigmas.bottom},
+                 image);
+}
+
+/// Two measurements of a side become one.
+void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
+  const double weight = 1 / (sigma_px * sigma_px), side_weight = 1 / (side_sigma_px * side_sigma_px);
+  side = (weight * at + side_weight * side) / (weight + side_weight);
+  side_sigma_px = 1 / std::sqrt(weight + side_weight);
+}
+
+/// Where the box is coarse, the ends of the contour tell of its sides, too. Of a contour with gaps, the part that has
+/// most points in the box is the object's.
+void TakeSidesOfContour(const Box2d& around, FitInput& input) {
+  constexpr double kGap = 0.25, kSigma = 0.05;  // share of the box's width: what is seen through, or without texture
+  const Box2d box = input.box;
+  const double width = box.right - box.left;
+  const auto inside = [&](const ScanPoint& point) { return point.u >= box.left && point.u <= box.right; };
+  auto first = input.scan.begin(), best_first = first, best_last = first;
+  std::ptrdiff_t most = -1;
+  for (auto at = first; at != input.scan.end(); ++at) {
+    const auto next = at + 1;
+    if (next != input.scan.end() && next->u - at->u < kGap * width) continue;
+    const std::ptrdiff_t count = std::count_if(first, next, inside);
+    if (count > most) most = count, best_first = first, best_last = next;
+    first = next;
+  }
+  input.scan = {best_first, best_last};
+  // A contour that goes on to where nothing was looked at has no end.
+  const double left = input.scan.front().u, right = input.scan.back().u, sigma = kSigma * width;
+  if (!input.sides.left_open && left > around.left + sigma) Merge(left, sigma, input.box.left, input.sigmas.left);
+  if (!input.sides.right_open && right < around.right - sigma) Merge(right, sigma, input.box.right, input.sigmas.right);
+}
+
 /// A cuboid for a box, or why not.
 LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer, const ClassPrior& prior,
                 CuboidFit& answer) {
   constexpr double kElsewhere = 1;                   // the cost of a column that is not the object's
   constexpr double kBoxError = 5, kScanError = 2.5;  // [sigmas]
   const double max_disparity = scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
+  const bool coarse = scene.options.box_sigma_share > 0;
+  const Box2d sigmas = SigmasOf(box, scene.options);
+  const Box2d around = coarse ? Around(box, sigmas, scene.image) : box;
   const auto scans =
-      ScanObject(Match(scene.grey, box, max_disparity), box, nearer, scene.camera, scene.ground, RulesFor(prior));
+      ScanObject(Match(scene.grey, around, max_disparity), around, nearer, scene.camera, scene.ground, RulesFor(prior));
   if (scans.empty()) return LiftStatus::kNoDepth;
   FitInput input;
-  input.box = box;
   input.prior = prior;
-  input.sides = OpenSides(box, nearer, scene.image, scene.options.box_sigma_px);
+  input.sides = OpenSides(box, nearer, scene.image, sigmas.left);
   for (const Nearer& other : nearer) {
     if (other.footprint) input.taken.push_back(*other.footprint);
   }
   std::optional<CuboidFit> best;
   double least = 0;
   for (const std::vector<ScanPoint>& scan : scans) {
+    input.box = box;
+    input.sigmas = sigmas;
     input.scan = scan;
+    if (coarse) TakeSidesOfContour(around, input);
     const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
     if (!fit) continue;
-    const double cost = fit->cost - kElsewhere * static_cast<double>(scan.size());
+    const double cost = fit->cost - kElsewhere * static_cast<double>(input.scan.size());
     if (best && cost >= least) continue;
     best = fit;
     least = cost;

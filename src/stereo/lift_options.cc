@@ -4,8 +4,8 @@
 namespace sslcd {
 
 std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
-  // Usual sizes on European roads; KITTI's labels.
-  return {{"Car", {4.3, 1.8, 1.53, 0.45, 0.12, 0.12, 0.18, 0.5}},
+  // Usual sizes on European roads; a car is what the 307 of KITTI tracking are labelled as.
+  return {{"Car", {3.93, 1.63, 1.53, 0.44, 0.11, 0.13, 0.18, 0.5}},
           {"Van", {5.1, 1.95, 2.1, 0.6, 0.12, 0.25, 0.16, 0.8}},
           {"Truck", {7, 2.4, 3, 2, 0.2, 0.4, 0.16, 0.95}},
           {"Bus", {11, 2.55, 3.2, 2, 0.1, 0.4, 0.16, 0.98}},
@@ -15,14 +15,16 @@ std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
 
 DetectionNoise LiftNoise() {
   DetectionNoise noise;
-  noise.radial_m = 0.1;
-  noise.radial_per_m = 0.035;
-  noise.lateral_m = 0.12;
-  noise.lateral_per_m = 0.012;
-  noise.vertical_m = 0.04;
+  // More than single cuboids are off by: what is off stays so for a while as an object is passed, and what is off in
+  // height all objects of a frame share.
+  noise.radial_m = 0.03;
+  noise.radial_per_m = 0.045;
+  noise.lateral_m = 0.2;
+  noise.lateral_per_m = 0.002;
+  noise.vertical_m = 0.2;
   noise.vertical_per_m = 0.0005;
-  noise.yaw_rad = 0.1;
-  noise.yaw_per_m = 0.01;
+  noise.yaw_rad = 0.06;
+  noise.yaw_per_m = 0.018;
   noise.size_relative = 0.1;
   noise.initial_scale = 1;
   return noise;
@@ -50,6 +52,8 @@ void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
                "boxes whose heading stays less certain than this are not lifted");
   visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100, "standard deviation of each side of a box");
+  visitor.Real("box_sigma_share", options.box_sigma_share, 0, 1,
+               "... of a coarse detector: share of the box's width or height; its description may say more");
   visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10, "what the object's own shape adds to it");
   visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10, "of the disparity of a column of pixels");
   visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10, "what all columns of an object share");

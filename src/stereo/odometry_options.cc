@@ -18,6 +18,16 @@ void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
   v.Integer("patience", o.patience, 0, 100, "frames in a row lost before it starts anew where it believes to be");
 }
 
+OdometryNoise StereoOdometryNoise() {
+  OdometryNoise noise;
+  noise.translation_floor_m = 0.001;
+  noise.translation_walk = noise.vertical_walk = 0.004;
+  noise.rotation_floor_rad = 1e-4;
+  noise.rotation_walk = 2.5e-4;
+  noise.rotation_turn = 1e-3;
+  return noise;
+}
+
 const char* ToString(OdometryStatus status) {
   constexpr const char* kNames[] = {"first", "tracked", "lost"};
   return kNames[static_cast<int>(status)];

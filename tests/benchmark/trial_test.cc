@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "sslcd/core/error.h"
 #include "sslcd/io/config.h"
 
@@ -33,6 +36,23 @@ TEST(Trial, SslcdClosesLoops) {
   EXPECT_LE(result.ate.rmse, result.ate_se3.rmse) << "Sim(3) has one freedom more";
   EXPECT_GT(result.times.at("loop detection").count, 10);
   EXPECT_GT(result.seconds, 0);
+}
+
+// Of the lane it knows it sees nothing before it is round the corner.
+TEST(Trial, ACameraThatTurnsIntoAKnownLaneIsRecognisedInTheTurn) {
+  const Trial trial = SmallLoop("sslcd");
+  const TrialResult result = RunTrial(trial, MakeSequence(trial));
+  int turning = 0;
+  for (const Revisit& revisit : result.revisits) {
+    if (revisit.viewpoint_rad < 1.5) continue;
+    ++turning;
+    EXPECT_TRUE(std::any_of(result.loops.begin(), result.loops.end(),
+                            [&](const LoopOutcome& loop) {
+                              return loop.accepted && loop.error_m < 1.5 && std::abs(loop.at_m - revisit.at_m) <= 5;
+                            }))
+        << "at " << revisit.at_m << " m";
+  }
+  EXPECT_GT(turning, 0);
 }
 
 TEST(Trial, WhoIsOnlyAskedClosesNothing) {

@@ -25,6 +25,9 @@ TEST(ModelDescription, ReadsAndFillsIn) {
   EXPECT_EQ(absolute.name, "mine");
   EXPECT_EQ(absolute.input.mean, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(absolute.input.resize, ModelInput::Resize::kLetterbox);
+  EXPECT_EQ(model.output.box_sigma, 0);
+  const std::string coarse = "file: a.onnx\noutput: {layout: fastestdet, labels: {2: Car}, box_sigma: 0.1}\n";
+  EXPECT_EQ(LoadModelDescription(folder.Write("c.yaml", coarse)).output.box_sigma, 0.1);
 }
 
 TEST(ModelDescription, ShippedOnesAreGood) {
@@ -55,6 +58,7 @@ TEST(ModelDescription, IsStrict) {
   refuses("file: a.onnx\ninput: {mean: [1, two]}\n", {"'mean' is 'two', must be a list of numbers"});
   refuses("file: a.onnx\ninput: {mean: [1, 2]}\n", {"three numbers"});
   refuses("file: a.onnx\noutput: {layout: stereo3d, class_count: 1, labels: {0: Car}}\n", {"'mean_files'", "class 0"});
+  refuses("file: a.onnx\noutput: {labels: {0: Car}, box_sigma: -0.1}\n", {"'box_sigma' is -0.1, must be in"});
   refuses("file: a.onnx\noutput: {layout: yolo_v9}\n", {"'layout' is 'yolo_v9', must be one of yolo_v5"});
   ExpectError([] { LoadModelDescription("/nowhere/m.yaml"); }, {"/nowhere/m.yaml", "cannot be read"});
 }

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "stereo_scene.h"
 
@@ -21,12 +23,33 @@ TEST(MatchInside, FindsAWallAtAnyScale) {
     ASSERT_FALSE(patch.values.empty());
     EXPECT_NEAR(patch.x0, 300, 1.1);
     EXPECT_NEAR(patch.x0 + patch.step_x * patch.values.cols, 420, 2.1);
-    int close = 0;
+    int known = 0, close = 0;
+    for (int y = 0; y < patch.values.rows; ++y) {
+      for (int x = 0; x < patch.values.cols; ++x) {
+        known += patch.values.at<float>(y, x) > 0;
+        close += std::abs(patch.values.at<float>(y, x) - truth) < 0.35 * std::max(1., 1 / scale);
+      }
+    }
+    EXPECT_GT(known, 0.6 * static_cast<double>(patch.values.total())) << scale;
+    EXPECT_GT(close, 0.95 * known) << scale;
+  }
+}
+
+TEST(MatchInside, DisparitiesAreNotPulledToWholePixels) {
+  for (double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
+    StereoScene scene;
+    const double truth = 12 + share;
+    scene.Add(0, 450 * 0.3 / truth + 1, 0, {30, 2, 12});
+    scene.Render();
+    const DisparityPatch patch = MatchInside({scene.left, scene.right}, {300, 60, 420, 150}, 40, 1, 1);
+    std::vector<float> values;
     for (int y = 0; y < patch.values.rows; ++y) {
       for (int x = 0; x < patch.values.cols; ++x)
-        close += std::abs(patch.values.at<float>(y, x) - truth) < 0.35 * std::max(1., 1 / scale);
+        if (patch.values.at<float>(y, x) > 0) values.push_back(patch.values.at<float>(y, x));
     }
-    EXPECT_GT(close, 0.85 * static_cast<double>(patch.values.total())) << scale;
+    ASSERT_GT(values.size(), 1000u);
+    std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+    EXPECT_NEAR(values[values.size() / 2], truth, 0.04) << share;
   }
 }
 

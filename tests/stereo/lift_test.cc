@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -54,11 +55,37 @@ TEST(LiftBoxes, OneSideTellsLittleOfTheLength) {
   const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 1, scene.BoxOf(0)}}, Options());
   ASSERT_EQ(lifted[0].status, LiftStatus::kLifted);
   EXPECT_LT(YawError(lifted[0], kPi / 2), 0.1);
-  EXPECT_NEAR(lifted[0].detection.dims.x(), 4.3, 0.3);  // the prior's
+  const ClassPrior prior = Options().classes.at("Car");
+  EXPECT_NEAR(lifted[0].detection.dims.x(), prior.length_m, 0.3);
   EXPECT_NEAR(lifted[0].detection.dims.y(), 1.8, 0.15);
-  EXPECT_GT(lifted[0].dims_sigma.x(), 0.8 * 0.45);
+  EXPECT_GT(lifted[0].dims_sigma.x(), 0.8 * prior.length_sigma_m);
   EXPECT_LT(lifted[0].dims_sigma.y(), 0.12);
   EXPECT_GT(lifted[0].sigmas.radial, lifted[0].sigmas.lateral);
+}
+
+TEST(LiftBoxes, CoarseBoxesLeaveTheSidesToTheContour) {
+  StereoScene scene;
+  scene.Add(1, 12, 0.7, kCar);
+  scene.Render();
+  const Box2d exact = scene.BoxOf(0);
+  const double width = exact.right - exact.left, height = exact.bottom - exact.top;
+  LiftOptions told = Options();
+  told.box_sigma_share = 0.12;
+  double worst_told = 0, worst = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double x = (i & 1 ? 1 : -1) * 0.15 * width, y = (i & 2 ? 1 : -1) * 0.1 * height, both = i & 4 ? 1 : -1;
+    const Box2d box{exact.left + x, exact.top + y, exact.right + both * x, exact.bottom + both * y};
+    const auto error = [&](const LiftOptions& options) {
+      const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 1, box}}, options);
+      const Vec3 truth = scene.blocks[0].T_cam_object.translation();
+      return lifted[0].status == LiftStatus::kLifted ? (lifted[0].detection.T_cam_object.translation() - truth).norm()
+                                                     : 10.;
+    };
+    worst_told = std::max(worst_told, error(told));
+    worst = std::max(worst, error(Options()));
+  }
+  EXPECT_LT(worst_told, 0.6);
+  EXPECT_LT(worst_told, worst);
 }
 
 TEST(LiftBoxes, WhatIsNearerHidesWithoutMovingWhatIsBehind) {

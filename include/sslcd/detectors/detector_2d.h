@@ -29,6 +29,9 @@ class Detector2d {
 
   const std::string& name() const;
 
+  /// ModelOutput::box_sigma of the description.
+  double box_sigma() const;
+
  private:
   struct Impl;
   explicit Detector2d(std::unique_ptr<Impl> impl);

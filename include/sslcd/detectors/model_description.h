@@ -64,6 +64,8 @@ struct ModelOutput {
   double min_score = 0.4;             ///< detections with a lower score are dropped
   double nms_iou = 0.5;               ///< of two boxes of one label that overlap more, the better one stays; 1: both
 
+  double box_sigma = 0;  ///< error of a box's sides, share of its width or height: coarse 2D detectors
+
   // kBoxesScoresLabels
   BoxFormat box_format = BoxFormat::kCorners;  ///< left top right bottom, or cx cy w h
   bool normalised_boxes = false;               ///< in 0..1 of the input instead of pixels

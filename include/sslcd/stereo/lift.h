@@ -30,9 +30,10 @@ struct LiftOptions {
   double min_height_px = 14;                 ///< boxes that are less high are not lifted
   double max_yaw_sigma_rad = 0.8;            ///< nor those whose heading stays less certain than this
   double box_sigma_px = 2;                   ///< of each side of a box, the detector's error ...
+  double box_sigma_share = 0;                ///< ... of a coarse one: share of the box's width, height ...
   double shape_sigma_m = 0.06;               ///< ... and what the object's own shape adds
-  double disparity_sigma_px = 0.4;           ///< of one column of pixels on the object
-  double disparity_bias_px = 0.12;           ///< what all columns of an object share
+  double disparity_sigma_px = 0.3;           ///< of one column of pixels on the object
+  double disparity_bias_px = 0.05;           ///< what all columns of an object share
   double ground_sigma_m = 0.04;              ///< of the ground under an object against the plane ...
   double ground_sigma_rad = 0.003;           ///< ... and of the plane's slope
 

@@ -7,13 +7,14 @@
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
+#include "sslcd/optim/odometry_noise.h"
 
 namespace sslcd {
 
 struct StereoOdometryOptions {
   int points = 400;               ///< image points followed, spread over the image; time grows with them
   double min_corner = 0.01;       ///< a corner's least share of the strongest corner's smaller eigenvalue
-  int patch_px = 15;              ///< side of the patches that are compared
+  int patch_px = 9;               ///< side of the patches that are compared; small ones fit slanted ground
   double min_disparity_px = 0.5;  ///< points further away than that are not used
   double max_row_error_px = 1.5;  ///< left and right of a point; more: not the same point, or images not rectified
   double ransac_px = 2;           ///< a point fits a pose if it appears so near to where it should
@@ -25,6 +26,10 @@ struct StereoOdometryOptions {
   int patience = 2;            ///< frames in a row lost before the odometry starts anew from where it believes to be
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
+
+/// What a mapper should take such odometry's noise for: of good images, where it drifts by a thousandth of the path
+/// (docs/results.md). What a wrong calibration adds, closed loops tell (`loop.learn_odometry`).
+OdometryNoise StereoOdometryNoise();
 
 /// How a frame got its pose.
 enum class OdometryStatus {
