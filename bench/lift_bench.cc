@@ -25,8 +25,6 @@
 namespace sslcd {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 struct Judged {
   double range, radial, lateral, vertical, yaw, length, width, height, iou;
   DetectionSigmas sigmas;
@@ -73,7 +71,7 @@ Judged Judge(const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
   const Cuboid a = ToCuboid(lifted.detection.T_cam_object, lifted.detection.dims, gravity);
   const Cuboid b = ToCuboid(truth, dims, gravity);
   const Vec3 size = lifted.detection.dims - dims;
-  return {centre.norm(), error.x(), error.y(), error.z(),   WrapAngle(a.yaw - b.yaw, kPi),
+  return {centre.norm(), error.x(), error.y(), error.z(),   WrapAngle(a.yaw - b.yaw, M_PI),
           size.x(),      size.y(),  size.z(),  Iou3d(a, b), lifted.sigmas};
 }
 
@@ -116,8 +114,8 @@ void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
               Quantile(judged, 0.5, [](const Judged& j) { return j.radial; }),
               median([](const Judged& j) { return j.radial; }), median([](const Judged& j) { return j.lateral; }),
               median([](const Judged& j) { return j.vertical; }),
-              median([](const Judged& j) { return j.yaw * 180 / kPi; }),
-              Quantile(judged, 0.9, [](const Judged& j) { return std::abs(j.yaw) * 180 / kPi; }),
+              median([](const Judged& j) { return j.yaw * 180 / M_PI; }),
+              Quantile(judged, 0.9, [](const Judged& j) { return std::abs(j.yaw) * 180 / M_PI; }),
               median([](const Judged& j) { return j.length; }), median([](const Judged& j) { return j.width; }),
               median([](const Judged& j) { return j.height; }),
               typical([](const Judged& j) { return j.radial / j.sigmas.radial; }),

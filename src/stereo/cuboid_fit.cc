@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "sslcd/core/median.h"
+
 namespace sslcd {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// What is solved for. x, z: centre on the ground, right of and before the camera; base: ground over the plane.
 enum Parameter { kX, kZ, kYaw, kLength, kWidth, kHeight, kBase, kBias, kParameters };
@@ -246,16 +246,11 @@ Normal Covariance(const std::vector<Solution>& solutions) {
   for (const Solution& solution : solutions) {
     const double weight = std::exp(best.cost - solution.cost);
     Parameters off = solution.p - best.p;
-    off[kYaw] = WrapAngle(off[kYaw], kPi);
+    off[kYaw] = WrapAngle(off[kYaw], M_PI);
     scatter += weight * off * off.transpose();
     weights += weight;
   }
   return best.information.ldlt().solve(Normal::Identity()) + scatter / weights;
-}
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -267,7 +262,7 @@ std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& ca
   constexpr int kStarts = 12;
   std::vector<Solution> solutions;
   for (int i = 0; i < kStarts; ++i) {
-    Solution solution = Solve(problem, problem.Start(i * kPi / kStarts), 15);
+    Solution solution = Solve(problem, problem.Start(i * M_PI / kStarts), 15);
     solution.cost += problem.Crowding(solution.p);
     const bool sound = solution.p.segment<3>(kLength).minCoeff() > 0.1 && std::isfinite(solution.cost);
     if (sound) solutions.push_back(solution);
@@ -297,7 +292,7 @@ std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& ca
   const auto scan = static_cast<Eigen::Index>(input.scan.size());
   fit.box_error = residuals.segment<4>(scan).cwiseAbs().maxCoeff();
   const Eigen::VectorXd distances = residuals.head(scan).cwiseAbs();
-  fit.scan_error = Median({distances.begin(), distances.end()});
+  fit.scan_error = Median(std::vector<double>(distances.begin(), distances.end()));
   return fit;
 }
 

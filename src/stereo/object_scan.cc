@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sslcd/core/median.h"
+
 namespace sslcd {
 namespace {
 
@@ -11,12 +13,6 @@ struct Column {
   std::vector<float> disparities;
   double u_sum = 0, v_sum = 0;
 };
-
-float Median(std::vector<float>& values) {
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The scan's point nearest to the column, if any is near.
 const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_px) {

@@ -28,7 +28,8 @@ struct StereoOdometryOptions {
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
 /// What a mapper should take such odometry's noise for: of good images, where it drifts by a thousandth of the path
-/// (docs/results.md). What a wrong calibration adds, closed loops tell (`loop.learn_odometry`).
+/// (docs/results.md). Whose rig drifts further says so in `ba.odometry` and `loop.odometry`, else true loops are
+/// refused.
 OdometryNoise StereoOdometryNoise();
 
 /// How a frame got its pose.
