@@ -90,6 +90,11 @@ int Detect(DetectArguments& a, const Console& console) {
   std::function<void(const Frame&, const ImageView&)> watch;
   if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
   RefuseInput(out, dataset);
+  if (a.force && !dataset.groundtruth && fs::exists(out / "groundtruth.txt"))
+    throw Error(ErrorKind::kUsage,
+                (out / "groundtruth.txt").string() +
+                    ": would be of other frames, and the dataset has none to put in its place; move it");
+  const bool fresh = !fs::exists(out) || fs::is_empty(out);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
   ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
@@ -111,6 +116,11 @@ int Detect(DetectArguments& a, const Console& console) {
   if (Interrupted()) {
     Log(LogLevel::kWarning, "interrupted: nothing but overlays is written");
     return 130;
+  }
+  if (failure && !fresh) {
+    Log(LogLevel::kWarning, "stopped by an error: but for overlays " + a.out +
+                                " holds what it held before; choose a new folder to keep the frames before the error");
+    throw *failure;
   }
   WarnOfMissingColours(files.detections);
   WriteSequenceFiles(out, files);

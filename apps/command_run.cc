@@ -153,7 +153,8 @@ RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configurat
   return outputs;
 }
 
-Metrics Judge(const RunArguments& a, const Dataset& dataset, const Mapped& mapped, const RunOutputs& outputs) {
+Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> identities, const Mapped& mapped,
+              const RunOutputs& outputs) {
   if (mapped.result.frames.empty()) return {};
   EvaluationInput evaluation;
   evaluation.estimate = mapped.result.trajectory;
@@ -163,7 +164,7 @@ Metrics Judge(const RunArguments& a, const Dataset& dataset, const Mapped& mappe
   evaluation.map = &outputs.map;
   evaluation.detections = &mapped.frames;
   evaluation.labels_path = LabelsOf(a, dataset);
-  evaluation.identities = IdentitiesOf(a, dataset);
+  evaluation.identities = std::move(identities);
   evaluation.loops = mapped.result.loops;
   return Evaluate(evaluation);
 }
@@ -173,10 +174,11 @@ int Run(RunArguments& a, const Console& console) {
   a.config.Load();            // wrong ones first,
   MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
+  std::vector<int> identities = IdentitiesOf(a, dataset);
   const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
   const Mapped mapped = MapFrames(a, dataset, configuration, console);
   RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
-  outputs.metrics = Judge(a, dataset, mapped, outputs);
+  outputs.metrics = Judge(a, dataset, std::move(identities), mapped, outputs);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);

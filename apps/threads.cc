@@ -12,7 +12,7 @@ int HardwareThreads() { return std::max(1, static_cast<int>(std::thread::hardwar
 void AddThreads(CLI::App& command, int& threads, int least, const std::string& meaning) {
   const auto set = [&threads](int given) {
     threads = given;
-    cv::setNumThreads(given > 0 ? given : HardwareThreads());
+    cv::setNumThreads(given > 0 ? std::min(given, HardwareThreads()) : HardwareThreads());
   };
   command.add_option_function<int>("--threads", set, meaning)->check(CLI::Range(least, 1024));
 }

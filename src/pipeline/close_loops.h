@@ -62,7 +62,7 @@ class LoopCloser {
   struct Look {
     double here_m, lag_m;  // the path so far; the query camera stood so far back
     double local_m;        // the local map
-    double beyond_m;       // the query camera may have stood so far before or behind all matched objects
+    double beyond_m;       // the query camera may have stood so far before the first or after the last matched object
     double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
   };
   bool DetectAndCorrect(const Look& look, double scale, TimingTable& timing);

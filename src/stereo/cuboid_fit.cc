@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sslcd/core/median.h"
 
@@ -92,8 +93,7 @@ class Problem {
   Parameters Start(double yaw) const {
     std::vector<double> depths;
     for (const ScanPoint& point : input_.scan) depths.push_back(bf_ / point.disparity);
-    std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-    const double depth = depths[depths.size() / 2];
+    const double depth = Median(std::move(depths));
     const Vec2 ray = rays_[rays_.size() / 2];
     const ClassPrior& prior = input_.prior;
     const double along = std::abs(std::cos(yaw) * ray.x() + std::sin(yaw) * ray.y()) / ray.norm();

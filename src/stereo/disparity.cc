@@ -68,7 +68,7 @@ void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step, c
       for (int x = 0; x < l.cols; ++x) {
         const float steepness = square.at<float>(y, x), move = product.at<float>(y, x) / steepness;
         float& disparity = disparities.at<float>(y, x);
-        if (!(steepness > flattest)) {
+        if (!(disparity > 0) || !(steepness > flattest)) {
           disparity = std::numeric_limits<float>::quiet_NaN();
         } else if (std::abs(move) < kLongest) {
           disparity += move;

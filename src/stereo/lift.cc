@@ -27,20 +27,20 @@ double Overlap(double low_a, double high_a, double low_b, double high_b) {
 }
 
 /// Sides at the image's border, and those where a box begins that stands nearer.
-BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image, double tolerance_px) {
+BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image, const Box2d& sigmas) {
   constexpr double kShare = 0.25;  // of a side, hidden
   BoxSides open;
-  open.left_open = box.left < tolerance_px;
-  open.top_open = box.top < tolerance_px;
-  open.right_open = box.right > image.width - 1 - tolerance_px;
-  open.bottom_open = box.bottom > image.height - 1 - tolerance_px;
+  open.left_open = box.left < sigmas.left;
+  open.top_open = box.top < sigmas.top;
+  open.right_open = box.right > image.width - 1 - sigmas.right;
+  open.bottom_open = box.bottom > image.height - 1 - sigmas.bottom;
   // What lies beyond the left or right border is nearer, maybe: it would reach further up and down.
   if (open.left_open || open.right_open) open.top_open = open.bottom_open = true;
   for (const Nearer& object : nearer) {
     const Box2d& other = object.box;
     const bool beside = Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
     const bool below = Overlap(box.left, box.right, other.left, other.right) > kShare * (box.right - box.left);
-    const auto covers = [&](double u) { return u > other.left - tolerance_px && u < other.right + tolerance_px; };
+    const auto covers = [&](double u) { return u > other.left - sigmas.left && u < other.right + sigmas.right; };
     open.left_open |= beside && covers(box.left);
     open.right_open |= beside && covers(box.right);
     open.bottom_open |= below && other.top < box.bottom;
@@ -159,7 +159,7 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
   if (scans.empty()) return LiftStatus::kNoDepth;
   FitInput input;
   input.prior = prior;
-  input.sides = OpenSides(box, nearer, scene.image, sigmas.left);
+  input.sides = OpenSides(box, nearer, scene.image, sigmas);
   for (const Nearer& other : nearer) {
     if (other.footprint) input.taken.push_back(*other.footprint);
   }
@@ -170,6 +170,7 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
     input.sigmas = sigmas;
     input.scan = scan;
     if (coarse) TakeSidesOfContour(around, input);
+    if (input.scan.size() < ScanRules().fewest) continue;
     const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
     if (!fit) continue;
     const double cost = fit->cost - kElsewhere * static_cast<double>(input.scan.size());

@@ -23,8 +23,6 @@ OdometryNoise StereoOdometryNoise() {
   noise.translation_floor_m = 0.001;
   noise.translation_walk = noise.vertical_walk = 0.004;
   noise.rotation_floor_rad = 1e-4;
-  noise.rotation_walk = 2.5e-4;
-  noise.rotation_turn = 1e-3;
   return noise;
 }
 

@@ -140,8 +140,11 @@ class DetectTest(CliCase):
         ev = call('eval', self.out + '/run', '--groundtruth', self.out + '/groundtruth.txt', '--json')
         self.assertAlmostEqual(json.loads(ev.stdout)['ate_se3_rmse_m'], json.loads(run.stdout)['ate_se3_rmse_m'], places=6)
         os.remove(self.data + '/groundtruth.txt')
-        self.detected('--boxes', self.boxes, '--force')
-        self.assertFalse(os.path.exists(self.out + '/groundtruth.txt'), 'that of before would be of other frames')
+        before = read(self.out + '/groundtruth.txt')
+        result = call('detect', self.data, '--boxes', self.boxes, '--force', '--out', self.out)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('groundtruth.txt: would be of other frames', result.stderr)
+        self.assertEqual(read(self.out + '/groundtruth.txt'), before, 'it cannot be made again')
 
     def test_a_camera_at_another_height_than_expected(self):
         for height, poor in ((1.2, False), (0.4, True), (6, True)):
@@ -254,6 +257,12 @@ class DetectTest(CliCase):
             self.assertEqual(sorted(os.listdir(out)), SEQUENCE)
             self.assertEqual(len(read(out + '/odometry.txt').splitlines()), 3)
             self.assertEqual([row.split()[0] for row in read(out + '/detections.txt').splitlines()], ['0', '1', '2'])
+            os.rename(self.data + '/image_3/000001.png', self.data + '/good.png')
+            write_png(self.data + '/image_3/000001.png', look(0, 0)[:HEIGHT // 2])
+            result = call('detect', self.data, '--boxes', self.boxes, '--out', out, '--threads', threads, '--force')
+            self.refused(result, 3, 'image_2/000001.png', 'holds what it held before')
+            self.assertEqual(len(read(out + '/odometry.txt').splitlines()), 3, 'better than what there is now')
+            os.rename(self.data + '/good.png', self.data + '/image_3/000001.png')
             result = call('run', self.data, '--boxes', self.boxes, '--out', self.data + '/run', '--threads', threads)
             self.assertEqual(result.returncode, 3)
             self.assertIn('image_2/000003.png', result.stderr)

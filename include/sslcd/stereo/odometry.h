@@ -27,9 +27,8 @@ struct StereoOdometryOptions {
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for: of good images, where it drifts by a thousandth of the path
-/// (docs/results.md). Whose rig drifts further says so in `ba.odometry` and `loop.odometry`, else true loops are
-/// refused.
+/// What a mapper should take such odometry's noise for. Positions as with ideal images and calibration, headings as
+/// with real ones, since these decide how far it drifts and which loops can be true (docs/results.md).
 OdometryNoise StereoOdometryNoise();
 
 /// How a frame got its pose.
