@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sslcd/core/log.h"
 #include "sslcd/eval/map_metrics.h"
 #include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
@@ -121,8 +122,12 @@ Metrics Evaluate(const EvaluationInput& input) {
   if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr && reference)
     AddMapErrors(input, metrics);
   if (!input.identities.empty() && input.groundtruth && input.odometry && input.map != nullptr &&
-      input.detections != nullptr && IsByFrame(*input.groundtruth, *input.detections))
-    AddSequenceErrors(input, metrics);
+      input.detections != nullptr) {
+    if (IsByFrame(*input.groundtruth, *input.detections))
+      AddSequenceErrors(input, metrics);
+    else
+      Log(LogLevel::kWarning, "the ground truth has no pose for each frame: loops are not judged");
+  }
   return metrics;
 }
 

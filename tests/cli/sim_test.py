@@ -90,6 +90,21 @@ class SimTest(CliCase):
                     os.remove(f'{self.out}/{truth}')
         self.assertEqual([c.returncode for c in calls], [0, 0])
         self.assertEqual(read(self.out + '_with/trajectory_tum.txt'), read(self.out + '_without/trajectory_tum.txt'))
+        metrics, nothing = (json.loads(read(f'{self.out}_{name}/metrics.json')) for name in ('with', 'without'))
+        self.assertEqual(nothing, {})
+        accepted = sum(',accepted,' in row for row in read(self.out + '_with/loops.csv').splitlines())
+        self.assertGreater(accepted, 5)
+        self.assertEqual((metrics['loops'], metrics['loops_wrong']), (accepted, 0))
+        self.assertGreater(metrics['revisits_recognised'], 0.8)
+        self.assertLess(metrics['loop_error_median_m'], 1)
+
+    def test_loops_are_not_judged_by_part_of_the_truth(self):
+        self.assertEqual(sim('halv', '--case', 4, '--seed', 3, '--out', self.out).returncode, 0)
+        write(self.out + '/groundtruth.txt', ''.join(read(self.out + '/groundtruth.txt').splitlines(True)[:-5]))
+        result = call('run', self.out, '--out', self.out + '_part')
+        self.assertEqual(result.returncode, 0)
+        self.assertIn('loops are not judged', result.stderr)
+        self.assertNotIn('loops_wrong', json.loads(read(self.out + '_part/metrics.json')))
 
     def test_layout_file(self):
         cars = [{'x': 2.7 * (i % 20), 'y': 12. * (i // 20), 'z': 0.4, 'qx': 0, 'qy': 0, 'qz': 0, 'w': 1} for i in range(60)]
