@@ -143,15 +143,19 @@ TEST_F(Images, MayBeJpegs) {
   EXPECT_EQ(dataset.camera->width, 0) << "only a PNG's size is looked at";
 }
 
+Dataset LoadFromImages(const TempFolder& folder) {
+  DatasetRequest request;
+  request.path = folder.path();
+  request.odometry_policy = request.detections_policy = PartPolicy::kIfThere;
+  return LoadDataset(request);
+}
+
 TEST(ImagesOf, KittiOdometry) {
   const TempFolder folder;
   folder.Write("sequences/00/calib.txt", kCalib);
   folder.Write("sequences/00/image_2/000000.png", "");
   folder.Write("sequences/00/image_3/000000.png", "");
-  DatasetRequest request;
-  request.path = folder.path();
-  request.odometry_policy = request.detections_policy = PartPolicy::kIfThere;
-  const Dataset dataset = LoadDataset(request);
+  const Dataset dataset = LoadFromImages(folder);
   EXPECT_EQ(dataset.format, DatasetFormat::kKittiOdometry);
   ASSERT_EQ(dataset.frames.size(), 1u);
   EXPECT_THAT(dataset.frames[0].image_left, EndsWith("sequences/00/image_2/000000.png"));
@@ -163,10 +167,7 @@ TEST(ImagesOf, KittiTracking) {
   folder.Write("calib/0003.txt", kCalib);
   folder.Write("image_02/0003/000000.jpg", "");
   folder.Write("image_03/0003/000000.jpg", "");
-  DatasetRequest request;
-  request.path = folder.path();
-  request.odometry_policy = request.detections_policy = PartPolicy::kIfThere;
-  const Dataset dataset = LoadDataset(request);
+  const Dataset dataset = LoadFromImages(folder);
   EXPECT_EQ(dataset.format, DatasetFormat::kKittiTracking);
   ASSERT_EQ(dataset.frames.size(), 1u);
   EXPECT_THAT(dataset.frames[0].image_left, EndsWith("image_02/0003/000000.jpg"));

@@ -226,7 +226,7 @@ TEST(StereoOdometry, NeitherUsesNorMovesTheHostsRandomNumbers) {
     EXPECT_EQ(std::memcmp(poses[0][i].data(), poses[1][i].data(), 7 * sizeof(double)), 0) << i;
 }
 
-TEST(StereoOdometryNoise, IsThatOfRenderedImages) {
+TEST(StereoOdometryNoise, HasPositionsOfRenderedImagesAndHeadingsOfRealOnes) {
   // Measured over 100 m of HALV-sim: 5 cm and 1.8 mrad; over one frame of 0.67 m: 2 mm and 0.1 mrad.
   const OdometrySigmas far = SigmasOf(Pose::Trans({0, 0, 100}), StereoOdometryNoise());
   EXPECT_NEAR(far.horizontal, 0.05, 0.03);
