@@ -97,7 +97,7 @@ void BaTerms::AddSlopes(const BaProblem& problem) {
   const DirectionPrior first_slope{problem.gravity.up, problem.slope.sigma_rad};
   ceres_.AddResidualBlock(AutoDiff<DirectionPrior, 3, 3>(first_slope), nullptr, up_.data());
   for (const BaOdometry& edge : problem.odometry) {
-    const double path = edge.T_from_to.translation().norm();
+    const double path = std::exp(problem.log_scale) * edge.T_from_to.translation().norm();  // [m]
     if (path <= 0) continue;
     // Cameras on one slope share what is known of it.
     const double sigma = problem.slope.sigma_rad * std::sqrt(std::max(1., problem.slope.length_m / path));

@@ -141,11 +141,12 @@ bool LoopCloser::Detect(const Look& look) {
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
-  const LoopMeter meter(map_.gravity(), frames_, passes_, o);
-  auto loop =
-      meter.Measure(local, index, best.fit.matches, best.fit.sigma, look.here_m - look.lag_m, old_until, look.beyond_m);
+  const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma, old_until};
+  auto loop = Meter().Measure(common, look.here_m - look.lag_m, look.beyond_m);
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
+  attempt.look = look;
+  attempt.sigma_m = common.sigma_m;
   attempt.track = best.id;
   // The evidence is against poses anywhere on the map; the track leaves about this much of them.
   constexpr double kTrackVolume = 2.5;  // [m^2 rad]
@@ -285,10 +286,32 @@ void LoopCloser::Review() {
     if (row.decision != LoopDecision::kAccepted) continue;
     const Pose T = frames_[attempt.loop.match].T_world_cam.inverse() * frames_[attempt.loop.query].T_world_cam;
     const Pose error = row.T_match_query.inverse() * T;
-    if (error.translation().norm() < o.probation_m && error.so3().Log().norm() < o.probation_rad) continue;
+    if (error.translation().norm() < o.probation_m && error.so3().Log().norm() < o.probation_rad) {
+      MeasureAnew(attempt);
+      continue;
+    }
     row.decision = LoopDecision::kAmbiguous;
     row.reason = "the refined trajectory disagrees";
   }
+}
+
+// At first the two maps were bent by the odometry between their objects. They are not any more, and what was seen on
+// both passes is one landmark.
+void LoopCloser::MeasureAnew(Attempt& attempt) const {
+  if (attempt.sigma_m <= 0) return;
+  const LoopLayoutOptions& o = options_.loop.layout;
+  const Look& look = attempt.look;
+  const PassLayout local = passes_.Between(look.here_m - look.local_m, look.here_m, o.min_sightings);
+  CommonObjects common{local, {}, attempt.sigma_m, look.OldUntil(o.gap_m)};
+  for (std::size_t i = 0; i < local.objects.size(); ++i) {
+    const LandmarkId id{local.objects[i].id};
+    if (passes_.PlaceBefore(id, common.old_until_m, o.min_sightings)) common.pairs.push_back({static_cast<int>(i), id});
+  }
+  const auto now = Meter().MeasureBetween(attempt.loop.query, attempt.loop.match, common);
+  if (!now || now->heading_sigma >= options_.loop.belief.max_heading_sigma_rad) return;
+  attempt.loop.row.T_match_query = now->row.T_match_query;
+  attempt.loop.row.covariance = now->row.covariance;
+  attempt.loop.row.viewpoint_change_rad = now->row.viewpoint_change_rad;
 }
 
 }  // namespace sslcd

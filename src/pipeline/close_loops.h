@@ -50,20 +50,22 @@ class LoopCloser {
   std::vector<LoopClosure> closures() const;
 
  private:
+  /// Where on the path to look for a loop, and how. [m]
+  struct Look {
+    double here_m = 0, lag_m = 0;  // the path so far; the query camera stood so far back
+    double local_m = 0;            // the local map
+    double beyond_m = 0;  // the query camera may have stood so far before the first or after the last matched object
+    double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
+  };
   struct Attempt {
     LoopMeasurement loop;
     std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  // the row's, by the names they have now
-    int track = -1;                                        // whose pose this is
+    Look look;
+    double sigma_m = 0;      // how well the matched objects agree; 0: found otherwise
+    int track = -1;          // whose pose this is
     bool confirmed = false;  // its own objects say enough; believed as soon as its track is
     bool believed = false;   // an edge of the pose graph, which may refuse it
     bool in_graph = false;   // ... since the last time that was solved
-  };
-  /// Where on the path to look for a loop, and how. [m]
-  struct Look {
-    double here_m, lag_m;  // the path so far; the query camera stood so far back
-    double local_m;        // the local map
-    double beyond_m;       // the query camera may have stood so far before the first or after the last matched object
-    double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
   };
   bool DetectAndCorrect(const Look& look, double scale, TimingTable& timing);
   bool Find(const Look& look);
@@ -72,6 +74,7 @@ class LoopCloser {
   bool DetectWithMatcher();
   LoopMeasurement MeasureImages(int match_frame, int old_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
+  LoopMeter Meter() const { return {map_.gravity(), frames_, passes_, options_.loop}; }
   Attempt& AddAttempt(LoopMeasurement loop);
   bool Judge(const PoseTrack& best, double own_evidence, Attempt& attempt);
   void Believe(Attempt& attempt, const std::string& reason);
@@ -81,6 +84,7 @@ class LoopCloser {
   int FrameAt(double path_m) const;
   bool ClosedNear(double path_m) const;
   void LookAgain(double scale, TimingTable& timing);
+  void MeasureAnew(Attempt& attempt) const;
 
   Options options_;
   ObjectMap& map_;

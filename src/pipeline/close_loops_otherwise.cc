@@ -60,9 +60,11 @@ bool LoopCloser::DetectAsPrinted() {
 
 // A matcher of the host finds the place and decides; drift, pose graph and map are ours.
 bool LoopCloser::DetectWithMatcher() {
+  constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
   const LoopLayoutOptions& o = options_.loop.layout;
-  const double here = frames_.back().travelled, local_from = here - o.local_m, old_until = local_from - o.gap_m;
-  const PassLayout local = passes_.Recent(local_from, o.min_sightings);
+  const Look look{frames_.back().travelled, options_.loop.lag_m, o.local_m, 0.};
+  const double old_until = look.OldUntil(o.gap_m);
+  const PassLayout local = passes_.Recent(look.here_m - look.local_m, o.min_sightings);
   const LayoutIndex& global = OldMap(old_until);
   const auto old_end = std::upper_bound(frames_.begin(), frames_.end(), old_until,
                                         [](double m, const FrameRecord& frame) { return m < frame.travelled; });
@@ -73,13 +75,14 @@ bool LoopCloser::DetectWithMatcher() {
   if (answer->matches.empty()) {
     loop = MeasureImages(answer->match_frame, std::prev(old_end)->frame, answer->T_match_query);
   } else {
-    constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
     CheckMatches(answer->matches, local.objects.size(), global.objects().size());
-    const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
-    loop = meter.Measure(local, global, answer->matches, kSigma, here - options_.loop.lag_m, old_until, 0.);
+    const CommonObjects common{local, OldLandmarks(answer->matches, global), kSigma, old_until};
+    loop = Meter().Measure(common, look.here_m - look.lag_m, look.beyond_m);
   }
   if (!loop) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
+  attempt.look = look;
+  attempt.sigma_m = answer->matches.empty() ? 0. : kSigma;
   LoopClosure& row = attempt.loop.row;
   row.score = answer->score;
   row.decision = LoopDecision::kAmbiguous;
@@ -105,7 +108,7 @@ LoopMeasurement LoopCloser::MeasureImages(int match_frame, int old_frame, const 
   Vec6 sigmas;
   sigmas << Vec3::Constant(options_.loop.sigma_m), Vec3::Constant(options_.loop.sigma_rad);
   row.covariance = Mat6(sigmas.cwiseAbs2().asDiagonal());
-  const LoopMeter meter(map_.gravity(), frames_, passes_, options_.loop);
+  const LoopMeter meter = Meter();
   row.viewpoint_change_rad =
       std::abs(WrapAngle(meter.Heading(match->T_world_cam * T_match_query) - meter.Heading(match->T_world_cam)));
   return loop;

@@ -14,81 +14,91 @@ constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's headin
 
 }  // namespace
 
-std::optional<LoopMeasurement> LoopMeter::Measure(const PassLayout& local, const LayoutIndex& global,
-                                                  const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                                  double query_m, double old_until_m, double beyond_m) const {
+std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair<int, int>>& matches,
+                                                     const LayoutIndex& global) {
+  std::vector<std::pair<int, LandmarkId>> pairs;
+  for (const auto& [i, j] : matches) pairs.push_back({i, {global.objects()[j].id}});
+  return pairs;
+}
+
+std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m, double beyond_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < 3; ++i) {
-    auto now = MeasureAt(query_m - kFurtherBack * i, local, global, matches, sigma_m, old_until_m, beyond_m);
+    auto now = MeasureAt(query_m - kFurtherBack * i, common, beyond_m);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.belief.max_heading_sigma_rad) break;
   }
   return best;
 }
 
-std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const PassLayout& local, const LayoutIndex& global,
-                                                    const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                                    double old_until_m, double beyond_m) const {
-  if (matches.empty()) return std::nullopt;
+std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
+  std::vector<DriftPair> pairs;
+  for (const auto& [i, old] : common.pairs) {
+    DriftPair& pair = pairs.emplace_back();
+    pair.T_world_local = ToPose(common.local.places[i], gravity_);
+    pair.T_world_global =
+        ToPose(passes_.PlaceBefore(old, common.old_until_m, options_.layout.min_sightings).value(), gravity_);
+    pair.symmetry = common.local.objects[i].symmetry;
+    pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;
+    pair.sigma_yaw_rad = kYawSigma;
+  }
+  return pairs;
+}
+
+std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const CommonObjects& common,
+                                                    double beyond_m) const {
+  const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+  const auto [first, last] = std::minmax_element(
+      common.pairs.begin(), common.pairs.end(),
+      [&](const auto& a, const auto& b) { return common.local.seen_m[a.first] < common.local.seen_m[b.first]; });
+  const double first_m = common.local.seen_m[first->first], last_m = common.local.seen_m[last->first];
+  // Where the common objects were in sight, or before or after that on the odometry's word.
+  const int in_sight = FrameAt(std::clamp(query_m, first_m, last_m));
+  const int query = FrameAt(std::clamp(query_m, first_m - beyond_m, last_m + beyond_m));
+  const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
+  if (match < 0) return std::nullopt;
+  auto loop = MeasureBetween(query, match, common);
+  if (loop && query != in_sight) {
+    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[query].T_odom_cam;
+    const Vec3 up = frames_[query].T_world_cam.so3().inverse() * gravity_.up;
+    loop->row.covariance += InformationOf(SigmasOf(walked, options_.odometry), up).inverse();
+  }
+  return loop;
+}
+
+std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, const CommonObjects& common) const {
+  const Pose level_query = Levelling(query), level_match = Levelling(match);
+  std::vector<DriftPair> pairs = Pairs(common);
   LoopMeasurement loop;
   LoopClosure& row = loop.row;
-  std::vector<DriftPair> pairs;
-  std::vector<double> seen;  // where on the path
-  for (const auto& [i, j] : matches) {
-    const LandmarkId old{global.objects()[j].id};
-    DriftPair pair;
-    pair.T_world_local = ToPose(local.places[i], gravity_);
-    pair.T_world_global =
-        ToPose(passes_.PlaceBefore(old, old_until_m, options_.layout.min_sightings).value(), gravity_);
-    pair.symmetry = local.objects[i].symmetry;
-    pair.sigma_horizontal_m = pair.sigma_vertical_m = sigma_m;
-    pair.sigma_yaw_rad = kYawSigma;
-    pairs.push_back(pair);
-    row.pairs.push_back({{local.objects[i].id}, old});
-    seen.push_back(local.seen_m[i]);
-  }
-  DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
-  if (!drift.usable) return std::nullopt;
-
-  std::sort(seen.begin(), seen.end());
-  // Where the matched objects were in sight, or before or after that on the odometry's word.
-  const int in_sight = FrameAt(std::clamp(query_m, seen.front(), seen.back()));
-  loop.query = FrameAt(std::clamp(query_m, seen.front() - beyond_m, seen.back() + beyond_m));
-  loop.match = NearestOldFrame(drift.T_global_local * frames_[loop.query].T_world_cam, row, old_until_m);
-  if (loop.match < 0) return std::nullopt;
-  const Pose &T_world_query = frames_[loop.query].T_world_cam, &T_world_match = frames_[loop.match].T_world_cam;
-
-  const Pose level_query = Levelling(loop.query), level_match = Levelling(loop.match);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const double old_seen_m = passes_.NearestPass(row.pairs[k].second, frames_[loop.match].travelled);
-    const double bent = std::hypot(Bent(loop.query, local.seen_m[matches[k].first]), Bent(loop.match, old_seen_m));
-    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(sigma_m, bent);
+    const auto& [i, old] = common.pairs[k];
+    const double old_seen_m = passes_.NearestPass(old, frames_[match].travelled);
+    const double bent = std::hypot(Bent(query, common.local.seen_m[i]), Bent(match, old_seen_m));
+    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(common.sigma_m, bent);
     pairs[k].T_world_local = level_query * pairs[k].T_world_local;
     pairs[k].T_world_global = level_match * pairs[k].T_world_global;
+    row.pairs.push_back({{common.local.objects[i].id}, old});
   }
-  drift = SolveDrift(pairs, gravity_, options_.drift);
+  const DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
   if (!drift.usable) return std::nullopt;
 
+  const Pose &T_world_query = frames_[query].T_world_cam, &T_world_match = frames_[match].T_world_cam;
   const Pose corrected = level_match.inverse() * drift.T_global_local * level_query * T_world_query;
-  row.query_frame = frames_[loop.query].frame;
-  row.match_frame = frames_[loop.match].frame;
+  loop.query = query;
+  loop.match = match;
+  row.query_frame = frames_[query].frame;
+  row.match_frame = frames_[match].frame;
   row.T_match_query = T_world_match.inverse() * corrected;
   row.viewpoint_change_rad = std::abs(WrapAngle(Heading(corrected) - Heading(T_world_match)));
   const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
   row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
-  const auto add = [&row](double translation, double rotation) {
-    row.covariance.diagonal().head<3>().array() += translation * translation;
-    row.covariance.diagonal().tail<3>().array() += rotation * rotation;
-  };
-  add(options_.sigma_m, options_.sigma_rad);
+  row.covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
+  row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
-  if (loop.query != in_sight) {
-    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[loop.query].T_odom_cam;
-    const OdometrySigmas sigmas = SigmasOf(walked, options_.odometry);
-    add(sigmas.horizontal, sigmas.rotation);
-  }
   return loop;
 }
 
@@ -99,15 +109,15 @@ int LoopMeter::FrameAt(double path_m) const {
 }
 
 // Among the frames of the passes on which the matched old objects were seen; -1: none.
-int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const {
+int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const {
   std::set<LandmarkId> ids;
-  for (const auto& pair : row.pairs) ids.insert(pair.second);
+  for (const auto& pair : common.pairs) ids.insert(pair.second);
   int best = -1;
   double nearest = std::numeric_limits<double>::infinity();
   for (const LandmarkId id : ids) {
     for (const int i : passes_.PassesOf(id)) {
       const PassObject& pass = passes_.passes()[i];
-      if (pass.last_m >= old_until_m) continue;
+      if (pass.last_m >= common.old_until_m) continue;
       for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
         const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
         if (distance < nearest) nearest = distance, best = f;

@@ -8,6 +8,7 @@
 #include "pipeline/pass_map.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/loop/layout_index.h"
+#include "sslcd/optim/drift.h"
 
 namespace sslcd {
 
@@ -17,6 +18,18 @@ struct LoopMeasurement {
   int query = 0, match = 0;  ///< the two cameras: indices into the frames
   double heading_sigma = 0;  ///< of T_match_query about the vertical, by its matches [rad]
 };
+
+/// Objects of the local map that older passes have seen, too.
+struct CommonObjects {
+  const PassLayout& local;
+  std::vector<std::pair<int, LandmarkId>> pairs;  ///< index of local, the old landmark
+  double sigma_m;                                 ///< how well their positions agree
+  double old_until_m;                             ///< where the path of the older passes ends
+};
+
+/// Matches by their indices -> index of local, old landmark.
+std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair<int, int>>& matches,
+                                                     const LayoutIndex& global);
 
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
 ///
@@ -31,23 +44,22 @@ class LoopMeter {
             const LoopOptions& options)
       : gravity_(gravity), frames_(frames), passes_(passes), options_(options) {}
 
-  /// `matches`: index of local, of global; `sigma_m`: how well their positions agree; `old_until_m`: where the path of
-  /// the global map ends. Tries the camera at `query_m` and, while the heading remains too uncertain, cameras further
-  /// back; none that stood more than `beyond_m` before the first matched object or after the last one. What odometry
-  /// may do over that stretch counts in the covariance. None where the matches fix no pose.
-  std::optional<LoopMeasurement> Measure(const PassLayout& local, const LayoutIndex& global,
-                                         const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                         double query_m, double old_until_m, double beyond_m) const;
+  /// Tries the camera at `query_m` of path and, while the heading remains too uncertain, cameras further back; none
+  /// that stood more than `beyond_m` before the first common object or after the last one. What odometry may do over
+  /// that stretch counts in the covariance. None where the objects fix no pose.
+  std::optional<LoopMeasurement> Measure(const CommonObjects& common, double query_m, double beyond_m) const;
+
+  /// Of two cameras, given by their indices.
+  std::optional<LoopMeasurement> MeasureBetween(int query, int match, const CommonObjects& common) const;
 
   /// Which way a camera looks, horizontally. [rad]
   double Heading(const Pose& T_world_cam) const;
 
  private:
-  std::optional<LoopMeasurement> MeasureAt(double query_m, const PassLayout& local, const LayoutIndex& global,
-                                           const std::vector<std::pair<int, int>>& matches, double sigma_m,
-                                           double old_until_m, double beyond_m) const;
+  std::optional<LoopMeasurement> MeasureAt(double query_m, const CommonObjects& common, double beyond_m) const;
+  std::vector<DriftPair> Pairs(const CommonObjects& common) const;
   int FrameAt(double path_m) const;
-  int NearestOldFrame(const Pose& T_world_cam, const LoopClosure& row, double old_until_m) const;
+  int NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const;
   double Bent(int frame, double seen_m) const;
   Pose Levelling(int frame) const;
 
