@@ -24,13 +24,13 @@ void Resolve(const fs::path& folder, std::string& path) {
   std::error_code none;
   for (const fs::path& candidate : {folder / path, fs::absolute(path)}) {
     if (!fs::exists(candidate, none)) continue;
-    path = candidate.string();
+    path = candidate.lexically_normal().string();
     return;
   }
 }
 
 void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
-  for (std::string* path : {&vision.detector, &vision.embedder}) Resolve(folder, *path);
+  for (std::string* path : {&vision.detector, &vision.embedder, &vision.inference.library}) Resolve(folder, *path);
 }
 
 }  // namespace

@@ -80,10 +80,9 @@ std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
 
 // The true identity of each detection row, where a sequence folder has them and there are true poses to go with them.
 std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
-  const std::filesystem::path path = std::filesystem::path(dataset.detections_path).parent_path() / "landmark_ids.txt";
-  if (!dataset.groundtruth || dataset.detections_path.empty() || !a.request.detections.empty() ||
-      !std::filesystem::is_regular_file(path))
-    return {};
+  const std::filesystem::path detections(dataset.detections_path), path = detections.parent_path() / "landmark_ids.txt";
+  const bool others = !a.request.detections.empty() && detections.filename() != "detections.txt";
+  if (!dataset.groundtruth || detections.empty() || others || !std::filesystem::is_regular_file(path)) return {};
   std::vector<int> identities = ReadLandmarkIds(path.string());
   if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
   Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) + " rows, but there are " +

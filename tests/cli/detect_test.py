@@ -193,6 +193,12 @@ class DetectTest(CliCase):
             self.detected_with_models('--config', self.data + '/conf/c.yaml', '--force', *args, cwd=folder)
             self.assertIn(f"detector: '{models}/yolo_v8.yaml'", read(self.out + '/config.yaml'), 'to be found from anywhere')
         shutil.rmtree(self.out, ignore_errors=True)
+        write(self.data + '/conf/models/no_library.so', '')
+        write(self.data + '/conf/c.yaml', 'vision: {detector: models/yolo_v8.yaml, inference: {library: models/no_library.so}}\n')
+        result = self.detect('--config', self.data + '/conf/c.yaml', '--force', cwd=here)
+        self.refused(result, 3, 'ONNX Runtime')
+        if 'this build cannot' not in result.stderr:
+            self.assertIn(models + '/no_library.so', result.stderr)
         for key in ('detector', 'embedder'):
             write(self.data + '/conf/c.yaml', f'vision: {{{key}: yolo_v8.yaml}}\n')
             args = () if key == 'detector' else ('--detector', models + '/yolo_v8.yaml')
