@@ -60,7 +60,8 @@ class Mapper {
   /// before.
   FrameReport AddFrame(const Frame& frame);
 
-  /// Full-map optimisation over all frames so far: poses, landmarks and scale move. May be called any time, and again.
+  /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted loops are measured
+  /// anew. May be called any time, and again.
   BaSummary Refine();
 
   const ObjectMap& map() const { return map_; }
