@@ -47,12 +47,11 @@ bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
 }
 
 void LoopCloser::Finish(double scale, TimingTable& timing) {
-  constexpr double kStep = 10.;  // [m]
-  if (frames_.empty() || options_.mode == Options::Mode::kPaper || matcher_) return;
+  if (frames_.empty() || options_.mode == Options::Mode::kPaper) return;
   const LoopOptions& o = options_.loop;
-  for (double lag = o.lag_m - kStep; lag > 0; lag -= kStep)
+  for (double lag = o.lag_m - o.layout.every_m; lag > 0; lag -= o.layout.every_m)
     DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
-  if (Closed() && o.layout.hindsight_m > 0) LookAgain(scale, timing);
+  if (Closed() && !matcher_ && o.layout.hindsight_m > 0) LookAgain(scale, timing);
 }
 
 bool LoopCloser::DetectAndCorrect(const Look& look, double scale, TimingTable& timing) {
@@ -106,7 +105,7 @@ void LoopCloser::LookAgain(double scale, TimingTable& timing) {
 
 // True: something new is believed.
 bool LoopCloser::Find(const Look& look) {
-  if (matcher_) return DetectWithMatcher();
+  if (matcher_) return DetectWithMatcher(look);
   return options_.mode == Options::Mode::kPaper ? DetectAsPrinted() : Detect(look);
 }
 

@@ -71,7 +71,7 @@ class LoopCloser {
   bool Find(const Look& look);
   const LayoutIndex& OldMap(double old_until_m);
   bool Detect(const Look& look);
-  bool DetectWithMatcher();
+  bool DetectWithMatcher(const Look& look);
   LoopMeasurement MeasureImages(int match_frame, int old_frame, const Pose& T_match_query) const;
   bool DetectAsPrinted();
   LoopMeter Meter() const { return {map_.gravity(), frames_, passes_, options_.loop}; }

@@ -59,10 +59,9 @@ bool LoopCloser::DetectAsPrinted() {
 }
 
 // A matcher of the host finds the place and decides; drift, pose graph and map are ours.
-bool LoopCloser::DetectWithMatcher() {
+bool LoopCloser::DetectWithMatcher(const Look& look) {
   constexpr double kSigma = 0.3;  // of matched objects; a matcher does not say how well they agree [m]
   const LoopLayoutOptions& o = options_.loop.layout;
-  const Look look{frames_.back().travelled, options_.loop.lag_m, o.local_m, 0.};
   const double old_until = look.OldUntil(o.gap_m);
   const PassLayout local = passes_.Recent(look.here_m - look.local_m, o.min_sightings);
   const LayoutIndex& global = OldMap(old_until);
@@ -73,6 +72,7 @@ bool LoopCloser::DetectWithMatcher() {
   if (!answer) return false;
   std::optional<LoopMeasurement> loop;
   if (answer->matches.empty()) {
+    if (look.lag_m < options_.loop.lag_m) return false;  // images tie the newest camera, which they have done
     loop = MeasureImages(answer->match_frame, std::prev(old_end)->frame, answer->T_match_query);
   } else {
     CheckMatches(answer->matches, local.objects.size(), global.objects().size());
