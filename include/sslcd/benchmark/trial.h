@@ -18,6 +18,7 @@ namespace sslcd::benchmark {
 struct Place {
   std::string key = "lot";
   sim::HalvScene scene;
+  std::vector<int> cases{};  ///< the only ones it is for; empty: all
 };
 
 /// One run of one method on one HALV-sim sequence.
