@@ -42,6 +42,7 @@ Place PlaceAtViewpoint(const std::string& range) {
   Place place;
   place.key = "lot-v" + std::to_string(*low) + "-" + std::to_string(*high);
   place.cases = {4};
+  place.way_back_only = true;
   place.scene.viewpoint_low_deg = *low;
   place.scene.viewpoint_high_deg = *high;
   return place;

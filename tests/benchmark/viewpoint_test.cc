@@ -30,6 +30,20 @@ TEST(Viewpoint, PassesMeetAtAnAngleOfTheRange) {
   EXPECT_LE(degrees, 110);
 }
 
+TEST(Viewpoint, KeyframesCountOnTheWayBack) {
+  Trial trial = At("60-75");
+  trial.method = Select(Methods(), {"no_loops"})[0];
+  const sim::HalvSequence sequence = MakeSequence(trial);
+  const std::vector<Revisit> counted = RunTrial(trial, sequence).revisits;
+  trial.place.way_back_only = false;
+  const std::vector<Revisit> all = RunTrial(trial, sequence).revisits;
+  ASSERT_FALSE(counted.empty());
+  EXPECT_GT(all.size(), counted.size());
+  EXPECT_LT(all.front().frame, sequence.scene.return_frame);
+  EXPECT_GE(counted.front().frame, sequence.scene.return_frame);
+  EXPECT_EQ(counted.back().frame, all.back().frame);
+}
+
 TEST(Viewpoint, RangesOfTheTableGoAllTheWayRound) {
   const std::vector<std::string> ranges = ViewpointRanges();
   double end = 0;
