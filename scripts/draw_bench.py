@@ -3,7 +3,8 @@
 """Draws what `sslcd_run bench` has left in a folder: precision-recall curves, recall over the change of viewpoint, and
 the errors of all loops over it (the paper's figures of the same kind).
 
-usage: draw_bench.py FOLDER OUT_FOLDER      writes pr.svg, viewpoint.svg and loops.svg; standard library only
+usage: draw_bench.py FOLDER OUT_FOLDER      standard library only; writes pr.svg, viewpoint.svg, viewpoint_images.svg
+                                            and loops.svg, as far as their tables are there
 """
 import csv
 import os
@@ -88,8 +89,8 @@ def draw_curves(folder, out):
     write(f'{out}/pr.svg', plots)
 
 
-def draw_viewpoints(folder, out):
-    rows = read(f'{folder}/viewpoint.csv')
+def draw_viewpoints(folder, out, name='viewpoint'):
+    rows = read(f'{folder}/{name}_curves.csv')
     methods = list(dict.fromkeys(row['method'] for row in rows))
     plot = Plot(0, 'Keyframes recognised', 'change of viewpoint [degrees]', 'recall', 180, 1, 45, .2)
     for i, method in enumerate(methods):
@@ -102,7 +103,11 @@ def draw_viewpoints(folder, out):
         plot.curve(points, colour)
         plot.dots(points, colour)
         plot.label(i, method, colour)
-    write(f'{out}/viewpoint.svg', [plot])
+    write(f'{out}/{name}.svg', [plot])
+
+
+def draw_viewpoints_of_images(folder, out):
+    draw_viewpoints(folder, out, 'viewpoint_images')
 
 
 def draw_loops(folder, out):
@@ -123,12 +128,13 @@ def main():
     folder, out = sys.argv[1:]
     os.makedirs(out, exist_ok=True)
     drawn = 0
-    for name, draw in (('pr_curves.csv', draw_curves), ('viewpoint.csv', draw_viewpoints), ('loops.csv', draw_loops)):
+    for name, draw in (('pr_curves.csv', draw_curves), ('viewpoint_curves.csv', draw_viewpoints),
+                       ('viewpoint_images_curves.csv', draw_viewpoints_of_images), ('loops.csv', draw_loops)):
         if os.path.exists(f'{folder}/{name}'):
             draw(folder, out)
             drawn += 1
     if drawn == 0:
-        sys.exit(f'{folder} holds neither pr_curves.csv nor loops.csv: run sslcd_run bench pr, or attempts, first')
+        sys.exit(f'{folder} holds no curves and no loops: run sslcd_run bench pr, viewpoint or attempts first')
 
 
 if __name__ == '__main__':

@@ -80,6 +80,23 @@ std::string IntervalCell(int part, int whole) {
   return Cell("%.3f", interval.low) + " to " + Cell("%.3f", interval.high);
 }
 
+constexpr int kStep = 15, kSteps = 180 / kStep;  // of ViewpointTable [deg]
+using ViewpointCounts = std::array<Counts, kSteps>;
+
+std::string StepName(int bin) { return std::to_string(bin * kStep) + "-" + std::to_string((bin + 1) * kStep); }
+
+ViewpointCounts CountViewpoints(const std::vector<TrialResult>& results) {
+  ViewpointCounts counts;
+  for (const TrialResult& result : results)
+    for (const Revisit& revisit : result.revisits) {
+      const int bin = static_cast<int>(revisit.viewpoint_rad * kDegrees / kStep);
+      Counts& of_bin = counts[std::min(bin, kSteps - 1)];
+      ++of_bin.revisits;
+      of_bin.recognised += Recognised(revisit, result.loops);
+    }
+  return counts;
+}
+
 PrecisionRecall CurveOf(const MethodResults& method, int bin) {
   std::vector<ScoredAnswer> answers;
   int positives = 0;
@@ -210,28 +227,41 @@ Table PrecisionRecallCurves(const std::vector<MethodResults>& methods) {
   return table;
 }
 
-Table ViewpointRecalls(const std::vector<MethodResults>& methods) {
-  constexpr int kStep = 15, kBins = 180 / kStep;  // [deg]
-  Table table{"viewpoint",
+Table ViewpointTable(const std::vector<MethodResults>& methods, const std::string& key) {
+  Table table{key,
+              "Share of keyframes recognised by change of viewpoint, and its 95 % interval",
+              {"viewpoint [deg]", "keyframes"},
+              {}};
+  std::vector<ViewpointCounts> counts;
+  for (const MethodResults& method : methods) {
+    table.header.push_back(method.method.title);
+    counts.push_back(CountViewpoints(method.results));
+  }
+  for (int bin = 0; bin < kSteps && !methods.empty(); ++bin) {
+    if (counts[0][bin].revisits == 0) continue;
+    std::vector<std::string> row{StepName(bin), std::to_string(counts[0][bin].revisits)};
+    for (const ViewpointCounts& of_method : counts) {
+      const Counts& c = of_method[bin];
+      row.push_back(Share(c.recognised, c.revisits) + " (" + IntervalCell(c.recognised, c.revisits) + ")");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table ViewpointCurves(const std::vector<MethodResults>& methods, const std::string& key) {
+  Table table{key + "_curves",
               "Keyframes recognised over the change of viewpoint",
               {"method", "viewpoint_deg", "keyframes", "recognised", "recall", "recall_low", "recall_high"},
               {}};
   for (const MethodResults& method : methods) {
-    std::array<Counts, kBins> counts;
-    for (const TrialResult& result : method.results)
-      for (const Revisit& revisit : result.revisits) {
-        const int bin = static_cast<int>(revisit.viewpoint_rad * kDegrees / kStep);
-        Counts& of_bin = counts[std::min(bin, kBins - 1)];
-        ++of_bin.revisits;
-        of_bin.recognised += Recognised(revisit, result.loops);
-      }
-    for (int bin = 0; bin < kBins; ++bin) {
+    const ViewpointCounts counts = CountViewpoints(method.results);
+    for (int bin = 0; bin < kSteps; ++bin) {
       const Counts& c = counts[bin];
       if (c.revisits == 0) continue;
       const Interval interval = WilsonInterval(c.recognised, c.revisits);
-      table.rows.push_back({method.method.key, std::to_string(bin * kStep) + "-" + std::to_string((bin + 1) * kStep),
-                            std::to_string(c.revisits), std::to_string(c.recognised), Share(c.recognised, c.revisits),
-                            Cell("%.3f", interval.low), Cell("%.3f", interval.high)});
+      table.rows.push_back({method.method.key, StepName(bin), std::to_string(c.revisits), std::to_string(c.recognised),
+                            Share(c.recognised, c.revisits), Cell("%.3f", interval.low), Cell("%.3f", interval.high)});
     }
   }
   return table;

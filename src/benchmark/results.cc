@@ -84,7 +84,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
           if (stopped) return;
           if (!sequence) sequence = MakeSequence(trials[i]);
           results[i] = RunTrial(trials[i], *sequence);
-          if (!trials[i].method.from_files) folder.Put(trials[i], results[i]);
+          folder.Put(trials[i], results[i]);
           const std::lock_guard<std::mutex> lock(one_at_a_time);
           ++done;
           if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));

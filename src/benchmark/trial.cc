@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/benchmark/trial.h"
 
+#include <algorithm>
 #include <chrono>
 #include <set>
 #include <utility>
@@ -56,6 +57,11 @@ TrialResult RunTrial(const Trial& trial, const sim::HalvSequence& sequence) {
   result.ate_odometry = ComputeAte(sequence.odometry.poses, truth, Alignment::kSim3).error;
   result.scene_viewpoint_rad = sequence.scene.viewpoint_rad;
   result.revisits = FindRevisits(truth, frames, sequence.detections.identity);
+  if (trial.place.way_back_only) {
+    std::vector<Revisit>& all = result.revisits;
+    const auto out = [&](const Revisit& revisit) { return revisit.frame < sequence.scene.return_frame; };
+    all.erase(std::remove_if(all.begin(), all.end(), out), all.end());
+  }
   result.loops = JudgeLoops(run.loops, truth);
   result.times = run.timing.Summary();
   return result;

@@ -96,7 +96,8 @@ TEST(HalvTables, RecallOverViewpoint) {
   MethodResults method = TwoRuns();
   method.method.key = "k";
   method.results[1].revisits.push_back({30, 3, 300, 1, M_PI, 5});  // the very end is in the last bin
-  const Table table = ViewpointRecalls({method});
+  const Table table = ViewpointCurves({method}, "v");
+  EXPECT_EQ(table.key, "v_curves");
   ASSERT_EQ(table.rows.size(), 2u) << "bins without a keyframe are left out";
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
   const std::vector<std::string> same(table.rows[0].begin(), table.rows[0].begin() + 5),
@@ -104,6 +105,11 @@ TEST(HalvTables, RecallOverViewpoint) {
   EXPECT_EQ(same, (std::vector<std::string>{"k", "0-15", "2", "2", "1.000"}));
   EXPECT_EQ(opposite, (std::vector<std::string>{"k", "165-180", "3", "0", "0.000"}));
   EXPECT_GT(std::stod(table.rows[1][6]), 0.1);
+  const Table side_by_side = ViewpointTable({method, method}, "v");
+  EXPECT_EQ(side_by_side.header, (std::vector<std::string>{"viewpoint [deg]", "keyframes", "m", "m"}));
+  ASSERT_EQ(side_by_side.rows.size(), 2u);
+  const std::string none = "0.000 (0.000 to " + table.rows[1][6] + ")";
+  EXPECT_EQ(side_by_side.rows[1], (std::vector<std::string>{"165-180", "3", none, none}));
 }
 
 TEST(HalvTables, StageTimes) {
@@ -123,7 +129,8 @@ TEST(HalvTables, OfNothing) {
   EXPECT_EQ(AttemptsTable({}, "a", "t").rows.size(), 5u);
   EXPECT_TRUE(LoopTable({}).rows.empty());
   EXPECT_TRUE(PrecisionRecallTable({}).rows.empty());
-  EXPECT_TRUE(ViewpointRecalls({}).rows.empty());
+  EXPECT_TRUE(ViewpointTable({}, "v").rows.empty());
+  EXPECT_TRUE(ViewpointCurves({}, "v").rows.empty());
   EXPECT_TRUE(StageTable({}).rows.empty());
   EXPECT_TRUE(AblationTable({}).rows.empty());
 }

@@ -10,7 +10,8 @@ import time
 
 from cli_case import CliCase, binaries, call, read, write, main
 
-SMALL = ('--seeds', 1, '--cases', 4, '--methods', 'sslcd,no_loops,one_look', '--threads', 1)
+ONE = ('--seeds', 1, '--cases', 4, '--threads', 1)
+SMALL = (*ONE, '--methods', 'sslcd,no_loops,one_look')
 
 
 class BenchTest(CliCase):
@@ -58,10 +59,34 @@ class BenchTest(CliCase):
         self.assertEqual({row['method'] for row in curves} & {'sslcd', 'one_look'}, {'sslcd', 'one_look'})
         for row in curves:
             self.assertLessEqual(float(row['precision_low']), float(row['precision']))
-        recalls = [row for row in self.read_csv('viewpoint') if row['method'] == 'sslcd']
-        self.assertEqual(sum(int(row['recognised']) for row in recalls), int(attempts[4]['recognised']))
         self.assertIn('loop detection', [row['stage'] for row in self.read_csv('table3')])
         self.assertGreater(len(self.read_csv('ablation')), 5)
+
+    def test_recall_over_viewpoint(self):
+        result = self.bench('viewpoint', *ONE, '--viewpoints', '60-75,75-90', '--methods', 'sslcd,x_view')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = self.read_csv('viewpoint_curves')
+        keyframes = {method: [(row['viewpoint_deg'], row['keyframes']) for row in rows if row['method'] == method]
+                     for method in ('sslcd', 'x_view')}
+        self.assertEqual(keyframes['sslcd'], keyframes['x_view'], 'judged on the same ones')
+        self.assertGreater(int(dict(keyframes['sslcd'])['60-75']), 3)
+        self.assertEqual(len(self.read_csv('viewpoint')), len(keyframes['sslcd']))
+        recognised = {row['viewpoint_deg']: int(row['recognised']) for row in rows if row['method'] == 'sslcd'}
+        self.assertGreater(recognised['75-90'], 0)
+        worlds = {name.rsplit('-', 1)[0] for name in os.listdir(self.out + '/trials') if name.endswith('-sslcd.json')}
+        self.assertEqual(worlds, {'lot-c4-s1', 'lot-v60-75-c4-s1', 'lot-v75-90-c4-s1'})
+
+    def test_rendered_worlds_are_those_of_the_table(self):
+        images, name = self.out + '_images', 'lot-v60-75-c4-s1'
+        asked = (*ONE, '--viewpoints', '60-75', '--methods', 'appearance', '--images', images)
+        os.makedirs(images)
+        self.refused(self.bench('viewpoint', *asked), 3, 'lot-c4-s1: is not there',
+                     'sslcd_sim halv --case 4 --seed 1 --render --out ' + images)
+        for world, seed in (('lot-c4-s1', '1'), (name, '2')):  # the second one is not what its name says
+            subprocess.run([binaries['sim'], 'halv', '--case', '4', '--seed', seed, '--out', f'{images}/{world}'],
+                           check=True, capture_output=True)
+            os.makedirs(f'{images}/{world}/image_2')
+        self.refused(self.bench('viewpoint', *asked), 3, name + ': is of another world', '--viewpoint-low-deg 60 ')
 
     def test_into_a_document(self):
         write(self.out + '.md', 'Above.\n<!-- bench table2 -->\n<!-- /bench -->\nBelow.\n')
@@ -121,6 +146,9 @@ class BenchTest(CliCase):
         self.refused(self.bench('table2', '--methods', 'nobody'), 2, "no method 'nobody'", 'sslcd, ')
         self.refused(self.bench('table2', '--cases', 5), 2, '--cases')
         self.refused(self.bench('table2', '--seeds', 0), 2, '--seeds')
+        for viewpoints in ('60', '75-60', '60-60', '60-200', 'a-b', '-15-0', '7.5-15', ''):
+            self.refused(self.bench('viewpoint', *ONE, '--viewpoints=' + viewpoints), 2, '--viewpoints')
+        self.refused(self.bench('viewpoint', *ONE, '--images', self.out + '/none'), 2, '--images')
         self.refused(self.bench('attempts', '--layout', self.out + '/none.json'), 2, '--layout')
         self.refused(self.bench('table1', '--kitti', self.data), 3, '--detections')
         self.refused(self.bench('table1', '--kitti', self.data, '--detections', 'dets'), 3, 'data/dets', '--detections')

@@ -18,8 +18,8 @@ struct AppearanceOptions {
   int branching = 10, levels = 4;   ///< of the tree of words
   int training_images = 40;         ///< of the sequence itself, evenly over it, from which the words are learnt
   double least_similarity = 0.015;  ///< of the words of two images
-  int candidates = 10;              ///< the most similar old images have their geometry checked, ...
-  int island = 4;                   ///< ... so many frames apart at least, for neighbours show the same
+  int candidates = 30;              ///< the most similar old images have their geometry checked, ...
+  int island = 2;                   ///< ... so many frames apart at least, for neighbours show the same
   double max_depth_m = 50;          ///< a point further off says nothing about where a camera stands
   int max_distance = 64;            ///< of two descriptors that match, in bits of 256
   double ratio = 0.9;               ///< ... and of the best to the second best

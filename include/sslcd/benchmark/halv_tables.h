@@ -34,8 +34,11 @@ Table PrecisionRecallTable(const std::vector<MethodResults>& methods);
 Table PrecisionRecallCurves(const std::vector<MethodResults>& methods);
 
 /// Recall of what each method accepted in bins of 15 degrees of viewpoint change, with Wilson intervals; bins without a
-/// keyframe are left out.
-Table ViewpointRecalls(const std::vector<MethodResults>& methods);
+/// keyframe are left out. A row a bin, a column a method; all methods have run on the same worlds.
+Table ViewpointTable(const std::vector<MethodResults>& methods, const std::string& key);
+
+/// The same with a row for each method and bin, `key`_curves.
+Table ViewpointCurves(const std::vector<MethodResults>& methods, const std::string& key);
 
 /// The paper's Table III: times of the stages, the median over runs of p50 and p95, and the largest of all.
 Table StageTable(const std::vector<TrialResult>& results);

@@ -19,7 +19,7 @@ struct Method {
   /// How it finds places, anew for each run, of whose world it is given the name (Trial::World); none: sslcd's own
   /// pipeline, as the options say.
   std::function<PlaceMatcher(const std::string& world)> matcher{};
-  bool from_files = false;  ///< it answers from files that may change: its results are not kept
+  bool from_files = false;  ///< it answers from files that may change: it is measured again each time
 };
 
 /// All methods of the comparison, sslcd first. Those with a matcher share everything else with sslcd: map, measurement

@@ -34,7 +34,7 @@ struct TrialHooks {
   std::function<bool()> stop;                         ///< true: finish what has begun; ask from any thread
 };
 
-/// Results of all trials, in step; those that are in the folder are not run again (Method::from_files are). On
+/// Results of all trials, in step; those that are in the folder are not run again, but Method::from_files. On
 /// `threads` threads, with the same results for any number of them. None where `stop` ended it early. The first
 /// exception of a trial ends it, too.
 std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials, const ResultFolder& folder,

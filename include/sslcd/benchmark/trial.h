@@ -18,6 +18,8 @@ namespace sslcd::benchmark {
 struct Place {
   std::string key = "lot";
   sim::HalvScene scene;
+  std::vector<int> cases{};    ///< the only ones it is for; empty: all
+  bool way_back_only = false;  ///< keyframes on the way out do not count, for another place has the same
 };
 
 /// One run of one method on one HALV-sim sequence.
