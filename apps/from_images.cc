@@ -2,6 +2,7 @@
 #include "from_images.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "console.h"
 #include "image_loader.h"
@@ -9,6 +10,7 @@
 #include "sslcd/core/median.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
+#include "sslcd/stereo/row_error.h"
 
 namespace sslcd::apps {
 namespace {
@@ -21,6 +23,26 @@ void WarnOfGround(const GroundReport& ground) {
                         "the camera over the ground";
   if (!ground.heights_m.empty()) message += "; that seems to be " + Number("%.2f", Median(ground.heights_m)) + " m";
   Log(LogLevel::kWarning, message);
+}
+
+/// As an angle, from some pairs all over the sequence. None: they do not tell.
+std::optional<double> RowErrorOf(const Dataset& dataset, const StereoOdometryOptions& options) {
+  constexpr std::size_t kPairs = 8;
+  if (!dataset.camera) return std::nullopt;
+  std::vector<Image> images;
+  for (std::size_t i = 0; i < dataset.frames.size(); i += (dataset.frames.size() + kPairs - 1) / kPairs) {
+    const Frame& frame = dataset.frames[i];
+    Image left = LoadImage(frame.image_left), right = LoadImage(frame.image_right);
+    if (left.empty() || left.width != right.width || left.height != right.height) continue;  // the frontend tells
+    images.push_back(std::move(left));
+    images.push_back(std::move(right));
+  }
+  std::vector<StereoView> pairs;
+  for (std::size_t i = 0; i < images.size(); i += 2) pairs.push_back({images[i].view(), images[i + 1].view()});
+  const std::optional<double> error = RowError(pairs, options);
+  if (!error) return std::nullopt;
+  Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *error) + " px");
+  return *error / dataset.camera->fy;
 }
 
 }  // namespace
@@ -44,10 +66,11 @@ Configuration ImageArguments::Load(ConfigArguments config, const Dataset& datase
   };
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
+  const std::optional<double> row_error = tracked ? RowErrorOf(dataset, vision.odometry) : std::nullopt;
   return config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1;
     if (!tracked) return;
-    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise();
+    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error);
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
 }

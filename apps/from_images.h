@@ -20,9 +20,9 @@ struct ImageArguments {
   bool detects() const { return !detector.empty() || !boxes.empty(); }
 
   /// The configuration with these in it, from other defaults: cuboids lifted from 2D boxes bring their own noise, and
-  /// a loss that suits the headings which are a quarter turn off; so does odometry from images, which is good enough
-  /// for `loop.odometry` to be `ba.odometry`; and where both come from the same images there is no scale to estimate,
-  /// since a wrong baseline stretches both alike. `detections`: they are made, too.
+  /// a loss that suits the headings which are a quarter turn off; so does odometry from images, by how well these are
+  /// rectified, and it is good enough for `loop.odometry` to be `ba.odometry`; and where both come from the same images
+  /// there is no scale to estimate, since a wrong baseline stretches both alike. `detections`: they are made, too.
   Configuration Load(ConfigArguments config, const Dataset& dataset, bool detections) const;
 
   /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if `detections`.

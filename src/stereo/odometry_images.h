@@ -39,7 +39,7 @@ Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to, co
 
 /// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good features to track, CVPR
 /// 1994) of each cell of a grid of about `options.points` cells that has none of the points `taken` in it. In the order
-/// of the cells, row by row.
+/// of the cells, row by row; between pixels, and less than a patch off its cell.
 std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images, const std::vector<cv::Point2f>& taken,
                                        const StereoOdometryOptions& options);
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/stereo/odometry.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
@@ -18,8 +21,12 @@ void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
   v.Integer("patience", o.patience, 0, 100, "frames in a row lost before it starts anew where it believes to be");
 }
 
-OdometryNoise StereoOdometryNoise() {
+OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {
+  constexpr double kIdealWalk = 1.5e-4, kRealWalk = 5e-4;  // [rad per sqrt(m)]
+  constexpr double kFactor = 2;                            // safe side: KITTI's walk by as much as their rows are off
   OdometryNoise noise;
+  noise.rotation_walk =
+      row_error_rad ? std::min(kRealWalk, std::hypot(kIdealWalk, kFactor * *row_error_rad)) : kRealWalk;
   noise.translation_floor_m = 0.001;
   noise.translation_walk = noise.vertical_walk = 0.004;
   noise.rotation_floor_rad = 1e-4;

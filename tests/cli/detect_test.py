@@ -58,6 +58,10 @@ class DetectTest(CliCase):
         self.assertEqual(len(rows), 1, result.stdout)
         return int(rows[0][-1])
 
+    def heading_walks(self):
+        rows = read(self.out + '/config.yaml').splitlines()
+        return [float(row.split()[-1]) for row in rows if row.strip().startswith('rotation_walk:')]
+
     # what works
     def test_a_sequence_that_runs(self):
         result = self.detected('--boxes', self.boxes, '--overlays')
@@ -76,6 +80,7 @@ class DetectTest(CliCase):
             self.assertAlmostEqual(float(row.split()[3]), STEP * i, delta=0.02 + 0.01 * i)
         self.assertIn('Car: {symmetry: pi}', read(self.out + '/sequence.yaml'))
         self.assertIn(f'image_size_px: [{WIDTH}, {HEIGHT}]', read(self.out + '/sequence.yaml'))
+        self.assertLess(max(self.heading_walks()), 3e-4)  # rows of such images agree
 
         run = call('run', self.out, '--config', self.out + '/config.yaml', '--out', self.out + '/run')
         self.assertEqual((run.returncode, run.stderr), (0, ''))
@@ -126,6 +131,7 @@ class DetectTest(CliCase):
         write(self.data + '/odometry.txt', poses)
         self.detected('--boxes', self.boxes)
         self.assertEqual([float(row.split()[3]) for row in read(self.out + '/odometry.txt').splitlines()], list(range(FRAMES)))
+        self.assertEqual(self.heading_walks(), [5e-4, 5e-3])  # as if there were no images
         self.detected('--boxes', self.boxes, '--force', '--odometry', 'stereo', '--max-frames', 3)
         self.assertEqual(len(read(self.out + '/odometry.txt').splitlines()), 3)
         self.assertAlmostEqual(float(read(self.out + '/odometry.txt').split()[-5]), 2 * STEP, delta=0.04)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/fields.h"
@@ -27,9 +28,10 @@ struct StereoOdometryOptions {
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for. Positions as with ideal images and calibration, headings as
-/// with real ones, since these decide how far it drifts and which loops can be true (docs/results.md).
-OdometryNoise StereoOdometryNoise();
+/// What a mapper should take such odometry's noise for: that of ideal images, and for headings, which decide how far it
+/// drifts and which loops can be true, that of real ones as far as `row_error_rad` (RowError over the focal length in
+/// px) tells that calibration is not ideal. None: not known, taken for real ones. Figures: docs/results.md.
+OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
 /// How a frame got its pose.
 enum class OdometryStatus {
