@@ -24,7 +24,7 @@ void Resolve(const fs::path& folder, std::string& path) {
   std::error_code none;
   for (const fs::path& candidate : {folder / path, fs::absolute(path)}) {
     if (!fs::exists(candidate, none)) continue;
-    path = candidate.lexically_normal().string();
+    path = fs::canonical(candidate).string();
     return;
   }
 }

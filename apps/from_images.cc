@@ -28,10 +28,11 @@ void WarnOfGround(const GroundReport& ground) {
 /// As an angle, from some pairs all over the sequence. None: they do not tell.
 std::optional<double> RowErrorOf(const Dataset& dataset, const StereoOdometryOptions& options) {
   constexpr std::size_t kPairs = 8;
-  if (!dataset.camera) return std::nullopt;
+  if (!dataset.camera || !dataset.camera_right) return std::nullopt;
   std::vector<Image> images;
   for (std::size_t i = 0; i < dataset.frames.size(); i += (dataset.frames.size() + kPairs - 1) / kPairs) {
     const Frame& frame = dataset.frames[i];
+    if (frame.image_left.empty() || frame.image_right.empty()) continue;
     Image left = LoadImage(frame.image_left), right = LoadImage(frame.image_right);
     if (left.empty() || left.width != right.width || left.height != right.height) continue;  // the frontend tells
     images.push_back(std::move(left));

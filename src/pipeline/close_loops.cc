@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "pipeline/fuse.h"
 #include "pipeline/loop_graph.h"
@@ -30,7 +29,13 @@ LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<Frame
 
 std::vector<LoopClosure> LoopCloser::closures() const {
   std::vector<LoopClosure> rows;
-  for (const Attempt& attempt : attempts_) rows.push_back(attempt.loop.row);
+  for (const Attempt& attempt : attempts_) {
+    LoopClosure& row = rows.emplace_back(attempt.loop.row);
+    if (!attempt.anew || row.decision != LoopDecision::kAccepted) continue;
+    row.T_match_query = attempt.anew->T_match_query;
+    row.covariance = attempt.anew->covariance;
+    row.viewpoint_change_rad = attempt.anew->viewpoint_change_rad;
+  }
   return rows;
 }
 
@@ -50,7 +55,8 @@ void LoopCloser::Finish(double scale, TimingTable& timing) {
   if (frames_.empty() || options_.mode == Options::Mode::kPaper) return;
   const LoopOptions& o = options_.loop;
   for (double lag = o.lag_m - o.layout.every_m; lag > 0; lag -= o.layout.every_m)
-    DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
+    if (!ClosedNear(frames_.back().travelled - lag))
+      DetectAndCorrect({frames_.back().travelled, lag, o.layout.local_m, o.lag_m}, scale, timing);
   if (Closed() && !matcher_ && o.layout.hindsight_m > 0) LookAgain(scale, timing);
 }
 
@@ -83,6 +89,14 @@ bool LoopCloser::ClosedNear(double path_m) const {
   return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
     return attempt.loop.row.decision == LoopDecision::kAccepted &&
            std::abs(frames_[attempt.loop.query].travelled - path_m) < 0.5 * options_.loop.layout.every_m;
+  });
+}
+
+// Has the newest frame led to these two cameras before?
+bool LoopCloser::Known(const LoopMeasurement& loop) const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
+    return attempt.loop.query == loop.query && attempt.loop.match == loop.match &&
+           attempt.loop.row.newest_frame == frames_.back().frame;
   });
 }
 
@@ -142,7 +156,7 @@ bool LoopCloser::Detect(const Look& look) {
   const PoseTrack& best = tracks_.tracks()[0];
   const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma, old_until};
   auto loop = Meter().Measure(common, look.here_m - look.lag_m, look.beyond_m);
-  if (!loop) return false;
+  if (!loop || Known(*loop)) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.look = look;
   attempt.sigma_m = common.sigma_m;
@@ -295,8 +309,10 @@ void LoopCloser::Review() {
 }
 
 // At first the two maps were bent by the odometry between their objects. They are not any more, and what was seen on
-// both passes is one landmark.
+// both passes is one landmark. For the host only: this loop itself has straightened them, so what decides about it
+// remains what was measured at first.
 void LoopCloser::MeasureAnew(Attempt& attempt) const {
+  attempt.anew.reset();
   if (attempt.sigma_m <= 0) return;
   const LoopLayoutOptions& o = options_.loop.layout;
   const Look& look = attempt.look;
@@ -306,11 +322,8 @@ void LoopCloser::MeasureAnew(Attempt& attempt) const {
     const LandmarkId id{local.objects[i].id};
     if (passes_.PlaceBefore(id, common.old_until_m, o.min_sightings)) common.pairs.push_back({static_cast<int>(i), id});
   }
-  const auto now = Meter().MeasureBetween(attempt.loop.query, attempt.loop.match, common);
-  if (!now || now->heading_sigma >= options_.loop.belief.max_heading_sigma_rad) return;
-  attempt.loop.row.T_match_query = now->row.T_match_query;
-  attempt.loop.row.covariance = now->row.covariance;
-  attempt.loop.row.viewpoint_change_rad = now->row.viewpoint_change_rad;
+  auto now = Meter().MeasureBetween(attempt.loop.query, attempt.loop.match, common);
+  if (now && now->heading_sigma < options_.loop.belief.max_heading_sigma_rad) attempt.anew = std::move(now->row);
 }
 
 }  // namespace sslcd

@@ -37,7 +37,8 @@ class LoopCloser {
   /// the whole run again, with hindsight.
   void Finish(double scale, TimingTable& timing);
 
-  /// After everything was refined and associated anew: takes back loops that the trajectory does not go through.
+  /// After everything was refined and associated anew: takes back loops that the trajectory does not go through, and
+  /// measures the others again.
   void Review();
 
   /// Has any loop been accepted?
@@ -60,6 +61,7 @@ class LoopCloser {
   struct Attempt {
     LoopMeasurement loop;
     std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  // the row's, by the names they have now
+    std::optional<LoopClosure> anew;                       // the row as measured by the refined map
     Look look;
     double sigma_m = 0;      // how well the matched objects agree; 0: found otherwise
     int track = -1;          // whose pose this is
@@ -83,6 +85,7 @@ class LoopCloser {
   bool Fuse();
   int FrameAt(double path_m) const;
   bool ClosedNear(double path_m) const;
+  bool Known(const LoopMeasurement& loop) const;
   void LookAgain(double scale, TimingTable& timing);
   void MeasureAnew(Attempt& attempt) const;
 

@@ -72,14 +72,14 @@ bool LoopCloser::DetectWithMatcher(const Look& look) {
   if (!answer) return false;
   std::optional<LoopMeasurement> loop;
   if (answer->matches.empty()) {
-    if (look.lag_m < options_.loop.lag_m) return false;  // images tie the newest camera, which they have done
+    if (look.lag_m < options_.loop.lag_m) return false;  // images tie the newest camera, and were asked not far back
     loop = MeasureImages(answer->match_frame, std::prev(old_end)->frame, answer->T_match_query);
   } else {
     CheckMatches(answer->matches, local.objects.size(), global.objects().size());
     const CommonObjects common{local, OldLandmarks(answer->matches, global), kSigma, old_until};
     loop = Meter().Measure(common, look.here_m - look.lag_m, look.beyond_m);
   }
-  if (!loop) return false;
+  if (!loop || Known(*loop)) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
   attempt.look = look;
   attempt.sigma_m = answer->matches.empty() ? 0. : kSigma;

@@ -12,6 +12,16 @@ namespace {
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's heading [rad]
 
+// Where on the path the first and the last of the common objects were seen. [m]
+std::pair<double, double> SeenBetween(const CommonObjects& common) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const auto& pair : common.pairs) {
+    first = std::min(first, common.local.seen_m[pair.first]);
+    last = std::max(last, common.local.seen_m[pair.first]);
+  }
+  return {first, last};
+}
+
 }  // namespace
 
 std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair<int, int>>& matches,
@@ -23,9 +33,14 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair
 
 std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m, double beyond_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
+  const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+  const auto [first_m, last_m] = SeenBetween(common);
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < 3; ++i) {
-    auto now = MeasureAt(query_m - kFurtherBack * i, common, beyond_m);
+    const int query = FrameAt(std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
+    const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
+    auto now = match < 0 ? std::nullopt : MeasureBetween(query, match, common);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.belief.max_heading_sigma_rad) break;
   }
@@ -44,28 +59,6 @@ std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
     pair.sigma_yaw_rad = kYawSigma;
   }
   return pairs;
-}
-
-std::optional<LoopMeasurement> LoopMeter::MeasureAt(double query_m, const CommonObjects& common,
-                                                    double beyond_m) const {
-  const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
-  if (!drift.usable) return std::nullopt;
-  const auto [first, last] = std::minmax_element(
-      common.pairs.begin(), common.pairs.end(),
-      [&](const auto& a, const auto& b) { return common.local.seen_m[a.first] < common.local.seen_m[b.first]; });
-  const double first_m = common.local.seen_m[first->first], last_m = common.local.seen_m[last->first];
-  // Where the common objects were in sight, or before or after that on the odometry's word.
-  const int in_sight = FrameAt(std::clamp(query_m, first_m, last_m));
-  const int query = FrameAt(std::clamp(query_m, first_m - beyond_m, last_m + beyond_m));
-  const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
-  if (match < 0) return std::nullopt;
-  auto loop = MeasureBetween(query, match, common);
-  if (loop && query != in_sight) {
-    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[query].T_odom_cam;
-    const Vec3 up = frames_[query].T_world_cam.so3().inverse() * gravity_.up;
-    loop->row.covariance += InformationOf(SigmasOf(walked, options_.odometry), up).inverse();
-  }
-  return loop;
 }
 
 std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, const CommonObjects& common) const {
@@ -99,6 +92,13 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, c
   row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
+  // Before or after the common objects were in sight the camera stands where odometry has it.
+  const auto [first_m, last_m] = SeenBetween(common);
+  const int in_sight = FrameAt(std::clamp(frames_[query].travelled, first_m, last_m));
+  if (query != in_sight) {
+    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[query].T_odom_cam;
+    row.covariance += InformationOf(SigmasOf(walked, options_.odometry), up).inverse();
+  }
   return loop;
 }
 

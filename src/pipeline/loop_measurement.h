@@ -34,8 +34,8 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
 ///
 /// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps, though, so that
-/// drift holds in their midst and not at their ends: the query camera is the newest one among its matched
-/// objects, the match camera the old one nearest to its corrected pose, and objects seen far from the two
+/// drift holds in their midst and not at their ends: the query camera is one among its matched objects, or not
+/// far from them, the match camera the old one nearest to its corrected pose, and objects seen far from the two
 /// along the path count less. Both maps are levelled first: the ground at one place has one slope, whatever odometry
 /// says.
 class LoopMeter {
@@ -56,7 +56,6 @@ class LoopMeter {
   double Heading(const Pose& T_world_cam) const;
 
  private:
-  std::optional<LoopMeasurement> MeasureAt(double query_m, const CommonObjects& common, double beyond_m) const;
   std::vector<DriftPair> Pairs(const CommonObjects& common) const;
   int FrameAt(double path_m) const;
   int NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const;

@@ -108,7 +108,15 @@ std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images, const std::
     if (best > options.min_corner * strongest && best > kMinEigenvalue) corners.emplace_back(at + box.tl());
   }
   CentrePatches(images.left[0], corners, options);
-  return corners;
+  // A centre may lie in the next cell, and be that of a point which is there.
+  constexpr float kApart = 2;  // [px]
+  std::vector<cv::Point2f> all = taken;
+  for (const cv::Point2f& p : corners) {
+    const bool known = std::any_of(all.begin(), all.end(),
+                                   [p](const cv::Point2f& q) { return std::hypot(p.x - q.x, p.y - q.y) < kApart; });
+    if (!known) all.push_back(p);
+  }
+  return {all.begin() + static_cast<std::ptrdiff_t>(taken.size()), all.end()};
 }
 
 }  // namespace sslcd

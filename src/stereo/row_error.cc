@@ -11,7 +11,7 @@
 namespace sslcd {
 
 std::optional<double> RowError(const std::vector<StereoView>& pairs, const StereoOdometryOptions& options) {
-  constexpr int kColumns = 6, kRows = 4, kLeastCells = 6;
+  constexpr int kColumns = 6, kRows = 4, kLeastCells = 12;
   constexpr std::size_t kLeastPoints = 20;
   std::array<std::vector<float>, kColumns * kRows> cells;
   for (const StereoView& pair : pairs) {

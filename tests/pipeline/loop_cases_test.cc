@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <tuple>
 
 #include "loop_drives.h"
 #include "sslcd/core/median.h"
@@ -140,6 +141,24 @@ TEST(LoopCases, RefinementMeasuresThemAnew) {
   }
   ASSERT_GT(before.size(), 50u);
   EXPECT_LT(Median(after), 0.9 * Median(before)) << before.size();
+}
+
+// A better trajectory may show more loops, but none twice.
+TEST(LoopCases, RefiningAgainRepeatsNoLoop) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
+  Mapper mapper({}, drives.Context());
+  for (const Frame& frame : drives.frames) mapper.AddFrame(frame);
+  std::size_t first = 0;
+  for (int i = 0; i < 3; ++i) {
+    mapper.Refine();
+    if (i == 0) first = mapper.LoopClosures().size();
+    std::set<std::tuple<int, int, int>> cameras;
+    for (const LoopClosure& loop : mapper.LoopClosures())
+      cameras.insert({loop.newest_frame, loop.query_frame, loop.match_frame});
+    EXPECT_EQ(cameras.size(), mapper.LoopClosures().size());
+    EXPECT_LE(mapper.LoopClosures().size(), first + 3);
+  }
+  EXPECT_GT(first, 50u);
 }
 
 // mode: paper believes every match; what comes of it is for comparison, but it has to be written down in full.

@@ -240,7 +240,7 @@ TEST(StereoOdometryNoise, HasPositionsOfRenderedImagesAndHeadingsOfRealOnes) {
 TEST(StereoOdometryNoise, HeadingsAreTrustedAsFarAsRowsAgree) {
   const double real = StereoOdometryNoise().rotation_walk;
   EXPECT_NEAR(SigmasOf(Pose::Trans({0, 0, 100}), StereoOdometryNoise(0.)).rotation, 0.0015, 1e-4);
-  EXPECT_NEAR(StereoOdometryNoise(0.004 / 514).rotation_walk, 1.5e-4, 2e-6) << "rendered HALV-sim";
+  EXPECT_NEAR(StereoOdometryNoise(0.006 / 514).rotation_walk, 1.5e-4, 2e-6) << "rendered HALV-sim";
   EXPECT_NEAR(StereoOdometryNoise(0.17 / 718).rotation_walk, real, 3e-5) << "KITTI in colour";
   EXPECT_EQ(StereoOdometryNoise(0.49 / 718).rotation_walk, real) << "KITTI in grey: no worse than unknown";
   EXPECT_EQ(StereoOdometryNoise(0.).translation_walk, StereoOdometryNoise().translation_walk);

@@ -26,7 +26,7 @@ cv::Mat Moved(const cv::Mat& image, double degrees, double down) {
   return moved;
 }
 
-TEST(RowError, OfPerfectImagesIsNone) {
+TEST(RowError, OfPerfectImagesIsNextToNothing) {
   const StereoScene scene = Wall();
   const auto error = RowError({scene.view(), scene.view()}, {});
   ASSERT_TRUE(error);

@@ -33,8 +33,9 @@ struct PlaceAnswer {
 };
 
 /// Takes the place of sslcd's own matching and belief (MapperContext::place_matcher): for comparison, or to try another
-/// idea. None: nothing found. Called at every attempt, in order. What it throws ends the run, and so does an answer
-/// that names an object or a frame that there is not (Error, kUsage).
+/// idea. None: nothing found. Called at every attempt, in order; at the end
+/// (Mapper::Refine) several times about the newest frame, to tie several cameras. What it throws ends the run, and so
+/// does an answer that names an object or a frame that there is not (Error, kUsage).
 using PlaceMatcher = std::function<std::optional<PlaceAnswer>(const PlaceQuery&)>;
 
 }  // namespace sslcd

@@ -14,7 +14,8 @@ namespace sslcd {
 /// all pairs, which noise averages out of; of the cells the root mean square. [px]
 /// Columns, of which images do not tell, will be off as much. That pulls the odometry one way for as long as points
 /// take to cross a cell, and does not show in its residuals: those of rendered images and of KITTI's are alike, but
-/// rows differ by 0.006 px, and by 0.17 (colour) and 0.49 px (grey). None where fewer than six cells have 20 points.
+/// rows differ by 0.006 px, and by 0.17 (colour) and 0.49 px (grey). None where fewer than half of the cells have 20
+/// points. Points whose rows differ by more than `max_row_error_px` do not count.
 /// Throws Error(kBadInput) as CheckImages does.
 std::optional<double> RowError(const std::vector<StereoView>& pairs, const StereoOdometryOptions& options);
 
