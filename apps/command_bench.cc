@@ -63,13 +63,33 @@ class Bench {
         {"table1", &Bench::Table1},     {"table2", &Bench::Table2}, {"table3", &Bench::Table3},
         {"attempts", &Bench::Attempts}, {"pr", &Bench::Pr},         {"viewpoint", &Bench::Viewpoint},
         {"ablation", &Bench::Ablation}};
-    if (!arguments_.docs.empty()) ReadDocument();  // rather now than after the runs
+    CheckOptions();
     for (const auto& [name, run] : all)
-      if (arguments_.name == "all" || arguments_.name == name) (this->*run)();
+      if (Asked(name)) (this->*run)();
     if (!arguments_.docs.empty()) WriteDocument();
   }
 
  private:
+  bool Asked(const std::string& table) const { return arguments_.name == "all" || arguments_.name == table; }
+
+  // What is wrong is to be known at once, not after hours of runs.
+  void CheckOptions() {
+    if (!arguments_.docs.empty()) ReadDocument();
+    if (Asked("viewpoint")) AddViewpoints();
+    if (!Asked("table2") && !Asked("pr") && !Asked("viewpoint")) return;
+    for (const Method& method : Chosen())
+      if (method.key == "appearance") CheckRendered(arguments_.images, TrialsOf(viewpoints_, method, true));
+  }
+
+  // A range counts once, however often and in whatever spelling it is given.
+  void AddViewpoints() {
+    for (const std::string& range : arguments_.viewpoints) {
+      Place place = benchmark::PlaceAtViewpoint(range);
+      const auto same = [&](const Place& other) { return other.key == place.key; };
+      if (std::none_of(viewpoints_.begin(), viewpoints_.end(), same)) viewpoints_.push_back(std::move(place));
+    }
+  }
+
   void Table1() {
     if (arguments_.kitti.empty()) {
       if (arguments_.name != "all")
@@ -142,9 +162,7 @@ class Bench {
 
   // The four cases, and small loops that meet themselves at angles which these seldom have.
   void Viewpoint() {
-    std::vector<Place> places = {Places()[0]};
-    for (const std::string& range : arguments_.viewpoints) places.push_back(benchmark::PlaceAtViewpoint(range));
-    const std::vector<MethodResults> results = Answers(places);
+    const std::vector<MethodResults> results = Answers(viewpoints_);
     const std::string key = arguments_.images.empty() ? "viewpoint" : "viewpoint_images";
     Write(ViewpointTable(results, key));
     WriteCsv(ViewpointCurves(results, key));
@@ -163,8 +181,6 @@ class Bench {
       asked.push_back(benchmark::PointMatchMethod(arguments_.matches, baselines_.point_matches));
     if (full.empty() && asked.empty())
       throw Error(ErrorKind::kUsage, "none of --methods has answers to be scored: take sslcd, or one with a matcher");
-    for (const Method& method : asked)
-      if (method.key == "appearance") CheckRendered(arguments_.images, TrialsOf(places, method, true));
     std::vector<MethodResults> results = Results(places, full, false);
     for (MethodResults& method : Results(places, asked, true)) results.push_back(std::move(method));
     return results;
@@ -262,7 +278,7 @@ class Bench {
     };
     if (cases.empty()) add("kitti", arguments_.kitti);
     if (!arguments_.methods.empty()) note += " --methods ...";
-    if (arguments_.viewpoints != benchmark::ViewpointRanges()) note += " --viewpoints ...";
+    if (Asked("viewpoint") && arguments_.viewpoints != benchmark::ViewpointRanges()) note += " --viewpoints ...";
     add("images", arguments_.images);
     add("matches", arguments_.matches);
     add("baselines", arguments_.baselines);
@@ -285,6 +301,7 @@ class Bench {
   const Console& console_;
   baselines::BaselineOptions baselines_;
   benchmark::ResultFolder folder_;
+  std::vector<Place> viewpoints_ = {Places()[0]};  // the car park, and small loops where they are asked for
   std::vector<Table> tables_;
 };
 
@@ -319,7 +336,8 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
   command->add_option("--cases", a->cases, "cases of HALV-sim")->check(CLI::Range(1, 4))->delimiter(',');
   command
       ->add_option("--viewpoints", a->viewpoints,
-                   "viewpoint: besides the cases, small loops that meet themselves at these angles, LOW-HIGH [deg]")
+                   "viewpoint: besides the cases, small loops that meet themselves at these angles, LOW-HIGH [deg]; "
+                   "they run whatever --cases is")
       ->delimiter(',')
       ->capture_default_str();
   command->add_option("--methods", a->methods, "methods of table2, pr and viewpoint; default: all")->delimiter(',');
@@ -333,7 +351,7 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
   command
       ->add_option("--matches", a->matches,
                    "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, and so on: "
-                   "rows of query_frame match_frame confidence; a row of pr")
+                   "rows of query_frame match_frame confidence; a row of pr and a column of viewpoint")
       ->check(CLI::ExistingDirectory);
   command->add_option(
       "--trajectories", a->trajectories,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "sslcd/benchmark/foreign.h"
 #include "sslcd/core/error.h"
@@ -64,7 +65,13 @@ void CheckRendered(const std::string& folder, const std::vector<Trial>& trials) 
     sim::HalvScene scene = trial.place.scene;
     scene.case_number = trial.case_number;
     const Trajectory truth = sim::MakeHalvWorld(trial.seed, scene).world.truth;
-    if (!(ForeignAte(sequence + "/groundtruth.txt", truth).max < kSame))
+    double off = 0;
+    try {
+      off = ForeignAte(sequence + "/groundtruth.txt", truth).max;
+    } catch (const Error& problem) {
+      throw Error(ErrorKind::kBadInput, problem.what() + way_out);
+    }
+    if (!(off < kSame))
       throw Error(ErrorKind::kBadInput, {sequence}, "is of another world, by its groundtruth.txt" + way_out);
   }
 }

@@ -12,7 +12,9 @@
 namespace sslcd::benchmark {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 Trial At(const std::string& range) {
   Trial trial;
@@ -105,7 +107,8 @@ TEST_F(RenderedTest, RefusesAnotherWorldOfThatName) {
   Write(At("60-75"), trial.World());
   EXPECT_THAT(Complaint(trial), HasSubstr("of another world"));
   std::filesystem::remove(std::filesystem::path(root_) / trial.World() / "groundtruth.txt");
-  EXPECT_THAT(Complaint(trial), HasSubstr("groundtruth.txt"));
+  EXPECT_THAT(Complaint(trial), AllOf(HasSubstr("groundtruth.txt"), HasSubstr("make it with: sslcd_sim"),
+                                      Not(HasSubstr("of another world"))));
 }
 
 }  // namespace

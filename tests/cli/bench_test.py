@@ -88,6 +88,24 @@ class BenchTest(CliCase):
             os.makedirs(f'{images}/{world}/image_2')
         self.refused(self.bench('viewpoint', *asked), 3, name + ': is of another world', '--viewpoint-low-deg 60 ')
 
+    def test_bad_options_are_noticed_before_the_first_run(self):
+        images = self.out + '_images'
+        os.makedirs(images)
+        self.refused(self.bench('all', *SMALL, '--viewpoints', '60-75,75'), 2, "--viewpoints '75'")
+        for name in ('table2', 'pr', 'all'):
+            result = self.bench(name, *ONE, '--methods', 'sslcd,appearance', '--images', images)
+            self.refused(result, 3, 'lot-c4-s1: is not there', '--render --out ' + images)
+        self.assertEqual(os.listdir(self.out + '/trials'), [])
+
+    def test_a_range_counts_once(self):
+        result = self.bench('viewpoint', *ONE, '--viewpoints', '60-75,60-75,060-75', '--methods', 'sslcd')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(os.listdir(self.out + '/trials')), 2)
+        once = self.read_csv('viewpoint')
+        self.out += '_once'
+        self.assertEqual(self.bench('viewpoint', *ONE, '--viewpoints', '60-75', '--methods', 'sslcd').returncode, 0)
+        self.assertEqual(once, self.read_csv('viewpoint'))
+
     def test_into_a_document(self):
         write(self.out + '.md', 'Above.\n<!-- bench table2 -->\n<!-- /bench -->\nBelow.\n')
         result = self.bench('table2', *SMALL, '--docs', self.out + '.md')

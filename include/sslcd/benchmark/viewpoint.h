@@ -11,8 +11,8 @@ namespace sslcd::benchmark {
 /// The four cases seldom meet their way out at 15 to 135 degrees. These do: small loops (case 4) whose last leg crosses
 /// or follows it at an angle from a range, "LOW-HIGH" [deg], as --viewpoint-low-deg and --viewpoint-high-deg of
 /// sslcd_sim have it. The way out of a seed is the same for all ranges, so keyframes count from where it ends. Key:
-/// "lot-vLOW-HIGH". Throws Error(kUsage) on anything but two whole numbers, 0 <= LOW < HIGH <=
-/// 180.
+/// "lot-vLOW-HIGH". Throws Error(kUsage) on anything but two whole numbers,
+/// 0 <= LOW < HIGH <= 180.
 Place PlaceAtViewpoint(const std::string& range);
 
 /// All the way round, 15 degrees each.
