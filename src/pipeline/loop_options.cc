@@ -18,7 +18,7 @@ LoopOptions::LoopOptions() {
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
-  visitor.Real("every_m", options.every_m, 0, 1000, "an attempt every so many metres of path");
+  visitor.Real("every_m", options.every_m, 0.1, 1000, "an attempt every so many metres of path");
   visitor.Real("local_m", options.local_m, 1, 10000, "the local map: objects seen on the last so many metres of path");
   visitor.Real("hindsight_m", options.hindsight_m, 0, 10000,
                "... when the whole run is looked at again at its end, after a loop was closed; 0: it is not");
