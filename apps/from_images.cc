@@ -2,7 +2,9 @@
 #include "from_images.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "console.h"
 #include "image_loader.h"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loops that sslcd's own matching has not found: those of the paper's, and those of a host's.
 #include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
 
 #include "pipeline/close_loops.h"
 #include "sslcd/core/error.h"
