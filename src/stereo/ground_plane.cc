@@ -6,7 +6,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <utility>
 
+#include "sslcd/core/median.h"
 #include "stereo/grey.h"
 #include "stereo/ground_search.h"
 
@@ -127,30 +129,44 @@ Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOption
   return q;
 }
 
-/// Without the brightness of the surroundings, in which the two cameras may differ.
+/// Without the brightness of the surroundings, in which the two cameras may differ. Of the same row only: a row of the
+/// ground is shifted as a whole, the rows above and below it by something else.
 cv::Mat Detail(const cv::Mat& grey) {
   cv::Mat image, fine, coarse;
   grey.convertTo(image, CV_32F);
   cv::GaussianBlur(image, fine, {5, 5}, 1);
-  cv::blur(image, coarse, {21, 21});
+  cv::blur(image, coarse, {21, 1});
   return fine - coarse;
 }
 
+/// A pixel of the ground in both images: by how much they differ, and by how much less if the disparity were a pixel
+/// larger, both in grey levels.
+struct Difference {
+  Vec3 row;
+  double disparity, error, slope;
+};
+
 /// Semi-global matching lags behind on a slope, by a third of a pixel on the ground; so the plane that it has found is
 /// laid over the images themselves: least squares of their difference (Lucas and Kanade 1981, with a plane's three
-/// unknowns), Cauchy's weights.
+/// unknowns). Far ground has little texture, and what stands on it has much: the weights of Geman and McClure and the
+/// square of the disparity keep its edges from tilting the plane; where nothing near has texture, the far still counts.
 Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
-  constexpr double kNoise = 6;  // grey levels
-  constexpr int kRounds = 8;
+  constexpr double kLeastNoise = 1;  // grey levels, which are whole numbers
+  constexpr int kRounds = 12;
   const int top = samples.front().v;  // rows above are of no use; samples go by rows
   const cv::Mat left = Detail(grey.left.rowRange(top, grey.left.rows));
   const cv::Mat right = Detail(grey.right.rowRange(top, grey.right.rows));
   std::vector<Sample> ground;
+  double nearest = 0;
   for (const Sample& sample : samples) {
-    if (IsOn(q, sample, options)) ground.push_back(sample);
+    if (!IsOn(q, sample, options)) continue;
+    ground.push_back(sample);
+    nearest = std::max(nearest, sample.row.dot(q));
   }
+  if (!(nearest > 0)) return q;
   for (int round = 0; round < kRounds; ++round) {
-    Equations equations(options);
+    std::vector<Difference> differences;
+    std::vector<double> errors;
     for (const Sample& sample : ground) {
       const double disparity = sample.row.dot(q), at = sample.u - disparity;
       if (!(at >= 1 && at < right.cols - 3)) continue;
@@ -161,8 +177,16 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
       const double slope = 0.5 * ((1 - part) * (row[1] - row[-1]) + part * (row[2] - row[0]));
       // To first order right(u - d) falls by `slope` for each pixel that d grows.
       const double error = there - left.at<float>(sample.v - top, sample.u);
-      const double weight = slope * slope / (kNoise * kNoise + error * error);
-      if (weight > 0) equations.Add(sample.row, disparity + error / slope, weight);
+      differences.push_back({sample.row, disparity, error, slope});
+      errors.push_back(std::abs(error));
+    }
+    if (errors.empty()) break;
+    const double noise = std::max(kLeastNoise, Median(std::move(errors)));
+    Equations equations(options);
+    for (const auto& [row, disparity, error, slope] : differences) {
+      const double inlier = noise * noise / (noise * noise + error * error), near = disparity / nearest;
+      const double weight = std::pow(near * inlier * slope / noise, 2);
+      if (weight > 0) equations.Add(row, disparity + error / slope, weight);
     }
     const Vec3 next = equations.Solution();
     const double change = (next - q).norm() / q.norm();
@@ -193,9 +217,12 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, con
   Vec3 q = Vec3(0, -1, 0) / options.height_m;
   GroundPlane plane;
   if (samples.size() >= kFewest) {
-    q = LeastSquares(samples, BestOfTrials(samples, q, options), options);
-    const Vec3 aligned = Align(grey, samples, q, options);
-    if (IsPlausible(aligned, options)) q = aligned;
+    const auto take = [&](const Vec3& better) {
+      if (IsPlausible(better, options)) q = better;
+    };
+    q = BestOfTrials(samples, q, options);
+    take(LeastSquares(samples, q, options));
+    take(Align(grey, samples, q, options));
     const auto on = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return IsOn(q, s, options); });
     plane.support = static_cast<double>(on) / static_cast<double>(samples.size());
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "sslcd/core/error.h"
 #include "stereo_scene.h"
@@ -36,6 +37,43 @@ TEST(EstimateGround, IsNotMovedByWhatStandsOnIt) {
   const GroundPlane without = EstimateGround(scene.view(), scene.camera, {}, {});  // nobody says where they are
   EXPECT_NEAR(without.height_m, 1.2, 0.03);
   EXPECT_NEAR(without.up.z(), 0, 4e-3);
+}
+
+/// Three cars in a row across the street.
+void AddCars(double z, StereoScene& scene) {
+  for (const double x : {-5., 0., 5.}) scene.Add(x, z, 0.2, {4, 1.8, 1.5});
+}
+
+TEST(EstimateGround, FarGroundWithLittleTextureIsNotTiltedByItsSurroundings) {
+  StereoScene scene;
+  scene.fade_m = 10;
+  AddCars(7, scene);
+  scene.Render();
+  const std::vector<Box2d> cars{scene.BoxOf(0), scene.BoxOf(1), scene.BoxOf(2)};
+  const GroundPlane plane = EstimateGround(scene.view(), scene.camera, cars, {});
+  EXPECT_NEAR(plane.up.z(), 0, 1e-3);
+  EXPECT_NEAR(plane.height_m, 1.2, 4e-3);
+}
+
+TEST(EstimateGround, BlurredEdgesOfCarsDoNotTiltIt) {
+  StereoScene scene;
+  AddCars(9, scene);
+  scene.Render();
+  for (cv::Mat* image : {&scene.left, &scene.right}) cv::GaussianBlur(*image, *image, {}, 1);
+  const GroundPlane without = EstimateGround(scene.view(), scene.camera, {}, {});
+  EXPECT_NEAR(without.up.z(), 0, 1e-3);
+  EXPECT_NEAR(without.height_m, 1.2, 4e-3);
+}
+
+TEST(EstimateGround, WithoutGroundItKeepsToWhatThePriorAllows) {
+  StereoScene scene;
+  scene.fade_m = 1;  // as good as none, and a wall of cars
+  AddCars(9, scene);
+  scene.Render();
+  const GroundOptions options;
+  const GroundPlane plane = EstimateGround(scene.view(), scene.camera, {}, options);
+  EXPECT_LE(std::hypot(plane.up.x(), plane.up.z()), 3 * options.tilt_sigma_rad);
+  EXPECT_NEAR(plane.height_m, options.height_m, 3 * options.height_sigma_m);
 }
 
 TEST(EstimateGround, WithoutEvidenceThePriorIsTheAnswer) {

@@ -27,6 +27,7 @@ class StereoScene {
   double height_m = 1.2;
   double tilt_rad = 0;  ///< of the ground: it rises ahead
   bool texture = true;
+  double fade_m = 1e9;  ///< distance at which the ground's texture has faded to a third
   std::vector<Block> blocks;
 
   /// A block that stands on the ground: middle of its bottom x to the right, z ahead, yaw from right to ahead.
@@ -73,7 +74,7 @@ class StereoScene {
     if (down < -1e-6) {
       nearest = -(height_m + up.dot(origin)) / down;
       const Vec3 hit = origin + nearest * ray;
-      brightness = Brightness(hit.x(), hit.z(), 1);
+      brightness = 128 + std::exp(-hit.z() / fade_m) * (Brightness(hit.x(), hit.z(), 1) - 128);
     }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const Pose T_object_cam = blocks[i].T_cam_object.inverse();
