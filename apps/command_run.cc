@@ -112,9 +112,10 @@ struct Mapped {
 
 Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
+  const ViewAligner aligner = MakeViewAligner(dataset, configuration.vision);
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
-  const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera};
+  const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };

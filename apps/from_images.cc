@@ -2,6 +2,7 @@
 #include "from_images.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -71,7 +72,7 @@ Configuration ImageArguments::Load(ConfigArguments config, const Dataset& datase
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
   const std::optional<double> row_error = tracked ? RowErrorOf(dataset, vision.odometry) : std::nullopt;
   return config.Load([&](Configuration& c) {
-    if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1;
+    if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error);
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
@@ -102,6 +103,30 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
                          {LoadImage, std::move(watch)}, threads);
   frontend.AddLabels(dataset.labels);
   return frontend;
+}
+
+ViewAligner MakeViewAligner(const Dataset& dataset, const VisionOptions& options) {
+  if (!dataset.camera || !dataset.camera_right) return {};
+  std::optional<StereoCamera> camera;
+  try {
+    camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  } catch (const Error& error) {  // who maps given detections needs no pair
+    Log(LogLevel::kInfo, std::string("images are not aligned at loops: ") + error.what());
+    return {};
+  }
+  std::map<int, std::pair<std::string, std::string>> paths;
+  for (const Frame& frame : dataset.frames)
+    if (!frame.image_left.empty() && !frame.image_right.empty())
+      paths[frame.index] = {frame.image_left, frame.image_right};
+  if (paths.empty()) return {};
+  return [paths, options, camera = *camera](int a, int b, const Pose& guess) -> std::optional<RelativePose> {
+    if (paths.count(a) == 0 || paths.count(b) == 0) return std::nullopt;
+    const Image left_a = LoadImage(paths.at(a).first), right_a = LoadImage(paths.at(a).second);
+    const Image left_b = LoadImage(paths.at(b).first), right_b = LoadImage(paths.at(b).second);
+    if (left_a.empty() || right_a.empty() || left_b.empty() || right_b.empty()) return std::nullopt;
+    return AlignGround({left_a.view(), right_a.view()}, {left_b.view(), right_b.view()}, camera, guess,
+                       options.lift.ground, options.alignment);
+  };
 }
 
 std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure) {

@@ -9,6 +9,7 @@
 #include "sslcd/core/error.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/io/dataset.h"
+#include "sslcd/pipeline/view_aligner.h"
 
 namespace sslcd::apps {
 
@@ -30,6 +31,10 @@ struct ImageArguments {
   std::optional<ImageFrontend> Make(Dataset& dataset, const Configuration& configuration, bool detections, int threads,
                                     std::function<void(const Frame&, const ImageView&)> watch = {}) const;
 };
+
+/// Aligns frames by the ground in their stereo images (AlignGround), which are read again. None: `dataset` lacks a
+/// second camera or the images. To be called before Make().
+ViewAligner MakeViewAligner(const Dataset& dataset, const VisionOptions& options);
 
 /// The next frame. Its error is thrown where it is the first one (`done` is 0), else kept in `failure`, so that the
 /// results of the frames before are not lost: then, as at the end, there is none.

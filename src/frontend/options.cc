@@ -12,6 +12,7 @@ void DescribeFields(FieldVisitor& visitor, VisionOptions& options) {
   visitor.Nested("inference", options.inference, "how models are run (ONNX Runtime)");
   visitor.Nested("lift", options.lift, "cuboids from 2D boxes and stereo");
   visitor.Nested("odometry", options.odometry, "stereo odometry, where no other is given");
+  visitor.Nested("alignment", options.alignment, "images of different passes by the ground both see (loop.views)");
   visitor.Integer("ahead", options.ahead, 1, 1000, "frames that wait between two stages that run at the same time");
 }
 

@@ -8,6 +8,7 @@
 
 #include "optim/ba_costs.h"
 #include "optim/marginal_prior.h"
+#include "optim/pose_graph_cost.h"
 #include "sslcd/optim/cost_functors.h"
 
 namespace sslcd {
@@ -17,6 +18,9 @@ template <class Functor, int kResiduals, int... kBlocks>
 ceres::CostFunction* AutoDiff(const Functor& functor) {
   return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
 }
+
+constexpr double kTieLoss = 3;  // standard deviations
+constexpr double kFullWeight = 1;
 
 // What blocks have in common is ours, and there once.
 ceres::Problem::Options Shared() {
@@ -30,6 +34,7 @@ ceres::Problem::Options Shared() {
 
 BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
     : loss_(options.loss_scale > 0 ? options.loss_scale : 1.),
+      tie_loss_(kTieLoss),
       ceres_(Shared()),
       cameras_(problem.cameras.size()),
       objects_(problem.objects.size()),
@@ -50,6 +55,7 @@ BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
   ceres_.AddParameterBlock(&log_scale_, 1);
   AddSightings(problem, options);
   AddOdometry(problem, options);
+  AddTies(problem);
   AddSlopes(problem);
   AddPriors(problem, options);
 }
@@ -86,6 +92,17 @@ void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
     const OdometryResidual residual{edge.T_from_to, WhiteningOf(sigmas, problem.odometry_factors, up)};
     ceres_.AddResidualBlock(new OdometryCost(residual), nullptr, cameras_[edge.from].data(), cameras_[edge.to].data(),
                             &log_scale_);
+  }
+}
+
+void BaTerms::AddTies(const BaProblem& problem) {
+  for (const BaTie& tie : problem.ties) {
+    if (tie.from == tie.to) continue;
+    PoseGraph::Edge edge;
+    edge.T_from_to = tie.pose.T_a_b;
+    edge.information = tie.pose.covariance.inverse();
+    ceres_.AddResidualBlock(new EdgeCost(edge, &kFullWeight), &tie_loss_, cameras_[tie.from].data(),
+                            cameras_[tie.to].data());
   }
 }
 

@@ -30,13 +30,14 @@ class BaTerms {
  private:
   void AddSightings(const BaProblem& problem, const BaOptions& options);
   void AddOdometry(const BaProblem& problem, const BaOptions& options);
+  void AddTies(const BaProblem& problem);
   void AddSlopes(const BaProblem& problem);
   void AddPriors(const BaProblem& problem, const BaOptions& options);
 
   PoseManifold pose_manifold_;
   ceres::SubsetManifold without_yaw_{4, {3}};
   ceres::SphereManifold<3> direction_manifold_;
-  ceres::CauchyLoss loss_;
+  ceres::CauchyLoss loss_, tie_loss_;
   ceres::Problem ceres_;  // refers to what stands above
   std::vector<std::array<double, 7>> cameras_;
   std::vector<std::array<double, 4>> objects_;

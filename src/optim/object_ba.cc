@@ -42,6 +42,8 @@ bool Finite(const BaProblem& problem) {
     if (!finite(sighting.T_cam_object)) return false;
   for (const BaOdometry& edge : problem.odometry)
     if (!finite(edge.T_from_to)) return false;
+  for (const BaTie& tie : problem.ties)
+    if (!finite(tie.pose.T_a_b) || !tie.pose.covariance.allFinite()) return false;
   return std::isfinite(problem.log_scale);
 }
 

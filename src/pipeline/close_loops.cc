@@ -44,6 +44,14 @@ bool LoopCloser::Closed() const {
                      [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
 }
 
+PathGraph LoopCloser::Path() const {
+  PathGraph path;
+  for (const Attempt& attempt : attempts_)
+    if (attempt.loop.row.decision == LoopDecision::kAccepted)
+      path.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
+  return path;
+}
+
 bool LoopCloser::AddKeyframe(double scale, TimingTable& timing) {
   const LoopLayoutOptions& o = options_.loop.layout;
   if (frames_.back().travelled - last_attempt_m_ < o.every_m) return false;
@@ -103,10 +111,7 @@ bool LoopCloser::Known(const LoopMeasurement& loop) const {
 // What was missed at first for want of evidence is found where a later loop has made the trajectory right: the prior is
 // narrow there, and few objects suffice. Only what is believed becomes an attempt.
 void LoopCloser::LookAgain(double scale, TimingTable& timing) {
-  path_ = {};
-  for (const Attempt& attempt : attempts_)
-    if (attempt.loop.row.decision == LoopDecision::kAccepted)
-      path_.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
+  path_ = Path();
   tracks_.Forget();
   const std::size_t first_looks = attempts_.size();
   const LoopOptions& o = options_.loop;

@@ -44,6 +44,9 @@ class LoopCloser {
   /// Has any loop been accepted?
   bool Closed() const;
 
+  /// The path with all accepted loops as shortcuts.
+  PathGraph Path() const;
+
   /// How far off the accepted loops say the odometry is, compared with LoopOptions::odometry.
   OdometryFactors LearnOdometry(double scale) const;
 

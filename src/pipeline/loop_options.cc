@@ -46,6 +46,16 @@ void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options) {
   visitor.Real("probation_rad", options.probation_rad, 0, 4, "... or this");
 }
 
+void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
+  visitor.Flag("enabled", options.enabled,
+               "where there are stereo images, cameras next to closed loops are tied by the ground both see");
+  visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
+  visitor.Real("ahead_m", options.ahead_m, 0, 100, "the two look at one spot, so far ahead of each ...");
+  visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
+  visitor.Real("gap_m", options.gap_m, 0, 10000, "so much path lies between the two at least ...");
+  visitor.Real("reach_m", options.reach_m, 0, 10000, "... and with closed loops as shortcuts so much at most");
+}
+
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Flag("enabled", options.enabled, "close loops");
   visitor.Nested("layout", options.layout, "what is compared with what (paper IV-A)");
@@ -53,6 +63,7 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Nested("tracks", options.tracks, "agreement of consecutive attempts");
   visitor.Nested("prior", options.prior, "what odometry says about a loop");
   visitor.Nested("belief", options.belief, "when a loop is believed, and taken back");
+  visitor.Nested("views", options.views, "ties between images of different passes");
   visitor.Real("lag_m", options.lag_m, 0, 1000, "the query camera stood so far back, amidst the matched objects");
   visitor.Real("sigma_m", options.sigma_m, 0, 100, "error of every loop on top of what its matches say");
   visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "error of every loop on top of what its matches say");

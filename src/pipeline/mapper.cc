@@ -8,6 +8,7 @@
 #include "pipeline/close_loops.h"
 #include "pipeline/leveller.h"
 #include "pipeline/refine.h"
+#include "pipeline/view_ties.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -175,9 +176,20 @@ BaSummary Mapper::Refine() {
     options.ba.odometry = options_.loop.odometry;
     odometry_factors = loops_->LearnOdometry(scale());
   }
-  const BaSummary summary = RefineMap(map_, frames_, log_scale_, odometry_factors, options, camera);
-  refined_log_scale_ = log_scale_;
+  BaSummary summary = RefineMap(map_, frames_, log_scale_, {odometry_factors, {}}, options, camera);
   loops_->Review();
+  view_ties_.clear();
+  if (context_.view_aligner && options_.loop.views.enabled && loops_->Closed()) {
+    {
+      const ScopedTimer alignment(timing_, "view alignment");
+      view_ties_ = TieViews(frames_, loops_->Path(), context_.view_aligner, options_.loop.views);
+    }
+    if (!view_ties_.empty()) {
+      summary = RefineMap(map_, frames_, log_scale_, {odometry_factors, view_ties_}, options, camera);
+      loops_->Review();
+    }
+  }
+  refined_log_scale_ = log_scale_;
   ResetWindow();
   return summary;
 }

@@ -67,7 +67,7 @@ std::vector<Anchor> Anchors(const std::vector<FrameRecord>& frames, const std::v
 
 // Keyframes are the problem's cameras; what other frames saw counts as seen from the keyframe next to them.
 BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                      double log_scale, const Options& options) {
+                      double log_scale, const std::vector<ViewTie>& ties, const Options& options) {
   BaProblem problem;
   problem.gravity = map.gravity();
   problem.noise = options.noise;
@@ -86,6 +86,15 @@ BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& fram
   std::map<int, Anchor> anchor_of_frame;
   const std::vector<Anchor> anchors = Anchors(frames, keyframes, log_scale);
   for (std::size_t i = 0; i < frames.size(); ++i) anchor_of_frame[frames[i].frame] = anchors[i];
+  for (const ViewTie& tie : ties) {
+    const Anchor &from = anchors[tie.from], &to = anchors[tie.to];
+    // from T Exp(d) to^-1 = from T to^-1 Exp(Adj(to) d)
+    const Pose::Matrix6 adjoint = to.T_camera_frame.Adj();
+    problem.ties.push_back({from.camera,
+                            to.camera,
+                            {from.T_camera_frame * tie.pose.T_a_b * to.T_camera_frame.inverse(),
+                             adjoint * tie.pose.covariance * adjoint.transpose()}});
+  }
   for (const auto& [id, landmark] : map.landmarks()) {
     if (!InMap(landmark, options.refine)) continue;
     const int object = static_cast<int>(problem.objects.size());
@@ -109,9 +118,9 @@ std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int,
 
 // Objects that are not yet, or never, in the map go along with the cameras that have seen them.
 BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                   double& log_scale, const OdometryFactors& odometry_factors, const Options& options) {
-  BaProblem problem = FullProblem(map, frames, keyframes, log_scale, options);
-  problem.odometry_factors = odometry_factors;
+                   double& log_scale, const LoopEvidence& loops, const Options& options) {
+  BaProblem problem = FullProblem(map, frames, keyframes, log_scale, loops.view_ties, options);
+  problem.odometry_factors = loops.odometry_factors;
   BaSummary summary = SolveBa(problem, options.ba);
   if (summary.usable && options.map.learn_noise) {
     problem.noise_scale = EstimateNoiseScale(problem);
@@ -228,17 +237,17 @@ BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, do
   return Optimise(map, frames, keyframes, log_scale, {}, after_loop);
 }
 
-BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale,
-                    const OdometryFactors& odometry_factors, const Options& options, const Camera* camera) {
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const LoopEvidence& loops,
+                    const Options& options, const Camera* camera) {
   ConfirmAll(map, options);
   const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
-  BaSummary summary = Optimise(map, frames, keyframes, log_scale, odometry_factors, options);
+  BaSummary summary = Optimise(map, frames, keyframes, log_scale, loops, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
     RejectMoved(map, frames, options);
     FuseDuplicates(map, frames, options);
     AssociateAnew(map, frames, options, camera);
     ConfirmAll(map, options);
-    summary = Optimise(map, frames, keyframes, log_scale, odometry_factors, options);
+    summary = Optimise(map, frames, keyframes, log_scale, loops, options);
   }
   return summary;
 }

@@ -38,6 +38,9 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
                            Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
   }
+  for (const ViewTie& tie : mapper.view_ties())
+    graph.edges.push_back(
+        {frames[tie.from].frame, frames[tie.to].frame, tie.pose.T_a_b, tie.pose.covariance.inverse(), true});
   return graph;
 }
 

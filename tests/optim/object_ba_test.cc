@@ -149,6 +149,30 @@ TEST(SolveBa, AHillStaysWhereTheOdometryIsGood) {
   EXPECT_NEAR(problem.cameras[100].T_world_cam.translation().y(), top, 0.1 * std::abs(top));
 }
 
+TEST(SolveBa, TiesHoldWhatTheyMeasureAndWrongOnesLittle) {
+  BaOptions options;
+  options.odometry.translation_walk = 0.03;
+  options.odometry.rotation_walk = 5e-3;
+  for (const bool wrong : {false, true}) {
+    Truth truth;
+    BaProblem problem = Street(40, 1., 1., truth);
+    // Odometry that turns away; objects that say nothing against it.
+    for (BaOdometry& edge : problem.odometry) edge.T_from_to = edge.T_from_to * Pose::RotY(2e-3);
+    for (std::size_t i = 1; i < problem.cameras.size(); ++i)
+      problem.cameras[i].T_world_cam = problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
+    problem.sightings.resize(1);
+    BaProblem tied = problem;
+    const Pose::Matrix6 covariance = 1e-4 * Pose::Matrix6::Identity();
+    for (const int to : {20, 30, 35, 38, 39})
+      tied.ties.push_back({0, to, {truth.cameras[0].inverse() * truth.cameras[to], covariance}});
+    if (wrong) tied.ties[0].pose.T_a_b = tied.ties[0].pose.T_a_b * Pose::Trans(3, 0, 0);
+    ASSERT_TRUE(SolveBa(problem, options).usable);
+    ASSERT_TRUE(SolveBa(tied, options).usable);
+    EXPECT_GT(WorstCamera(problem, truth), 0.5);
+    EXPECT_LT(WorstCamera(tied, truth), wrong ? 0.2 : 0.1);
+  }
+}
+
 TEST(SolveBa, IsDeterministic) {
   Truth truth;
   BaProblem a = Street(30, 1.03, 1., truth), b = a;

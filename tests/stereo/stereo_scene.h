@@ -29,6 +29,8 @@ class StereoScene {
   bool texture = true;
   double fade_m = 1e9;  ///< distance at which the ground's texture has faded to a third
   std::vector<Block> blocks;
+  Pose T_scene_cam;               ///< where the scene is seen from; blocks and ground are in the scene's axes
+  std::uint32_t ground_seed = 1;  ///< another one: another place
 
   /// A block that stands on the ground: middle of its bottom x to the right, z ahead, yaw from right to ahead.
   void Add(double x, double z, double yaw, const Vec3& dims) {
@@ -74,7 +76,7 @@ class StereoScene {
     if (down < -1e-6) {
       nearest = -(height_m + up.dot(origin)) / down;
       const Vec3 hit = origin + nearest * ray;
-      brightness = 128 + std::exp(-hit.z() / fade_m) * (Brightness(hit.x(), hit.z(), 1) - 128);
+      brightness = 128 + std::exp(-nearest / fade_m) * (Brightness(hit.x(), hit.z(), ground_seed) - 128);
     }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       const Pose T_object_cam = blocks[i].T_cam_object.inverse();
@@ -97,10 +99,11 @@ class StereoScene {
   }
   cv::Mat Image(double x) const {
     cv::Mat image(camera.left.height, camera.left.width, CV_8U);
+    const Vec3 origin = T_scene_cam * Vec3(x, 0, 0);
     for (int v = 0; v < image.rows; ++v) {
       for (int u = 0; u < image.cols; ++u) {
         const Vec3 ray((u - camera.left.cx) / camera.left.fx, (v - camera.left.cy) / camera.left.fy, 1);
-        image.at<unsigned char>(v, u) = cv::saturate_cast<unsigned char>(Trace({x, 0, 0}, ray));
+        image.at<unsigned char>(v, u) = cv::saturate_cast<unsigned char>(Trace(origin, T_scene_cam.so3() * ray));
       }
     }
     return image;

@@ -5,6 +5,7 @@
 
 #include "sslcd/core/fields.h"
 #include "sslcd/inference/session.h"
+#include "sslcd/stereo/ground_alignment.h"
 #include "sslcd/stereo/lift.h"
 #include "sslcd/stereo/odometry.h"
 
@@ -17,7 +18,8 @@ struct VisionOptions {
   InferenceOptions inference;
   LiftOptions lift;  ///< of 2D boxes to cuboids
   StereoOdometryOptions odometry;
-  int ahead = 4;  ///< frames that wait between two stages that run at the same time
+  GroundAlignmentOptions alignment;  ///< of images of different passes; the ground is that of `lift`
+  int ahead = 4;                     ///< frames that wait between two stages that run at the same time
 };
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
 

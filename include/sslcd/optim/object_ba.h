@@ -7,6 +7,7 @@
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/label.h"
+#include "sslcd/core/relative_pose.h"
 #include "sslcd/core/upright.h"
 #include "sslcd/optim/odometry_noise.h"
 
@@ -48,6 +49,12 @@ struct BaOdometry {
   Pose T_from_to;
 };
 
+/// Two cameras whose place to each other was measured otherwise, e.g. from their images. It may be wrong (Cauchy loss).
+struct BaTie {
+  int from = 0, to = 0;
+  RelativePose pose;  ///< T_from_to, metric
+};
+
 /// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order
 /// is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
 struct BaPrior {
@@ -73,6 +80,7 @@ struct BaProblem {
   std::vector<BaObject> objects;
   std::vector<BaSighting> sightings;
   std::vector<BaOdometry> odometry;
+  std::vector<BaTie> ties;
   double log_scale = 0;
   double expected_log_scale = 0;  ///< mean of the scale's prior, where `prior` is empty
   BaPrior prior;                  ///< empty: the first camera and the scale get their own

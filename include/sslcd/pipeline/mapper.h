@@ -13,6 +13,7 @@
 #include "sslcd/optim/object_ba.h"
 #include "sslcd/pipeline/options.h"
 #include "sslcd/pipeline/place_matcher.h"
+#include "sslcd/pipeline/view_aligner.h"
 
 namespace sslcd {
 
@@ -22,6 +23,7 @@ struct MapperContext {
   LabelTable labels;
   std::optional<Camera> camera;  ///< none: nothing is projected, the box cue drops out
   PlaceMatcher place_matcher{};  ///< none: sslcd's own
+  ViewAligner view_aligner{};    ///< none: loops are measured by their objects alone
 };
 
 /// What one frame did.
@@ -44,6 +46,12 @@ struct FrameRecord {
   std::vector<LandmarkId> matched;    ///< landmark of each detection
 };
 
+/// Two cameras whose images have been aligned: indices of frames.
+struct ViewTie {
+  int from = 0, to = 0;
+  RelativePose pose;  ///< T_from_to
+};
+
 class Leveller;
 class LoopCloser;
 
@@ -61,15 +69,17 @@ class Mapper {
   FrameReport AddFrame(const Frame& frame);
 
   /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted loops are measured
-  /// anew. May be called any time, and again.
+  /// anew. With a ViewAligner the images next to accepted loops are aligned, and all is optimised once more with that.
+  /// May be called any time, and again.
   BaSummary Refine();
 
   const ObjectMap& map() const { return map_; }
   const std::vector<FrameRecord>& frames() const { return frames_; }
-  Trajectory CameraTrajectory() const;            ///< one pose a frame
-  std::vector<MapObject> Objects() const;         ///< every landmark, by id
-  std::vector<LoopClosure> LoopClosures() const;  ///< every attempt, refused ones too
-  double scale() const;                           ///< metres per odometry metre
+  Trajectory CameraTrajectory() const;                                  ///< one pose a frame
+  std::vector<MapObject> Objects() const;                               ///< every landmark, by id
+  std::vector<LoopClosure> LoopClosures() const;                        ///< every attempt, refused ones too
+  const std::vector<ViewTie>& view_ties() const { return view_ties_; }  ///< of the last Refine
+  double scale() const;                                                 ///< metres per odometry metre
   TimingTable& timing() { return timing_; }
 
  private:
@@ -88,6 +98,7 @@ class Mapper {
   std::vector<int> window_;  // the keyframes in it: indices into frames_
   BaPrior prior_;
   double log_scale_ = 0;
+  std::vector<ViewTie> view_ties_;
   double refined_log_scale_ = 0;  // what the last full-map optimisation found
   TimingTable timing_;
   std::unique_ptr<Leveller> leveller_;

@@ -28,7 +28,7 @@ struct RunResult {
   std::vector<int> frames;          ///< frame numbers, in step with the trajectories
   Trajectory trajectory, odometry;  ///< T_world_cam, T_odom_cam of every frame that was processed
   std::vector<MapObject> objects;   ///< all landmarks, by id; the map is those that are confirmed
-  PoseGraph graph;                  ///< frames, the metric odometry between them, and the loops that were accepted
+  PoseGraph graph;                  ///< frames, the metric odometry between them, accepted loops, ties of views
   std::vector<LoopClosure> loops;   ///< every attempt to close one, in order
   double scale = 1;                 ///< metres per odometry metre
   NoiseScale noise_scale;           ///< what was learnt of the detector

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// AlignGround: how far off, how often. usage: ground_bench [--path GAP_M] [--off OFF_M] FOLDER[:POSES] ...
+// Folders as for odometry_bench. Every 3 m of path, a frame and the earlier one, at least GAP_M of path before (30),
+// that looks at the same ground: 7 m ahead of both, to 4 m. The guess is the truth, off by OFF_M (0.2) horizontally and
+// 0.5 degrees in heading (standard deviations). Prints one row for each folder; errors in the second camera's axes.
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "sslcd/core/median.h"
+#include "sslcd/stereo/ground_alignment.h"
+#include "stereo/stereo_folder.h"
+
+namespace sslcd {
+namespace {
+
+constexpr double kEvery = 3, kAhead = 7, kApart = 4;
+
+struct Setup {
+  double gap_m = 30, off_m = 0.2;
+};
+
+Pose Disturbed(const Pose& T, double off_m, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  Vec6 error = Vec6::Zero();
+  error[0] = off_m * normal(random);
+  error[2] = off_m * normal(random);
+  error[4] = 0.5 * M_PI / 180 * normal(random);
+  return T * Pose::Exp(error);
+}
+
+void Measure(const std::string& folder, const std::string& poses, const Setup& setup) {
+  const StereoFolder input = OpenStereoFolder(folder, poses);
+  const std::size_t count = std::min(input.left.size(), input.truth.size());
+  const auto spot = [&](std::size_t i) { return Vec3(input.truth[i] * Vec3(0, 0, kAhead)); };
+  std::vector<double> path{0}, right, down, ahead, turn, normalised;
+  std::mt19937 random(1);
+  int tried = 0, far_off = 0;
+  double last = -kEvery;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) path.push_back(path[i - 1] + (input.truth[i].translation() - input.truth[i - 1].translation()).norm());
+    if (path[i] < last + kEvery) continue;
+    double nearest = kApart;
+    std::size_t old = i;
+    for (std::size_t j = 0; j < i && path[i] - path[j] >= setup.gap_m; ++j) {
+      const double apart = (spot(j) - spot(i)).norm();
+      if (apart < nearest) nearest = apart, old = j;
+    }
+    if (old == i) continue;
+    last = path[i];
+    ++tried;
+    cv::Mat images[4];
+    const std::string* const files[] = {&input.left[old], &input.right[old], &input.left[i], &input.right[i]};
+    for (int k = 0; k < 4; ++k) images[k] = cv::imread(*files[k], cv::IMREAD_UNCHANGED);
+    const Pose T_old_new = input.truth[old].inverse() * input.truth[i];
+    const auto found =
+        AlignGround({ViewOf(images[0]), ViewOf(images[1])}, {ViewOf(images[2]), ViewOf(images[3])}, input.camera,
+                    Disturbed(T_old_new, setup.off_m, random), GroundOptions(), GroundAlignmentOptions());
+    if (!found) continue;
+    const Pose error = T_old_new.inverse() * found->T_a_b;
+    right.push_back(error.translation().x());
+    down.push_back(error.translation().y());
+    ahead.push_back(error.translation().z());
+    turn.push_back(error.so3().Log().norm() * 180 / M_PI);
+    normalised.push_back(error.Log().dot(Pose::Matrix6(found->covariance.inverse()) * error.Log()) / 6);
+    far_off += error.translation().norm() > 0.2;
+  }
+  std::printf("%-40s pairs %d  aligned %zu  off by 0.2 m or more %d", folder.c_str(), tried, turn.size(), far_off);
+  const auto print = [](const char* name, std::vector<double> errors) {
+    const double bias = Median(errors);
+    for (double& error : errors) error = std::abs(error);
+    std::printf("  %s %.3f (bias %+.3f)", name, Median(errors), bias);
+  };
+  if (!turn.empty()) {
+    print("right", right), print("down", down), print("ahead", ahead);
+    std::printf("  turn %.3f deg  normalised squared error %.1f", Median(turn), Median(normalised));
+  }
+  std::printf("\n");
+}
+
+}  // namespace
+}  // namespace sslcd
+
+int main(int argc, char** argv) try {
+  sslcd::Setup setup;
+  int first = 1;
+  for (; first + 1 < argc && argv[first][0] == '-'; first += 2) {
+    const std::string option = argv[first];
+    (option == "--path" ? setup.gap_m : setup.off_m) = std::stod(argv[first + 1]);
+  }
+  if (first >= argc) return std::fprintf(stderr, "usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...\n"), 2;
+  for (int i = first; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t colon = argument.find(':');
+    sslcd::Measure(argument.substr(0, colon), colon == std::string::npos ? "" : argument.substr(colon + 1), setup);
+  }
+  return 0;
+} catch (const std::exception& error) {
+  return std::fprintf(stderr, "%s\n", error.what()), 1;
+}

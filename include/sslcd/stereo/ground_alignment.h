@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/fields.h"
+#include "sslcd/core/image.h"
+#include "sslcd/core/relative_pose.h"
+#include "sslcd/stereo/ground_plane.h"
+
+namespace sslcd {
+
+struct GroundAlignmentOptions {
+  double near_m = 2.5, far_m = 14;  ///< ahead of the first camera: the ground that is looked at
+  double half_width_m = 8;          ///< ... to either side
+  double search_m = 0.6;            ///< how far off the guess may be, in each direction ...
+  double search_rad = 0.03;         ///< ... and in heading
+  int min_patches = 25;             ///< so many patches of ground must agree, ...
+  double min_share = 0.15;          ///< ... and this share of those that both see
+  double max_sigma_m = 0.2;         ///< found only if the place is known this well (standard deviation)
+};
+void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options);
+
+/// Where the second stereo camera stands in the first one's frame (reference cameras, see Camera::offset), by the
+/// ground that both see, from whichever sides: cracks, stains and markings look alike from above. Both left images are
+/// seen from above by the planes of the ground (EstimateGround), and patches of the one are looked for in the other by
+/// normalised correlation. What most of them agree on tells which pixels show the same places; from there on it is
+/// bundle adjustment of these places and the pose in all four images, so the ground need not be a plane.
+/// None where the guess is too far off or too little ground looks alike. The two may have been taken at different
+/// times: what has moved or lies in another light finds no partner, or not that of the others.
+/// Throws Error(kBadInput) as CheckImages does.
+std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
+                                        const Pose& T_a_b_guess, const GroundOptions& ground,
+                                        const GroundAlignmentOptions& options);
+
+}  // namespace sslcd

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/view_ties.h"
+
+#include <cmath>
+#include <set>
+
+#include "loop_drives.h"
+#include "sslcd/core/median.h"
+
+namespace sslcd {
+namespace {
+
+// 100 m straight ahead, and back on a lane 2 m to the right.
+std::vector<FrameRecord> ThereAndBack() {
+  std::vector<FrameRecord> frames;
+  for (int i = 0; i <= 200; ++i) {
+    FrameRecord& frame = frames.emplace_back();
+    frame.frame = 1000 + i;
+    frame.travelled = i;
+    const double z = i <= 100 ? i : 200 - i;
+    frame.T_world_cam = i <= 100 ? Pose::Trans(0, 0, z) : Pose::Trans(2, 0, z) * Pose::RotY(M_PI);
+  }
+  return frames;
+}
+
+RelativePose Measured(const Pose& T) { return {T, 1e-4 * Pose::Matrix6::Identity()}; }
+
+TEST(TieViews, PairsCamerasThatFaceTheSameGround) {
+  PathGraph path;
+  path.AddShortcut(50, 150);
+  LoopViewOptions options;
+  options.reach_m = 40;
+  int asked = 0, exact = 0;
+  const auto frames = ThereAndBack();
+  const auto ties = TieViews(
+      frames, path,
+      [&](int a, int b, const Pose& guess) -> std::optional<RelativePose> {
+        ++asked;
+        EXPECT_LT(a, b);
+        // Both look at a point 7 m ahead: they stand 14 m apart; less exactly where the reach ends.
+        EXPECT_NEAR((guess.translation() - Vec3(2, 0, 14)).norm(), 0, 3.5);
+        exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
+        if (asked % 2 == 0) return std::nullopt;
+        return Measured(guess);
+      },
+      options);
+  EXPECT_GE(asked, 10) << "every 3 m, as far as odometry reaches from the loop";
+  EXPECT_LE(asked, 30);
+  EXPECT_EQ(static_cast<int>(ties.size()), (asked + 1) / 2) << "what could not be aligned is no tie";
+  EXPECT_GE(exact, asked - 4);
+  for (const ViewTie& tie : ties) EXPECT_LE(path.From(frames[tie.to].travelled).To(frames[tie.from].travelled), 40);
+}
+
+TEST(TieViews, NoneWhereNoLoopSaysWhereToLook) {
+  LoopViewOptions options;
+  options.reach_m = 25;  // of plain path, less than gap_m
+  const auto never = [](int, int, const Pose&) -> std::optional<RelativePose> {
+    ADD_FAILURE();
+    return std::nullopt;
+  };
+  EXPECT_TRUE(TieViews(ThereAndBack(), {}, never, options).empty());
+  EXPECT_TRUE(TieViews({}, {}, never, options).empty());
+}
+
+/// Aligns as the truth says, up to `off`; remembers which frames it was asked about.
+struct TruthAligner {
+  const Drives& drives;
+  Pose off;
+  double limit_m = 1;  ///< of the guess
+  int asked = 0, refused = 0;
+  std::optional<RelativePose> operator()(int a, int b, const Pose& guess) {
+    ++asked;
+    const auto& truth = drives.world.truth.poses;
+    const Pose T = truth[a].inverse() * truth[b];
+    if ((T.inverse() * guess).translation().norm() > limit_m) return ++refused, std::nullopt;
+    Vec6 variances;
+    variances << Vec3::Constant(4e-4), Vec3::Constant(1e-6);
+    return RelativePose{T * off, variances.asDiagonal()};
+  }
+};
+
+RunResult RunWith(const Drives& drives, TruthAligner& aligner, const Options& options = {}) {
+  MapperContext context = drives.Context();
+  context.view_aligner = [&](int a, int b, const Pose& guess) { return aligner(a, b, guess); };
+  return RunSequence(drives.frames, context, options);
+}
+
+TEST(ViewAligner, MakesTheTrajectoryMoreExactThanObjectsDo) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
+  TruthAligner aligner{drives, {}};
+  const RunResult plain = drives.Run(), tied = RunWith(drives, aligner);
+  EXPECT_GT(aligner.asked, 30);
+  EXPECT_LT(aligner.refused, aligner.asked / 4) << "loops of objects make the guess right";
+  EXPECT_LT(drives.Judge(tied).ate, drives.Judge(plain).ate);
+  const auto off = [&](const RunResult& result) {  // where the cameras that were aligned stand to each other
+    std::vector<double> errors;
+    for (std::size_t i = plain.graph.edges.size(); i < tied.graph.edges.size(); ++i) {
+      const PoseGraph::Edge& tie = tied.graph.edges[i];
+      const auto& poses = result.trajectory.poses;
+      errors.push_back((tie.T_from_to.inverse() * (poses[tie.from].inverse() * poses[tie.to])).translation().norm());
+    }
+    return Median(errors);
+  };
+  EXPECT_LT(off(tied), 0.4 * off(plain));
+  EXPECT_LT(off(tied), 0.05);
+  EXPECT_EQ(drives.Judge(tied).wrong_loops, 0);
+  EXPECT_EQ(Accepted(tied), Accepted(plain)) << "which loops there are remains what objects say";
+  EXPECT_EQ(tied.graph.edges.size(), plain.graph.edges.size() + aligner.asked - aligner.refused);
+}
+
+TEST(ViewAligner, AFewWrongTiesDoLittleHarm) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
+  TruthAligner aligner{drives, {}}, right{drives, {}};
+  MapperContext context = drives.Context();
+  int count = 0;
+  context.view_aligner = [&](int a, int b, const Pose& guess) {
+    auto answer = aligner(a, b, guess);
+    if (answer && ++count % 8 == 0) answer->T_a_b = answer->T_a_b * Pose::Trans(0.8, 0, 0.5);
+    return answer;
+  };
+  const double with_wrong = drives.Judge(RunSequence(drives.frames, context, {})).ate;
+  EXPECT_LT(with_wrong, 1.3 * drives.Judge(RunWith(drives, right)).ate + 0.02);
+}
+
+TEST(ViewAligner, IsNotAskedWithoutLoopsOrWhenSwitchedOff) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.3, 2);
+  TruthAligner aligner{drives, {}};
+  Options off;
+  off.loop.views.enabled = false;
+  RunWith(drives, aligner, off);
+  off = {};
+  off.loop.enabled = false;
+  RunWith(drives, aligner, off);
+  EXPECT_EQ(aligner.asked, 0);
+}
+
+TEST(ViewAligner, RefiningAgainDoesNotAddTies) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.3, 2);
+  TruthAligner aligner{drives, {}};
+  MapperContext context = drives.Context();
+  context.view_aligner = [&](int a, int b, const Pose& guess) { return aligner(a, b, guess); };
+  Mapper mapper({}, context);
+  for (const Frame& frame : drives.frames) mapper.AddFrame(frame);
+  mapper.Refine();
+  const std::size_t ties = mapper.view_ties().size();
+  EXPECT_GT(ties, 10u);
+  mapper.Refine();
+  std::set<int> later;
+  for (const ViewTie& tie : mapper.view_ties()) EXPECT_TRUE(later.insert(tie.to).second) << "one tie a camera";
+  EXPECT_NEAR(static_cast<double>(mapper.view_ties().size()), static_cast<double>(ties), 0.1 * ties);
+}
+
+}  // namespace
+}  // namespace sslcd
