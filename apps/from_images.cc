@@ -124,8 +124,13 @@ ViewAligner MakeViewAligner(const Dataset& dataset, const VisionOptions& options
     const Image left_a = LoadImage(paths.at(a).first), right_a = LoadImage(paths.at(a).second);
     const Image left_b = LoadImage(paths.at(b).first), right_b = LoadImage(paths.at(b).second);
     if (left_a.empty() || right_a.empty() || left_b.empty() || right_b.empty()) return std::nullopt;
-    return AlignGround({left_a.view(), right_a.view()}, {left_b.view(), right_b.view()}, camera, guess,
-                       options.lift.ground, options.alignment);
+    try {
+      return AlignGround({left_a.view(), right_a.view()}, {left_b.view(), right_b.view()}, camera, guess,
+                         options.lift.ground, options.alignment);
+    } catch (const Error& error) {  // the run before this is not lost
+      Log(LogLevel::kWarning, paths.at(b).first + ": not aligned with " + paths.at(a).first + ": " + error.what());
+      return std::nullopt;
+    }
   };
 }
 

@@ -41,6 +41,9 @@ class LoopCloser {
   /// measures the others again.
   void Review();
 
+  /// Measures accepted loops anew where a tie between views close by does so better than their objects.
+  void MeasureByViews(const std::vector<ViewTie>& ties, double scale);
+
   /// Has any loop been accepted?
   bool Closed() const;
 
@@ -91,6 +94,7 @@ class LoopCloser {
   bool Known(const LoopMeasurement& loop) const;
   void LookAgain(double scale, TimingTable& timing);
   void MeasureAnew(Attempt& attempt) const;
+  RelativePose OdometryBetween(int from, int to, double scale) const;
 
   Options options_;
   ObjectMap& map_;

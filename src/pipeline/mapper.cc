@@ -187,6 +187,7 @@ BaSummary Mapper::Refine() {
     if (!view_ties_.empty()) {
       summary = RefineMap(map_, frames_, log_scale_, {odometry_factors, view_ties_}, options, camera);
       loops_->Review();
+      loops_->MeasureByViews(view_ties_, scale());
     }
   }
   refined_log_scale_ = log_scale_;

@@ -217,14 +217,15 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, con
   Vec3 q = Vec3(0, -1, 0) / options.height_m;
   GroundPlane plane;
   if (samples.size() >= kFewest) {
-    const auto take = [&](const Vec3& better) {
-      if (IsPlausible(better, options)) q = better;
-    };
-    q = BestOfTrials(samples, q, options);
-    take(LeastSquares(samples, q, options));
-    take(Align(grey, samples, q, options));
-    const auto on = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return IsOn(q, s, options); });
-    plane.support = static_cast<double>(on) / static_cast<double>(samples.size());
+    // Most of what lies there fits a plane that is no ground: then there is no evidence.
+    const Vec3 found = LeastSquares(samples, BestOfTrials(samples, q, options), options);
+    if (IsPlausible(found, options)) {
+      const Vec3 aligned = Align(grey, samples, found, options);
+      q = IsPlausible(aligned, options) ? aligned : found;
+      const auto on = [&](const Sample& sample) { return IsOn(q, sample, options); };
+      plane.support =
+          static_cast<double>(std::count_if(samples.begin(), samples.end(), on)) / static_cast<double>(samples.size());
+    }
   }
   plane.height_m = 1 / q.norm();
   plane.up = q * plane.height_m;

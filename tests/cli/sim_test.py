@@ -70,6 +70,32 @@ class SimTest(CliCase):
         self.refused_render('vignetting', '--vignetting', 2)
         self.refused_render('threads', '--threads', 0)
 
+    def test_images_make_loops_of_objects_more_exact(self):
+        """Where objects close loops, the ground in the images of both passes is laid over each other."""
+        args = ('--case', 4, '--seed', 1, '--speed-mps', 5, '--render-scale', 0.5, '--threads', 2)
+        rendered = sim('halv', *args, '--out', self.out, '--render')
+        if 'Embree' in rendered.stderr:
+            self.skipTest('this build has no Embree')
+        self.assertEqual(rendered.returncode, 0, rendered.stderr)
+
+        def loop_error(*options):
+            run = call('run', self.out, '--out', self.out + 'run', '--json', '--groundtruth', 'groundtruth.txt', *options)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            stages = read(self.out + 'run/timing.json')
+            return json.loads(run.stdout)['loop_error_median_m'], 'view alignment' in stages
+
+        by_objects, aligned = loop_error('--set', 'loop.views.enabled=false')
+        self.assertFalse(aligned)
+        by_images, aligned = loop_error()
+        self.assertTrue(aligned)
+        self.assertLess(by_images, 0.75 * by_objects)
+        for name in os.listdir(self.out + '/image_3')[::2]:  # what cannot be read must not stop a run
+            with open(f'{self.out}/image_3/{name}', 'wb') as file:
+                file.write(b'no image')
+        by_the_others, aligned = loop_error()
+        self.assertTrue(aligned)
+        self.assertLess(by_the_others, 1.1 * by_objects)
+
     def refused_render(self, message, *args):
         out = self.out + 'refused'
         result = sim('halv', '--case', 4, '--out', out, '--render', *args)

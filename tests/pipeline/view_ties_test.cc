@@ -108,6 +108,29 @@ TEST(ViewAligner, MakesTheTrajectoryMoreExactThanObjectsDo) {
   EXPECT_EQ(tied.graph.edges.size(), plain.graph.edges.size() + aligner.asked - aligner.refused);
 }
 
+TEST(ViewAligner, MeasuresLoopsAnewWhereOdometryIsGood) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
+  Options options;  // as of good stereo odometry
+  options.loop.odometry.translation_floor_m = options.loop.odometry.translation_walk = 0.003;
+  options.loop.odometry.rotation_floor_rad = options.loop.odometry.rotation_walk = 1e-3;
+  TruthAligner aligner{drives, {}};
+  const auto off = [&](const RunResult& result) {
+    std::vector<double> errors;
+    const auto& truth = drives.world.truth.poses;
+    for (const LoopClosure& loop : result.loops)
+      if (loop.decision == LoopDecision::kAccepted)
+        errors.push_back((loop.T_match_query.inverse() * (truth[loop.match_frame].inverse() * truth[loop.query_frame]))
+                             .translation()
+                             .norm());
+    return Median(errors);
+  };
+  const RunResult plain = drives.Run(options), tied = RunWith(drives, aligner, options);
+  ASSERT_GT(Accepted(plain), 10);
+  ASSERT_GT(Accepted(tied), 10);
+  EXPECT_LT(off(tied), 0.7 * off(plain));
+  ExpectGoodRows(tied);
+}
+
 TEST(ViewAligner, AFewWrongTiesDoLittleHarm) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
   TruthAligner aligner{drives, {}}, right{drives, {}};

@@ -12,4 +12,11 @@ struct RelativePose {
   Pose::Matrix6 covariance = Pose::Matrix6::Identity();
 };
 
+/// T_a_c from T_a_b and T_b_c, whose errors are independent.
+inline RelativePose Compose(const RelativePose& ab, const RelativePose& bc) {
+  // T_a_b Exp(d) T_b_c = T_a_b T_b_c Exp(Adj(T_b_c^-1) d)
+  const Pose::Matrix6 adjoint = bc.T_a_b.inverse().Adj();
+  return {ab.T_a_b * bc.T_a_b, adjoint * ab.covariance * adjoint.transpose() + bc.covariance};
+}
+
 }  // namespace sslcd
