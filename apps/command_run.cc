@@ -99,6 +99,7 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
                                                 {"landmarks", std::to_string(landmarks)},
                                                 {"loops accepted", std::to_string(accepted)},
                                                 {"loops refused", std::to_string(result.loops.size() - accepted)},
+                                                {"views tied", std::to_string(result.views_tied)},
                                                 {"odometry scale", Number("%.4f", result.scale)}};
   for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
@@ -112,7 +113,7 @@ struct Mapped {
 
 Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
-  const ViewAligner aligner = MakeViewAligner(dataset, configuration.vision);
+  const ViewAligner aligner = MakeViewAligner(dataset, configuration);
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
   const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
@@ -124,6 +125,7 @@ Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& c
   Mapped mapped;
   if (!frontend) {
     mapped.result = RunSequence(dataset.frames, context, configuration.options, hooks);
+    mapped.result.stopped = Interrupted();
     mapped.frames = std::move(dataset.frames);
     console.EndProgress();
     return mapped;
@@ -134,6 +136,7 @@ Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& c
     return frame;
   };
   mapped.result = RunSequence(next, total, context, configuration.options, hooks);
+  mapped.result.stopped = Interrupted();  // perhaps while views were aligned
   const FrontendReport report = frontend->Finish();
   mapped.result.timing.Append(report.timing);
   console.EndProgress();
@@ -189,7 +192,7 @@ int Run(RunArguments& a, const Console& console) {
     Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
     throw *mapped.failure;
   }
-  if (mapped.result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of the frames before");
+  if (mapped.result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
   return mapped.result.stopped ? 130 : 0;
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "sslcd/core/median.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
+#include "sslcd/stereo/ground_alignment.h"
 #include "sslcd/stereo/row_error.h"
 
 namespace sslcd::apps {
@@ -105,31 +108,40 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   return frontend;
 }
 
-ViewAligner MakeViewAligner(const Dataset& dataset, const VisionOptions& options) {
-  if (!dataset.camera || !dataset.camera_right) return {};
-  std::optional<StereoCamera> camera;
-  try {
-    camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  } catch (const Error& error) {  // who maps given detections needs no pair
-    Log(LogLevel::kInfo, std::string("images are not aligned at loops: ") + error.what());
-    return {};
-  }
+ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration) {
   std::map<int, std::pair<std::string, std::string>> paths;
   for (const Frame& frame : dataset.frames)
     if (!frame.image_left.empty() && !frame.image_right.empty())
       paths[frame.index] = {frame.image_left, frame.image_right};
-  if (paths.empty()) return {};
-  return [paths, options, camera = *camera](int a, int b, const Pose& guess) -> std::optional<RelativePose> {
-    if (paths.count(a) == 0 || paths.count(b) == 0) return std::nullopt;
-    const Image left_a = LoadImage(paths.at(a).first), right_a = LoadImage(paths.at(a).second);
-    const Image left_b = LoadImage(paths.at(b).first), right_b = LoadImage(paths.at(b).second);
-    if (left_a.empty() || right_a.empty() || left_b.empty() || right_b.empty()) return std::nullopt;
+  if (paths.empty() || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
+  StereoCamera camera;
+  try {
+    camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  } catch (const Error& error) {  // who maps given detections needs no pair
+    Log(LogLevel::kWarning, std::string("images of different passes are not aligned: ") + error.what());
+    return {};
+  }
+  // What is wrong with the images is said once: it may be wrong with all of them.
+  const auto complain = [said = std::make_shared<bool>(false)](const std::string& path, const std::string& what) {
+    if (!*said) Log(LogLevel::kWarning, path + ": not aligned with images of other passes: " + what);
+    *said = true;
+    return std::nullopt;
+  };
+  return [paths, camera, complain, vision = configuration.vision](int a, int b,
+                                                                  const Pose& guess) -> std::optional<RelativePose> {
+    if (Interrupted() || paths.count(a) == 0 || paths.count(b) == 0) return std::nullopt;
+    Image images[4];
+    const std::string* const files[] = {&paths.at(a).first, &paths.at(a).second, &paths.at(b).first,
+                                        &paths.at(b).second};
+    for (int i = 0; i < 4; ++i) {
+      images[i] = LoadImage(*files[i]);
+      if (images[i].empty()) return complain(*files[i], "it cannot be read");
+    }
     try {
-      return AlignGround({left_a.view(), right_a.view()}, {left_b.view(), right_b.view()}, camera, guess,
-                         options.lift.ground, options.alignment);
+      return AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera, guess,
+                         vision.lift.ground, vision.alignment);
     } catch (const Error& error) {  // the run before this is not lost
-      Log(LogLevel::kWarning, paths.at(b).first + ": not aligned with " + paths.at(a).first + ": " + error.what());
-      return std::nullopt;
+      return complain(*files[2], error.what());
     }
   };
 }

@@ -19,7 +19,11 @@ bool WithImage(const std::string& path, const std::function<void(const ImageView
 }
 
 Image LoadImage(const std::string& path) {
-  const cv::Mat image = cv::imread(path, cv::IMREAD_ANYCOLOR);  // eight bits
+  cv::Mat image;
+  try {
+    image = cv::imread(path, cv::IMREAD_ANYCOLOR);  // eight bits
+  } catch (const cv::Exception&) {                  // a header that asks for too much
+  }
   if (image.empty()) return {};
   Image copy{{}, image.cols, image.rows, image.channels()};
   for (int row = 0; row < image.rows; ++row)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// AlignGround: how far off, how often. usage: ground_bench [--path GAP_M] [--off OFF_M] FOLDER[:POSES] ...
-// Folders as for odometry_bench. Every 3 m of path, a frame and the earlier one, at least GAP_M of path before (30),
-// that looks at the same ground: 7 m ahead of both, to 4 m. The guess is the truth, off by OFF_M (0.2) horizontally and
-// 0.5 degrees in heading (standard deviations). Prints one row for each folder; errors in the second camera's axes.
+// AlignGround: how far off, how often. usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...
+// Folders as for odometry_bench. Every 3 m of path, a frame and the earlier one, so much path before (--path, 30 m at
+// least), that looks at the same ground: 7 m ahead of both, to 4 m. The guess is the truth, off by --off (0.2 m)
+// horizontally and 0.5 degrees in heading (standard deviations). Prints one row for each folder; errors in the second
+// camera's axes.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "sslcd/core/median.h"
 #include "sslcd/stereo/ground_alignment.h"
@@ -86,9 +90,11 @@ int main(int argc, char** argv) try {
   int first = 1;
   for (; first + 1 < argc && argv[first][0] == '-'; first += 2) {
     const std::string option = argv[first];
+    if (option != "--path" && option != "--off") break;
     (option == "--path" ? setup.gap_m : setup.off_m) = std::stod(argv[first + 1]);
   }
-  if (first >= argc) return std::fprintf(stderr, "usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...\n"), 2;
+  if (first >= argc || argv[first][0] == '-')
+    return std::fprintf(stderr, "usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...\n"), 2;
   for (int i = first; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t colon = argument.find(':');

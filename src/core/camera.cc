@@ -21,6 +21,13 @@ StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
   return {left, baseline};
 }
 
+void CheckSize(const ImageView& image, const Camera& camera) {
+  if (camera.width <= 0 || (camera.width == image.width && camera.height == image.height)) return;
+  const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
+  throw Error(ErrorKind::kBadInput, "the images are " + size(image.width, image.height) + ", the camera's " +
+                                        size(camera.width, camera.height) + ": give the calibration of these images");
+}
+
 double Iou(const Box2d& a, const Box2d& b) {
   const Box2d both{std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
                    std::min(a.bottom, b.bottom)};

@@ -35,6 +35,7 @@ std::vector<LoopClosure> LoopCloser::closures() const {
     row.T_match_query = attempt.anew->T_match_query;
     row.covariance = attempt.anew->covariance;
     row.viewpoint_change_rad = attempt.anew->viewpoint_change_rad;
+    row.by_views = attempt.anew->by_views;
   }
   return rows;
 }
@@ -329,40 +330,6 @@ void LoopCloser::MeasureAnew(Attempt& attempt) const {
   }
   auto now = Meter().MeasureBetween(attempt.loop.query, attempt.loop.match, common);
   if (now && now->heading_sigma < options_.loop.belief.max_heading_sigma_rad) attempt.anew = std::move(now->row);
-}
-
-RelativePose LoopCloser::OdometryBetween(int from, int to, double scale) const {
-  RelativePose step{frames_[from].T_odom_cam.inverse() * frames_[to].T_odom_cam};
-  const Vec3 up = frames_[to].T_world_cam.so3().inverse() * map_.gravity().up;
-  step.covariance = InformationOf(SigmasOf(step.T_a_b, options_.loop.odometry), up).inverse();
-  step.T_a_b.translation() *= scale;
-  return step;
-}
-
-// From the match camera along its pass to the tie, across, and along the other pass to the query camera.
-void LoopCloser::MeasureByViews(const std::vector<ViewTie>& ties, double scale) {
-  constexpr double kNear = 30;  // [m] of path on both passes together
-  const auto path = [this](int a, int b) { return std::abs(frames_[a].travelled - frames_[b].travelled); };
-  for (Attempt& attempt : attempts_) {
-    if (attempt.loop.row.decision != LoopDecision::kAccepted) continue;
-    const int match = attempt.loop.match, query = attempt.loop.query;
-    const ViewTie* tie = nullptr;
-    double nearest = kNear;
-    for (const ViewTie& candidate : ties) {
-      const double apart = path(match, candidate.from) + path(query, candidate.to);
-      if (apart < nearest) nearest = apart, tie = &candidate;
-    }
-    if (!tie) continue;
-    const RelativePose by_views =
-        Compose(Compose(OdometryBetween(match, tie->from, scale), tie->pose), OdometryBetween(tie->to, query, scale));
-    LoopClosure row = attempt.anew ? *attempt.anew : attempt.loop.row;
-    if (by_views.covariance.topLeftCorner<3, 3>().trace() > row.covariance.topLeftCorner<3, 3>().trace()) continue;
-    row.T_match_query = by_views.T_a_b;
-    row.covariance = by_views.covariance;
-    row.viewpoint_change_rad = std::abs(WrapAngle(Meter().Heading(frames_[match].T_world_cam * by_views.T_a_b) -
-                                                  Meter().Heading(frames_[match].T_world_cam)));
-    attempt.anew = std::move(row);
-  }
 }
 
 }  // namespace sslcd

@@ -48,12 +48,14 @@ void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options) {
 
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
   visitor.Flag("enabled", options.enabled,
-               "where there are stereo images, cameras next to closed loops are tied by the ground both see");
+               "where there are stereo images, cameras of different passes are tied by the ground both see");
   visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
   visitor.Real("ahead_m", options.ahead_m, 0, 100, "the two look at one spot, so far ahead of each ...");
   visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
   visitor.Real("gap_m", options.gap_m, 0, 10000, "so much path lies between the two at least ...");
-  visitor.Real("reach_m", options.reach_m, 0, 10000, "... and with closed loops as shortcuts so much at most");
+  visitor.Real("reach_m", options.reach_m, 0, 10000,
+               "... and with closed loops as shortcuts so much at most, or what a better odometry takes ...");
+  visitor.Real("guess_m", options.guess_m, 0, 10, "... to be this far off (loop.odometry)");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {

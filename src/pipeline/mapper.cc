@@ -167,31 +167,34 @@ void Mapper::Propagate(std::size_t from_record) {
 }
 
 BaSummary Mapper::Refine() {
-  const ScopedTimer timer(timing_, "full-map optimisation");
   const Camera* camera = context_.camera ? &*context_.camera : nullptr;
   Options options = options_;
+  LoopEvidence loops;
+  const auto adjust = [&] {
+    const ScopedTimer timer(timing_, "full-map optimisation");
+    const BaSummary summary = RefineMap(map_, frames_, log_scale_, loops, options, camera);
+    refined_log_scale_ = log_scale_;
+    loops_->Review();
+    ResetWindow();
+    return summary;
+  };
   if (options_.loop.enabled) loops_->Finish(scale(), timing_);
-  OdometryFactors odometry_factors;
   if (loops_->Closed()) {  // what the loops have bent must stay bent
     options.ba.odometry = options_.loop.odometry;
-    odometry_factors = loops_->LearnOdometry(scale());
+    loops.odometry_factors = loops_->LearnOdometry(scale());
   }
-  BaSummary summary = RefineMap(map_, frames_, log_scale_, {odometry_factors, {}}, options, camera);
-  loops_->Review();
   view_ties_.clear();
-  if (context_.view_aligner && options_.loop.views.enabled && loops_->Closed()) {
-    {
-      const ScopedTimer alignment(timing_, "view alignment");
-      view_ties_ = TieViews(frames_, loops_->Path(), context_.view_aligner, options_.loop.views);
-    }
-    if (!view_ties_.empty()) {
-      summary = RefineMap(map_, frames_, log_scale_, {odometry_factors, view_ties_}, options, camera);
-      loops_->Review();
-      loops_->MeasureByViews(view_ties_, scale());
-    }
+  BaSummary summary = adjust();
+  const bool align = options_.loop.enabled && options_.loop.views.enabled && options_.mode != Options::Mode::kPaper;
+  if (!context_.view_aligner || !align) return summary;
+  {
+    const ScopedTimer timer(timing_, "view alignment");
+    loops.view_ties = TieViews(frames_, loops_->Path(), context_.view_aligner, options_.loop);
   }
-  refined_log_scale_ = log_scale_;
-  ResetWindow();
+  if (loops.view_ties.empty()) return summary;
+  summary = adjust();
+  view_ties_ = Agreeing(loops.view_ties, frames_);
+  loops_->MeasureByViews(view_ties_, scale());
   return summary;
 }
 

@@ -34,7 +34,7 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     edge.T_from_to.translation() *= mapper.scale();
   }
   for (const LoopClosure& loop : mapper.LoopClosures()) {
-    if (loop.decision != LoopDecision::kAccepted) continue;
+    if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;  // else the tie would count twice
     graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
                            Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
   }
@@ -81,6 +81,7 @@ RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext&
   result.graph = GraphOf(mapper, options.ba.odometry);
   result.loops = mapper.LoopClosures();
   result.objects = mapper.Objects();
+  result.views_tied = static_cast<int>(mapper.view_ties().size());
   result.scale = mapper.scale();
   result.noise_scale = mapper.map().noise_scale();
   result.timing = mapper.timing();

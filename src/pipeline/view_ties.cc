@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/view_ties.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "sslcd/optim/pose_graph_robust.h"
+
 namespace sslcd {
 namespace {
 
@@ -8,35 +14,71 @@ namespace {
 Vec3 Spot(const FrameRecord& frame, double ahead_m) { return frame.T_world_cam * Vec3(0, 0, ahead_m); }
 
 /// The earlier camera, of another pass, that looks at nearly the same spot as frame `i`; -1: none.
-int SameSpot(const std::vector<FrameRecord>& frames, int i, const PathGraph& path, const LoopViewOptions& options) {
+/// `reach_m`: how much path may lie between them, with closed loops as shortcuts.
+int SameSpot(const std::vector<FrameRecord>& frames, int i, const PathGraph& path, double reach_m,
+             const LoopViewOptions& options) {
   const Vec3 spot = Spot(frames[i], options.ahead_m);
   const PathGraph::Distances drift = path.From(frames[i].travelled);
   double nearest = options.apart_m;
   int found = -1;
   for (int k = 0; k < i && frames[i].travelled - frames[k].travelled >= options.gap_m; ++k) {
     const double apart = (Spot(frames[k], options.ahead_m) - spot).norm();
-    if (apart > nearest || drift.To(frames[k].travelled) > options.reach_m) continue;
+    if (apart > nearest || drift.To(frames[k].travelled) > reach_m) continue;
     nearest = apart;
     found = k;
   }
   return found;
 }
 
+bool IsMeasurement(const RelativePose& pose) {
+  constexpr double kLeastVariance = 1e-12;  // [m^2, rad^2]
+  if (!pose.T_a_b.Log().allFinite() || !pose.covariance.allFinite()) return false;
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(pose.covariance);
+  return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > kLeastVariance;
+}
+
 }  // namespace
 
+double PathUntilOff(const OdometryNoise& noise, double off_m) {
+  constexpr double kStep = 5, kLongest = 10000;  // [m]
+  double path = 0;
+  // A heading that walks by s per sqrt(m) has moved the camera by s L^1.5 / sqrt(3) after L metres.
+  const auto off = [&](double length) {
+    return std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(length),
+                      noise.rotation_walk * std::pow(length, 1.5) / std::sqrt(3.));
+  };
+  while (path < kLongest && off(path + kStep) <= off_m) path += kStep;
+  return path;
+}
+
 std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path, const ViewAligner& align,
-                              const LoopViewOptions& options) {
+                              const LoopOptions& loop_options) {
+  const LoopViewOptions& options = loop_options.views;
+  const double reach_m = std::max(options.reach_m, PathUntilOff(loop_options.odometry, options.guess_m));
   std::vector<ViewTie> ties;
   double last_m = -options.every_m;
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     if (frames[i].travelled - last_m < options.every_m) continue;
-    const int old = SameSpot(frames, i, path, options);
+    const int old = SameSpot(frames, i, path, reach_m, options);
     if (old < 0) continue;
     last_m = frames[i].travelled;
     const Pose guess = frames[old].T_world_cam.inverse() * frames[i].T_world_cam;
-    if (const auto aligned = align(frames[old].frame, frames[i].frame, guess)) ties.push_back({old, i, *aligned});
+    const std::optional<RelativePose> aligned = align(frames[old].frame, frames[i].frame, guess);
+    if (aligned && IsMeasurement(*aligned)) ties.push_back({old, i, *aligned});
   }
   return ties;
+}
+
+std::vector<ViewTie> Agreeing(const std::vector<ViewTie>& ties, const std::vector<FrameRecord>& frames) {
+  const double limit = Chi2Quantile(0.999, 6);
+  std::vector<ViewTie> agreeing;
+  for (const ViewTie& tie : ties) {
+    const Pose T_from_to = frames[tie.from].T_world_cam.inverse() * frames[tie.to].T_world_cam;
+    const Vec6 error = (tie.pose.T_a_b.inverse() * T_from_to).Log();
+    if (error.dot(Eigen::Matrix<double, 6, 6>(tie.pose.covariance).ldlt().solve(error)) < limit)
+      agreeing.push_back(tie);
+  }
+  return agreeing;
 }
 
 }  // namespace sslcd

@@ -90,9 +90,10 @@ std::optional<RelativePose> AdjustPose(const std::vector<StereoPixel>& in_a, con
 
 void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
   visitor.Real("near_m", options.near_m, 0.5, 50, "the ground looked at: from so far ahead of the first camera ...");
-  visitor.Real("length_m", options.length_m, 1, 50, "... and so far beyond that");
-  visitor.Real("half_width_m", options.half_width_m, 0.5, 30, "... and so far to either side");
-  visitor.Real("search_m", options.search_m, 0.06, 5, "how far off the guess may be, in each direction ...");
+  visitor.Real("length_m", options.length_m, 3, 50, "... and so far beyond that");
+  visitor.Real("half_width_m", options.half_width_m, 2, 30, "... and so far to either side");
+  visitor.Real("search_m", options.search_m, 0.06, 5,
+               "how far off the guess may be, in each direction; more of it takes ground off the edges ...");
   visitor.Real("search_rad", options.search_rad, 0, 0.5, "... and in heading");
   visitor.Integer("min_patches", options.min_patches, 3, 10000, "so many patches of ground must agree ...");
   visitor.Real("min_share", options.min_share, 0, 1, "... and this share of those that both see");
@@ -102,6 +103,7 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
 std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
                                         const Pose& T_a_b_guess, const GroundOptions& ground,
                                         const GroundAlignmentOptions& options) {
+  for (const StereoView* view : {&a, &b}) CheckSize(view->left, camera.left);
   const GroundPlane plane_a = EstimateGround(a, camera, {}, ground), plane_b = EstimateGround(b, camera, {}, ground);
   if (std::min(plane_a.support, plane_b.support) < kGroundSupport) return std::nullopt;
   const GroundView view_a{Grey(a.left), LevelOn(plane_a)}, view_b{Grey(b.left), LevelOn(plane_b)};

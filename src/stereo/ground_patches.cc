@@ -113,7 +113,7 @@ Pose FitMotion(std::vector<GroundPair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
       weights[i] = 1 / (1 + std::pow((motion * pairs[i].in_b - pairs[i].in_a).norm() / kScale, 2));
   }
-  const auto differs = [&](const GroundPair& pair) { return (motion * pair.in_b - pair.in_a).norm() >= kAgree; };
+  const auto differs = [&](const GroundPair& pair) { return !((motion * pair.in_b - pair.in_a).norm() < kAgree); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), differs), pairs.end());
   return motion;
 }

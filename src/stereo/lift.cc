@@ -190,12 +190,7 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
                                  const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
   CheckImages(images);
-  const Camera& left = camera.left;
-  if (left.width > 0 && (left.width != images.left.width || left.height != images.left.height))
-    throw Error(ErrorKind::kBadInput, "the images are " + std::to_string(images.left.width) + "x" +
-                                          std::to_string(images.left.height) + ", the camera's " +
-                                          std::to_string(left.width) + "x" + std::to_string(left.height) +
-                                          ": give the calibration of these images");
+  CheckSize(images.left, camera.left);
   const GreyPair grey{Grey(images.left), Grey(images.right)};
   std::vector<LiftedBox> lifted(boxes.size());
   std::vector<std::size_t> order;

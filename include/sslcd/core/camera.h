@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
@@ -23,6 +24,9 @@ struct StereoCamera {
 /// Throws Error(kBadInput) unless both have the same focal lengths and principal point, and the second stands to the
 /// right of the first.
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right);
+
+/// Throws Error(kBadInput) where the camera knows the size of its images, and that is another one.
+void CheckSize(const ImageView& image, const Camera& camera);
 
 /// Axis-aligned box in the image. [px]
 struct Box2d {

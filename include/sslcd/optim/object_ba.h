@@ -51,8 +51,8 @@ struct BaOdometry {
 
 /// Two cameras whose place to each other was measured otherwise, e.g. from their images. It may be wrong (Cauchy loss).
 struct BaTie {
-  int from = 0, to = 0;
-  RelativePose pose;  ///< T_from_to, metric
+  int from = 0, to = 0;  ///< indices of cameras; the same twice says nothing
+  RelativePose pose;     ///< T_from_to, metric
 };
 
 /// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order

@@ -42,14 +42,16 @@ struct LoopBeliefOptions {
 };
 void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options);
 
-/// Where cameras of different passes are tied to each other by their images (ViewAligner), next to closed loops.
+/// Where cameras of different passes are tied to each other by their images (ViewAligner): where odometry, with closed
+/// loops as shortcuts, says where to look.
 struct LoopViewOptions {
   bool enabled = true;
   double every_m = 3;   ///< a tie every so much path at most
   double ahead_m = 7;   ///< the two look at one spot on the ground, so far ahead of each ...
   double apart_m = 4;   ///< ... to this
   double gap_m = 30;    ///< so much path lies between them at least
-  double reach_m = 75;  ///< ... and with closed loops as shortcuts so much at most: what odometry does not spoil
+  double reach_m = 75;  ///< ... and with closed loops as shortcuts so much at most, or what a better odometry takes ...
+  double guess_m = 0.3;  ///< ... to be this far off (LoopOptions::odometry)
 };
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options);
 
@@ -63,7 +65,7 @@ struct LoopOptions {
   LoopBeliefOptions belief;
   LoopViewOptions views;
   double lag_m = 25.;     ///< the query camera stood so far back: with matched objects before and behind it
-  double sigma_m = 0.15;  ///< of every loop, on top of what its matches say
+  double sigma_m = 0.15;  ///< of every loop measured by objects, on top of what its matches say
   double sigma_rad = 0.02;
   double fuse_m = 3.;  ///< matched landmarks that are still further apart than this do not become one
   DriftOptions drift;

@@ -69,7 +69,7 @@ class Mapper {
   FrameReport AddFrame(const Frame& frame);
 
   /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted loops are measured
-  /// anew. With a ViewAligner the images next to accepted loops are aligned, and all is optimised once more with that.
+  /// anew. With a ViewAligner images of different passes are aligned, and all is optimised once more with that.
   /// May be called any time, and again.
   BaSummary Refine();
 

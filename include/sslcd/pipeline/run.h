@@ -30,6 +30,7 @@ struct RunResult {
   std::vector<MapObject> objects;   ///< all landmarks, by id; the map is those that are confirmed
   PoseGraph graph;                  ///< frames, the metric odometry between them, accepted loops, ties of views
   std::vector<LoopClosure> loops;   ///< every attempt to close one, in order
+  int views_tied = 0;               ///< pairs of cameras that were aligned by their images (ViewAligner)
   double scale = 1;                 ///< metres per odometry metre
   NoiseScale noise_scale;           ///< what was learnt of the detector
   FilterReport filter;

@@ -30,7 +30,7 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options);
 /// bundle adjustment of these places and the pose in all four images, so the ground need not be a plane.
 /// None where the guess is too far off or too little ground looks alike. The two may have been taken at different
 /// times: what has moved or lies in another light finds no partner, or not that of the others.
-/// Throws Error(kBadInput) as CheckImages does.
+/// Throws Error(kBadInput) as CheckImages and CheckSize do.
 std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
                                         const Pose& T_a_b_guess, const GroundOptions& ground,
                                         const GroundAlignmentOptions& options);
