@@ -19,7 +19,7 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
   return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
 }
 
-constexpr double kTieLoss = 3;  // standard deviations; a tie that is off by ten counts a quarter
+constexpr double kTieLoss = 3;  // standard deviations; a tie that is off by so many counts half
 constexpr double kFullWeight = 1;
 
 // What blocks have in common is ours, and there once.

@@ -52,7 +52,7 @@ void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
   visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
   visitor.Real("ahead_m", options.ahead_m, 0, 100, "the two look at one spot, so far ahead of each ...");
   visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
-  visitor.Real("gap_m", options.gap_m, 0, 10000, "so much path lies between the two at least ...");
+  visitor.Real("gap_m", options.gap_m, 1, 10000, "so much path lies between the two at least ...");
   visitor.Real("reach_m", options.reach_m, 0, 10000,
                "... and with closed loops as shortcuts so much at most, or what a better odometry takes ...");
   visitor.Real("guess_m", options.guess_m, 0, 10, "... to be this far off (loop.odometry)");

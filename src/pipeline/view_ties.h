@@ -10,9 +10,9 @@ namespace sslcd {
 
 /// Ties cameras of different passes whose images show the same ground, wherever odometry or closed loops say roughly
 /// where they stand. Loops of objects are right to some decimetres, since cuboids lack the same side on a whole pass;
-/// images are right to a centimetre, once it is known where to look. `path`: the accepted loops are its shortcuts. In
-/// order of the later camera, one tie each at most. Answers that are not finite, or whose covariance is singular, are
-/// left out.
+/// images are right to some centimetres, once it is known where to look. `path`: the accepted loops are its shortcuts.
+/// In order of the later camera, one tie each at most. Answers that are not finite, or whose covariance is singular,
+/// are left out.
 std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path, const ViewAligner& align,
                               const LoopOptions& options);
 

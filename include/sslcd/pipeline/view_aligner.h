@@ -9,7 +9,8 @@
 namespace sslcd {
 
 /// Measures from the images of two frames where the second one's camera stands in the first one's frame, given a
-/// guess that closed loops have made right to some decimetres (AlignGround is such a one; a host may bring its own).
+/// guess that odometry or closed loops make right to some decimetres (AlignGround is such a one; a host may bring its
+/// own).
 /// None: the images do not tell; an answer that is not finite, or whose covariance is singular, is none, too. Both
 /// frames are named by their numbers (Frame::index). Called by Mapper::Refine, in order of the frames; what it throws
 /// ends that.
