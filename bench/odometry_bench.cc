@@ -2,14 +2,15 @@
 // Stereo odometry: how far off, how fast. usage: odometry_bench FOLDER[:POSES] ...
 // A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else POSES is needed).
 // Prints one row for each. Errors as KITTI's (eval/segment_error.h), over sub-paths of all lengths of 10, 20, ... 100
-// m, 200, ... 800 m that begin at any frame; times are those of AddFrame, reading the images left out: by the clock,
-// and of all processors together.
+// m, 200, ... 800 m that begin at any frame; the ATE after SE(3) alignment, and by how much the path is too long; times
+// are those of AddFrame, reading the images left out: by the clock, and of all processors together.
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
 
 #include "sslcd/eval/segment_error.h"
+#include "sslcd/eval/trajectory_error.h"
 #include "stereo/stereo_folder.h"
 
 namespace sslcd {
@@ -48,11 +49,13 @@ void Measure(const std::string& folder, const std::string& poses) {
   for (int k = 1; k <= 10; ++k) lengths.push_back(10 * k);
   for (int k = 2; k <= 8; ++k) lengths.push_back(100 * k);
   const SegmentError error = ComputeSegmentError(est, ref, lengths);
+  const double ate = ComputeAte(est, ref).error.rmse;
+  const double scale = Align(est, ref, Alignment::kSim3).scale;
   std::printf(
       "%-40s frames %zu  lost %d  keyframes %d  points %.0f  translation %.3f %%  rotation %.5f deg/m  "
-      "wall %.1f ms  cpu %.1f ms\n",
+      "ATE %.4f m  scale %+.4f %%  wall %.1f ms  cpu %.1f ms\n",
       folder.c_str(), frames, lost, keyframes, points / frames, 100 * error.translation,
-      error.rotation_rad_per_m * 180 / M_PI, 1e3 * wall / frames, 1e3 * cpu / frames);
+      error.rotation_rad_per_m * 180 / M_PI, ate, 100 * (1 / scale - 1), 1e3 * wall / frames, 1e3 * cpu / frames);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "stereo/ground_patches.h"
 #include "stereo/odometry_follow.h"
 #include "stereo/odometry_window.h"
+#include "stereo/patch_alignment.h"
 
 namespace sslcd {
 namespace {
@@ -48,6 +49,20 @@ std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundVi
   return common;
 }
 
+/// Where the right image shows a place on the ground that the left one has at this pixel, to a fraction of a pixel.
+std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const StereoCamera& camera,
+                                       const GroundPlane& plane, const cv::Point2f& left, const cv::Point2f& guess) {
+  constexpr int kHalf = 7;
+  const Vec3 ray((left.x - camera.left.cx) / camera.left.fx, (left.y - camera.left.cy) / camera.left.fy, 1);
+  const Vec3 point = ray * (-plane.height_m / plane.up.dot(ray));
+  const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
+  const auto homography = PlaneHomography(camera.left, T_right_left, point, plane.up);
+  if (!homography) return std::nullopt;
+  const auto found = AlignPatch({images.left[0], left, point, kHalf}, *homography, images.right[0], guess);
+  if (!found) return std::nullopt;
+  return found->at;
+}
+
 /// Where both images of a pair show places on the ground that the left one has at these pixels.
 std::vector<StereoPixel> InBothImages(const StereoView& images, const StereoCamera& camera, const GroundPlane& plane,
                                       const std::vector<cv::Point2f>& left) {
@@ -62,8 +77,10 @@ std::vector<StereoPixel> InBothImages(const StereoView& images, const StereoCame
   const Followed right = Follow(pyramids.left, pyramids.right, left, guess, kFine, options);
   std::vector<StereoPixel> pixels;
   for (std::size_t i = 0; i < left.size(); ++i) {
-    const bool found = right.found[i] && IsPair(left[i], right.at[i], options);
-    pixels.push_back({left[i].x, left[i].y, found ? right.at[i].x : NAN});
+    std::optional<cv::Point2f> at;
+    if (right.found[i]) at = FindInRight(pyramids, camera, plane, left[i], right.at[i]);
+    const bool found = at && IsPair(left[i], *at, options);
+    pixels.push_back({left[i].x, left[i].y, found ? at->x : NAN});
   }
   return pixels;
 }
@@ -81,7 +98,8 @@ std::optional<RelativePose> AdjustPose(const std::vector<StereoPixel>& in_a, con
     b.sightings.push_back({i, in_b[i]});
   }
   if (static_cast<int>(points.size()) < min_points) return std::nullopt;
-  RefineWindow(camera, 1, {&a, &b}, points);
+  constexpr double kLossPx = 1;  // between passes, patches are off by some tenths
+  RefineWindow(camera, 1, {&a, &b}, kLossPx, points);
   constexpr double kAlike = 10;  // patches overlap, and errors of neighbours are alike
   return RelativePose{b.T_odom_left, kAlike * StepCovariance(camera, a, b, points, PixelNoise(camera, b, points))};
 }

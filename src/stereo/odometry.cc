@@ -22,6 +22,7 @@ namespace {
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
+constexpr double kLossPx = 0.15;  // good patches are off by half of that, and there are always bad ones
 
 const char* const kNothingToFollow = "nothing to follow: too few corners in the images";
 const char* const kMissing = "its images are missing";
@@ -159,7 +160,7 @@ class StereoOdometry::Impl {
     }
     if (!pose) return std::nullopt;
     StereoFrame frame = FindAll(following, reference, left, current, *pose);
-    RefinePose(camera_, points_, frame);
+    RefinePose(camera_, points_, kLossPx, frame);
     DropMisfits(frame);
     if (static_cast<int>(frame.sightings.size()) >= options_.min_tracked) return frame;
     reason_ = kTooFewFound;
@@ -193,7 +194,8 @@ class StereoOdometry::Impl {
     if (static_cast<int>(keyframes_.size()) > options_.window) keyframes_.pop_front();
     std::vector<StereoFrame*> window;
     for (StereoFrame& keyframe : keyframes_) window.push_back(&keyframe);
-    RefineWindow(camera_, std::min<int>(kFixedKeyframes, static_cast<int>(window.size()) - 1), window, points_);
+    RefineWindow(camera_, std::min<int>(kFixedKeyframes, static_cast<int>(window.size()) - 1), window, kLossPx,
+                 points_);
     DropMisfits(keyframes_.back());
     ForgetPoints();
     reference_images_ = current;
@@ -208,10 +210,11 @@ class StereoOdometry::Impl {
     const std::vector<cv::Point2f> corners = SpreadCorners(current, taken, options_);
     const Followed right = FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (!right.found[i] || !IsPair(corners[i], right.at[i], options_)) continue;
-      const StereoPixel pixel{corners[i].x, corners[i].y, right.at[i].x};
-      points_[next_point_] = frame.T_odom_left * Triangulate(camera_, pixel);
-      frame.sightings.push_back({next_point_++, pixel});
+      if (!right.found[i]) continue;
+      const std::optional<StereoPixel> pixel = MeasurePair(camera_, current, corners[i], right.at[i], options_);
+      if (!pixel) continue;
+      points_[next_point_] = frame.T_odom_left * Triangulate(camera_, *pixel);
+      frame.sightings.push_back({next_point_++, *pixel});
     }
   }
 

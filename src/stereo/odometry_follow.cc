@@ -6,6 +6,8 @@
 #include <limits>
 #include <opencv2/calib3d.hpp>
 
+#include "stereo/patch_alignment.h"
+
 namespace sslcd {
 namespace {
 
@@ -79,18 +81,39 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
 StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
                     const Pose& T_odom_left) {
   const Expected expected = Expect(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
-  const Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, f.options);
+  Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, f.options);
+  const Pose T_keyframe_odom = f.keyframe.T_odom_left.inverse();
+  const Pose T_left_keyframe = T_odom_left.inverse() * f.keyframe.T_odom_left;
+  for (std::size_t i = 0; i < left.at.size(); ++i) {
+    if (!left.found[i]) continue;
+    const Vec3 point = T_keyframe_odom * f.points.at(expected.points[i]);
+    const Patch patch{from[0], expected.from[i], point, f.options.patch_px / 2};
+    const std::optional<cv::Point2f> at = FindPatch(patch, f.camera.left, T_left_keyframe, to[0], left.at[i]);
+    left.found[i] = at.has_value();
+    if (at) left.at[i] = *at;
+  }
   std::vector<cv::Point2f> guess = left.at;
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
   const Followed right = Follow(current.left, current.right, left.at, guess, kFine, f.options);
   StereoFrame frame{T_odom_left, {}};
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
-    StereoPixel pixel{left.at[i].x, left.at[i].y, right.at[i].x};
-    if (!right.found[i] || !IsPair(left.at[i], right.at[i], f.options)) pixel.right = NAN;
-    frame.sightings.push_back({expected.points[i], pixel});
+    std::optional<StereoPixel> pair;
+    if (right.found[i]) pair = MeasurePair(f.camera, current, left.at[i], right.at[i], f.options);
+    frame.sightings.push_back({expected.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
   }
   return frame;
+}
+
+std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
+                                       const cv::Point2f& left, const cv::Point2f& right,
+                                       const StereoOdometryOptions& options) {
+  if (!IsPair(left, right, options)) return std::nullopt;
+  const Patch patch{images.left[0], left, Triangulate(camera, {left.x, left.y, right.x}), options.patch_px / 2};
+  const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
+  const std::optional<cv::Point2f> at = FindPatch(patch, camera.left, T_right_left, images.right[0], right);
+  if (!at || !IsPair(left, *at, options)) return std::nullopt;
+  return StereoPixel{left.x, left.y, at->x};
 }
 
 bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options) {

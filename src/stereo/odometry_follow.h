@@ -27,10 +27,16 @@ struct Following {
 std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
                              const Pose& T_guess, const char*& reason);
 
-/// A frame at that pose with all points that are where they must be, in both of its images. `from` and `to` as above;
-/// they may differ in light from `current`.
+/// A frame at that pose with all points that are found in its left image, and where those are in its right one. `from`
+/// and `to` as above; they may differ in light from `current`.
 StereoFrame FindAll(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
                     const StereoPyramids& current, const Pose& T_odom_left);
+
+/// A point that has been found in both images, its column in the right one to a fraction of a pixel. None: it is not
+/// the same point.
+std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
+                                       const cv::Point2f& left, const cv::Point2f& right,
+                                       const StereoOdometryOptions& options);
 
 /// May these be the left and right image of one point?
 bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options);

@@ -22,14 +22,16 @@ void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
 }
 
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {
-  constexpr double kIdealWalk = 1.5e-4, kRealWalk = 5e-4;  // [rad per sqrt(m)]
-  constexpr double kFactor = 2;                            // safe side: KITTI's walk by as much as their rows are off
+  constexpr double kIdealWalk = 1e-4, kRealWalk = 5e-4;  // [rad per sqrt(m)]
+  constexpr double kFactor = 2;                          // safe side: KITTI's walk by as much as their rows are off
   OdometryNoise noise;
   noise.rotation_walk =
       row_error_rad ? std::min(kRealWalk, std::hypot(kIdealWalk, kFactor * *row_error_rad)) : kRealWalk;
-  noise.translation_floor_m = 0.001;
-  noise.translation_walk = noise.vertical_walk = 0.004;
-  noise.rotation_floor_rad = 1e-4;
+  const double share = noise.rotation_walk / kRealWalk;
+  noise.rotation_floor_rad = share * 1e-4;
+  noise.rotation_turn = share * 0.002;
+  noise.translation_floor_m = share * 0.001;
+  noise.translation_walk = noise.vertical_walk = share * 0.005;
   return noise;
 }
 

@@ -18,7 +18,6 @@ template <int columns>
 using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor>>;
 
 constexpr double kNearest = 0.1;       // [m] in front of the camera
-constexpr double kLossPx = 1;          // residuals beyond count for less and less
 constexpr double kMinPixelNoise = .1;  // [px] no matter how well everything seems to fit
 
 /// Residual [px] of one sighting (column left, row, column right), with derivatives.
@@ -110,8 +109,8 @@ double StereoError(const StereoCamera& camera, const StereoFrame& frame, const S
   return r.in_front ? r.residual.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, StereoFrame& frame) {
-  ceres::CauchyLoss loss(kLossPx);
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame) {
+  ceres::CauchyLoss loss(loss_px);
   ceres::Problem problem(ProblemOptions());
   Vec6 delta = Vec6::Zero();
   std::vector<Vec3> places;  // Ceres keeps their addresses
@@ -132,7 +131,7 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, Stereo
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
                   OdometryPoints& points) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
@@ -147,7 +146,7 @@ void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Stere
     place_of[id] = &places.back();
   }
 
-  ceres::CauchyLoss loss(kLossPx);
+  ceres::CauchyLoss loss(loss_px);
   ceres::Problem problem(ProblemOptions());
   std::vector<Vec6> deltas(frames.size(), Vec6::Zero());
   auto* ordering = new ceres::ParameterBlockOrdering;

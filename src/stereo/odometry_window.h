@@ -39,11 +39,12 @@ Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
                    const Vec3& point);
 
-/// Moves the frame to where its sightings fit the points best (robust least squares); the points stay.
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, StereoFrame& frame);
+/// Moves the frame to where its sightings fit the points best (robust least squares: residuals of more than `loss_px`
+/// count for less and less); the points stay.
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
                   OdometryPoints& points);
 
 /// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.

@@ -47,13 +47,13 @@ TEST(OdometryWindow, RefinePoseFindsTheExactPoseInSpiteOfOutliers) {
   scene.frames[1].T_odom_left = truth * Pose::Exp((Vec6() << .05, -.03, .04, .01, -.01, .02).finished());
   for (int i = 0; i < 6; ++i) scene.frames[1].sightings[i].pixel.left += 40;
   for (int i = 6; i < 20; ++i) scene.frames[1].sightings[i].pixel.right = NAN;  // not seen there
-  RefinePose(scene.camera, scene.points, scene.frames[1]);
+  RefinePose(scene.camera, scene.points, 1, scene.frames[1]);
   EXPECT_LT(Off(scene.frames[1].T_odom_left, truth), 1e-4);
 }
 
 TEST(OdometryWindow, RefinePoseLeavesAFrameWithoutPointsAlone) {
   Scene scene(1, 1, 0);
-  RefinePose(scene.camera, scene.points, scene.frames[0]);
+  RefinePose(scene.camera, scene.points, 1, scene.frames[0]);
   EXPECT_EQ(Off(scene.frames[0].T_odom_left, Pose()), 0);
 }
 
@@ -67,7 +67,7 @@ TEST(OdometryWindow, RefineWindowMovesPosesAndPointsToWhereTheyWere) {
   scene.frames[2].sightings.push_back({1000, {160, 120, 150}});
   std::vector<StereoFrame*> frames;
   for (StereoFrame& frame : scene.frames) frames.push_back(&frame);
-  RefineWindow(scene.camera, 1, frames, scene.points);
+  RefineWindow(scene.camera, 1, frames, 1, scene.points);
   EXPECT_EQ(Off(scene.frames[0].T_odom_left, Pose()), 0);
   for (int f = 1; f < 5; ++f) EXPECT_LT(Off(scene.frames[f].T_odom_left, truth.frames[f].T_odom_left), 1e-3) << f;
   for (const auto& [id, point] : truth.points) EXPECT_LT((scene.points[id] - point).norm(), 0.01) << id;
@@ -85,7 +85,7 @@ TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
     for (StereoFrame& frame : scene.frames)
       for (StereoSighting& s : frame.sightings)
         s.pixel.left += gauss(random), s.pixel.row += gauss(random), s.pixel.right += gauss(random);
-    RefineWindow(scene.camera, 1, {&scene.frames[0], &scene.frames[1]}, scene.points);
+    RefineWindow(scene.camera, 1, {&scene.frames[0], &scene.frames[1]}, 1, scene.points);
     const Vec6 error = (scene.frames[1].T_odom_left.inverse() * truth).Log();
     scatter += error * error.transpose() / kTrials;
     told += StepCovariance(scene.camera, scene.frames[0], scene.frames[1], scene.points, 0.5) / kTrials;

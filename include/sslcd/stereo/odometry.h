@@ -28,9 +28,9 @@ struct StereoOdometryOptions {
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for: that of ideal images, and for headings, which decide how far it
-/// drifts and which loops can be true, that of real ones as far as `row_error_rad` (RowError over the focal length in
-/// px) tells that calibration is not ideal. None: not known, taken for real ones. Figures: docs/results.md.
+/// What a mapper should take such odometry's noise for: that of real images, or as much less, down to a fifth, as
+/// `row_error_rad` (RowError over the focal length in px) tells that calibration is nearer to ideal. None: not known,
+/// taken for real ones. Figures: docs/results.md.
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
 /// How a frame got its pose.
@@ -56,10 +56,11 @@ struct OdometryStep {
 
 /// Stereo visual odometry: the path of the camera from rectified image pairs alone. Corners of the last keyframe are
 /// found again in each new left image (Lucas-Kanade), and from there in the right one; the pose that most of them agree
-/// on (P3P in RANSAC), refined over all that fit; at keyframes, points and poses of a window adjusted together, each
-/// point by where it appears in all left and right images (bundle adjustment).
-/// After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011, and Leutenegger et al., Keyframe-based
-/// visual-inertial odometry using nonlinear optimization, IJRR 2015 (without its inertial part).
+/// on (P3P in RANSAC), refined over all that fit, whose patches are found to a fraction of a pixel as they must look
+/// from there; at keyframes, points and poses of a window adjusted together, each point by where it appears in all left
+/// and right images (bundle adjustment). After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011, and
+/// Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, IJRR 2015 (without its
+/// inertial part).
 ///
 /// Frames come at even intervals: what is guessed assumes that the camera moves on as it did. One object per sequence,
 /// not thread-safe; the same images give the same bytes for any number of OpenCV threads. A pose that has been
