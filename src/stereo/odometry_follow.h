@@ -33,7 +33,7 @@ StereoFrame FindAll(const Following& following, const ImagePyramid& from, const 
                     const StereoPyramids& current, const Pose& T_odom_left);
 
 /// A point that has been found in both images, its column in the right one to a fraction of a pixel. None: it is not
-/// the same point.
+/// the same point, or its patch does not tell.
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
                                        const cv::Point2f& left, const cv::Point2f& right,
                                        const StereoOdometryOptions& options);

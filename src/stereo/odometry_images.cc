@@ -97,7 +97,7 @@ std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images, const std::
     occupied[static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell] = true;
 
   std::vector<cv::Point2f> corners;
-  const int margin = options.patch_px / 2;
+  const int margin = options.patch_px / 2 + 2;  // or the patch is not in the image as a whole
   const cv::Rect inner(margin, margin, images.size.width - 2 * margin, images.size.height - 2 * margin);
   for (int i = 0; i < columns * rows; ++i) {
     const cv::Rect box = cv::Rect(i % columns * cell, i / columns * cell, cell, cell) & inner;

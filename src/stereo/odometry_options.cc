@@ -28,10 +28,10 @@ OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {
   noise.rotation_walk =
       row_error_rad ? std::min(kRealWalk, std::hypot(kIdealWalk, kFactor * *row_error_rad)) : kRealWalk;
   const double share = noise.rotation_walk / kRealWalk;
-  noise.rotation_floor_rad = share * 1e-4;
+  noise.rotation_floor_rad = 1e-4;
   noise.rotation_turn = share * 0.002;
-  noise.translation_floor_m = share * 0.001;
-  noise.translation_walk = noise.vertical_walk = share * 0.005;
+  noise.translation_floor_m = 0.001;
+  noise.translation_walk = noise.vertical_walk = std::max(0.002, share * 0.005);  // twice what ideal images have
   return noise;
 }
 

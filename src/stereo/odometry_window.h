@@ -44,6 +44,7 @@ double StereoError(const StereoCamera& camera, const StereoFrame& frame, const S
 void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
+/// `loss_px` as above.
 void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
                   OdometryPoints& points);
 

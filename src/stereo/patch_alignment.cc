@@ -28,6 +28,14 @@ struct PatchPixel {
   Vec3 by;  // derivatives of the value: a shift to the right, down, more light
 };
 
+/// Do `count` pixels tell where they are, in both directions, though their brightness is open? `H`: sum of by by^T.
+bool HasTexture(const Eigen::Matrix3d& H, int count) {
+  constexpr double kLeast = 0.1;  // [grey values^2 a pixel], of the smaller eigenvalue: less is noise
+  const Eigen::Matrix2d shift = H.topLeftCorner<2, 2>() - H.topRightCorner<2, 1>() * H.bottomLeftCorner<1, 2>() / count;
+  const double half = 0.5 * shift.trace();
+  return half - std::sqrt(std::max(0., half * half - shift.determinant())) > kLeast * count;
+}
+
 }  // namespace
 
 std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose& T_to_from, const Vec3& point,
@@ -45,9 +53,9 @@ std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose&
 
 std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d& homography, const cv::Mat& to,
                                        const cv::Point2f& guess) {
-  constexpr int kMaxSteps = 15, kMaxStretch = 8;
+  constexpr int kMaxSteps = 30, kMaxStretch = 8;
   constexpr double kDone = 0.003, kReach = 1.5;  // [px]
-  constexpr double kFlat = 1;                    // [grey values^2]: gradients of less are noise
+  constexpr double kMinArea = 0.1;               // of a pixel, there
   const int half = patch.half, count = (2 * half + 1) * (2 * half + 1);
   if (!IsInside(patch.grey, patch.at.x, patch.at.y, half + 1)) return std::nullopt;
   const auto map = [&](double u, double v) -> Eigen::Vector2d {
@@ -56,6 +64,7 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
   const Eigen::Vector2d middle = map(0, 0);
   Eigen::Matrix2d stretch;  // of the patch about its middle
   stretch << 0.5 * (map(1, 0) - map(-1, 0)), 0.5 * (map(0, 1) - map(0, -1));
+  if (!(stretch.determinant() > kMinArea)) return std::nullopt;  // seen edge on, or from behind
   double extent = 0;
   thread_local std::vector<PatchPixel> pixels;
   pixels.clear();
@@ -71,7 +80,7 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
       extent = std::max(extent, offset.lpNorm<Eigen::Infinity>());
     }
   }
-  if (!(H.topLeftCorner<2, 2>().determinant() > std::pow(kFlat * count, 2))) return std::nullopt;
+  if (!HasTexture(H, count)) return std::nullopt;
   const Eigen::Matrix3d inverse = H.inverse();
   Eigen::Vector2d at(guess.x, guess.y);
   double brighter = 0;

@@ -15,7 +15,7 @@ namespace sslcd {
 struct Patch {
   cv::Mat grey;  ///< shared, not copied
   cv::Point2f at;
-  Vec3 point;    ///< the place that the pixel shows, in the camera's axes
+  Vec3 point;    ///< the place that the pixel shows, in the camera's axes; for FindPatch
   int half = 4;  ///< the patch is 2 half + 1 pixels wide
 };
 
@@ -33,7 +33,8 @@ struct AlignedPatch {
 
 /// Looks for a patch around `guess`, in the shape that a homography gives it; its brightness may have changed.
 /// Lucas-Kanade in its inverse compositional form (Baker and Matthews, Lucas-Kanade 20 years on: a unifying framework,
-/// IJCV 2004). None: it has no texture, ends more than 1.5 pixels from the guess, or leaves the image.
+/// IJCV 2004). None: it has no texture, is stretched beyond recognition, does not settle within 1.5 pixels of the
+/// guess, or is not in either image as a whole.
 std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d& homography, const cv::Mat& to,
                                        const cv::Point2f& guess);
 

@@ -46,11 +46,11 @@ TEST(StereoOdometry, FollowsTheCamera) {
     chi2 += error.dot(step.covariance.ldlt().solve(Eigen::Matrix<double, 6, 1>(error)));
   }
   EXPECT_EQ(Metres(poses[0], Pose()), 0);
-  EXPECT_LT(Metres(poses.back(), truth.back()), 0.01 * 6) << "one per cent of 6 m, with images of 320x240";
-  EXPECT_LT(Radians(poses.back(), truth.back()), 4e-3);
+  EXPECT_LT(Metres(poses.back(), truth.back()), 0.0025 * 6) << "a quarter per cent of 6 m, with images of 320x240";
+  EXPECT_LT(Radians(poses.back(), truth.back()), 1e-3);
   const double mean_chi2 = chi2 / (truth.size() - 1);
-  EXPECT_GT(mean_chi2, 1) << "six, if the covariance is right";
-  EXPECT_LT(mean_chi2, 18);
+  EXPECT_GT(mean_chi2, 0.6) << "six, if the covariance is right; it is on the safe side";
+  EXPECT_LT(mean_chi2, 6);
 }
 
 TEST(StereoOdometry, StandsStillWhenTheCameraDoes) {
@@ -238,7 +238,8 @@ TEST(StereoOdometryNoise, IsTrustedAsFarAsRowsAgree) {
   const OdometryNoise ideal = StereoOdometryNoise(0.), real = StereoOdometryNoise();
   const OdometrySigmas far = SigmasOf(Pose::Trans({0, 0, 20}), ideal);
   EXPECT_NEAR(far.rotation, 0.00045, 5e-5);
-  EXPECT_NEAR(far.horizontal, 0.0045, 5e-4);
+  EXPECT_NEAR(far.horizontal, 0.009, 5e-4) << "twice that: rows do not tell of dark or blurred images";
+  EXPECT_NEAR(SigmasOf(Pose::Trans({0, 0, 0.67}), ideal).horizontal, 0.002, 2e-4) << "1.2 mm measured, in all";
   EXPECT_NEAR(ideal.rotation_turn / real.rotation_turn, ideal.rotation_walk / real.rotation_walk, 1e-12);
   EXPECT_NEAR(StereoOdometryNoise(0.006 / 514).rotation_walk, 1e-4, 4e-6) << "rendered HALV-sim";
   EXPECT_NEAR(StereoOdometryNoise(0.17 / 718).rotation_walk, real.rotation_walk, 3e-5) << "KITTI in colour";

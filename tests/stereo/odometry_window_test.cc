@@ -47,7 +47,7 @@ TEST(OdometryWindow, RefinePoseFindsTheExactPoseInSpiteOfOutliers) {
   scene.frames[1].T_odom_left = truth * Pose::Exp((Vec6() << .05, -.03, .04, .01, -.01, .02).finished());
   for (int i = 0; i < 6; ++i) scene.frames[1].sightings[i].pixel.left += 40;
   for (int i = 6; i < 20; ++i) scene.frames[1].sightings[i].pixel.right = NAN;  // not seen there
-  RefinePose(scene.camera, scene.points, 1, scene.frames[1]);
+  RefinePose(scene.camera, scene.points, 0.15, scene.frames[1]);
   EXPECT_LT(Off(scene.frames[1].T_odom_left, truth), 1e-4);
 }
 

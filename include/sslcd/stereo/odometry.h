@@ -15,7 +15,7 @@ namespace sslcd {
 struct StereoOdometryOptions {
   int points = 400;               ///< image points followed, spread over the image; time grows with them
   double min_corner = 0.01;       ///< a corner's least share of the strongest corner's smaller eigenvalue
-  int patch_px = 9;               ///< side of the patches that are compared; small ones fit slanted ground
+  int patch_px = 9;               ///< side of the patches that are compared
   double min_disparity_px = 0.5;  ///< points further away than that are not used
   double max_row_error_px = 1.5;  ///< left and right of a point; more: not the same point, or images not rectified
   double ransac_px = 2;           ///< a point fits a pose if it appears so near to where it should
@@ -28,9 +28,9 @@ struct StereoOdometryOptions {
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for: that of real images, or as much less, down to a fifth, as
-/// `row_error_rad` (RowError over the focal length in px) tells that calibration is nearer to ideal. None: not known,
-/// taken for real ones. Figures: docs/results.md.
+/// What a mapper should take such odometry's noise for: that of real images, or as much less, in headings down to a
+/// fifth, as `row_error_rad` (RowError over the focal length in px) tells that calibration is nearer to ideal. None:
+/// not known, taken for real ones. Figures: docs/results.md.
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
 /// How a frame got its pose.
@@ -49,8 +49,9 @@ struct OdometryStep {
   bool keyframe = false;    ///< new points were taken up here
   int points = 0;           ///< points that fit the pose; of the first frame, and of one started anew, points found
   /// Covariance of the step from the previous frame, of the right perturbation of T_previous_current,
-  /// [translation, rotation], in the current reference camera's axes. Of a step that was guessed, and of the one after
-  /// it, which takes the error of the guess back, what constant velocity may be off by. Zero for the first frame.
+  /// [translation, rotation], in the current reference camera's axes; on the safe side, since it counts patches that
+  /// the pose does not heed. Of a step that was guessed, and of the one after it, which takes the error of the guess
+  /// back, what constant velocity may be off by. Zero for the first frame.
   Pose::Matrix6 covariance = Pose::Matrix6::Zero();
 };
 
