@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -83,7 +84,9 @@ class RenderedTest : public testing::Test {
   void SetUp() override { std::filesystem::remove_all(root_); }
   void TearDown() override { std::filesystem::remove_all(root_); }
 
-  const std::string root_ = testing::TempDir() + "/sslcd_rendered_test";
+  // Its own for each test: ctest runs them at the same time.
+  const std::string root_ = testing::TempDir() + "sslcd_" + std::to_string(getpid()) + "_" +
+                            testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(RenderedTest, TakesTheRightWorld) {
