@@ -16,7 +16,7 @@
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
 #include "sslcd/stereo/ground_alignment.h"
-#include "sslcd/stereo/row_error.h"
+#include "sslcd/stereo/rig_check.h"
 
 namespace sslcd::apps {
 namespace {
@@ -31,25 +31,31 @@ void WarnOfGround(const GroundReport& ground) {
   Log(LogLevel::kWarning, message);
 }
 
-/// As an angle, from some pairs all over the sequence. None: they do not tell.
-std::optional<double> RowErrorOf(const Dataset& dataset, const StereoOdometryOptions& options) {
-  constexpr std::size_t kPairs = 8;
-  if (!dataset.camera || !dataset.camera_right) return std::nullopt;
-  std::vector<Image> images;
-  for (std::size_t i = 0; i < dataset.frames.size(); i += (dataset.frames.size() + kPairs - 1) / kPairs) {
+/// How far off calibration is; what is wrong with the images, the frontend tells.
+RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options) {
+  const auto load = [&](std::size_t i) -> std::optional<std::pair<Image, Image>> {
     const Frame& frame = dataset.frames[i];
-    if (frame.image_left.empty() || frame.image_right.empty()) continue;
-    Image left = LoadImage(frame.image_left), right = LoadImage(frame.image_right);
-    if (left.empty() || left.width != right.width || left.height != right.height) continue;  // the frontend tells
-    images.push_back(std::move(left));
-    images.push_back(std::move(right));
+    if (frame.image_left.empty() || frame.image_right.empty()) return std::nullopt;
+    std::pair<Image, Image> pair{LoadImage(frame.image_left), LoadImage(frame.image_right)};
+    const auto& [left, right] = pair;
+    if (left.empty() || left.width != right.width || left.height != right.height) return std::nullopt;
+    return pair;
+  };
+  const StereoCamera camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  try {
+    const RigCheck check = CheckRig(camera, dataset.frames.size(), load, options);
+    if (check.row_error)
+      Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px");
+    if (check.disparity_at_infinity != camera.disparity_at_infinity)
+      Log(LogLevel::kWarning,
+          "calibration is off by what " + Number("%.3f", *check.row_error) +
+              " px between rows of left and right images show; the disparity at infinity is taken to be " +
+              Number("%.3f", check.disparity_at_infinity) + " px, as points that come nearer say, not " +
+              Number("%.3f", camera.disparity_at_infinity) + " (vision.odometry.calibrate: false leaves it)");
+    return check;
+  } catch (const Error&) {
+    return {std::nullopt, camera.disparity_at_infinity};
   }
-  std::vector<StereoView> pairs;
-  for (std::size_t i = 0; i < images.size(); i += 2) pairs.push_back({images[i].view(), images[i + 1].view()});
-  const std::optional<double> error = RowError(pairs, options);
-  if (!error) return std::nullopt;
-  Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *error) + " px");
-  return *error / dataset.camera->fy;
 }
 
 }  // namespace
@@ -61,7 +67,7 @@ void ImageArguments::AddTo(CLI::App& command) {
   command.add_option("--embedder", embedder, "YAML description of a re-identification model");
 }
 
-Configuration ImageArguments::Load(ConfigArguments config, const Dataset& dataset, bool detections) const {
+Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, bool detections) const {
   if (!detector.empty()) config.settings.push_back("vision.detector=" + detector);
   if (!embedder.empty()) config.settings.push_back("vision.embedder=" + embedder);
   const VisionOptions vision = config.Load().vision;
@@ -73,11 +79,16 @@ Configuration ImageArguments::Load(ConfigArguments config, const Dataset& datase
   };
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
-  const std::optional<double> row_error = tracked ? RowErrorOf(dataset, vision.odometry) : std::nullopt;
+  std::optional<double> row_error_rad;
+  if ((lifted || tracked) && dataset.camera && dataset.camera_right) {
+    const RigCheck check = CheckRigOf(dataset, vision.odometry);
+    dataset.camera_right->cx = dataset.camera->cx - check.disparity_at_infinity;
+    if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
+  }
   return config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;
-    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error);
+    c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error_rad);
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
 }

@@ -8,17 +8,25 @@
 
 namespace sslcd {
 
+Camera RightOf(const StereoCamera& stereo) {
+  Camera right = stereo.left;
+  right.cx -= stereo.disparity_at_infinity;
+  right.offset.x() -= stereo.baseline_m;
+  return right;
+}
+
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
-  constexpr double kSame = 1e-3;  // [px], [m]
+  constexpr double kSame = 1e-3, kMostAtInfinity = 3;  // [px], [m]
   const double baseline = left.offset.x() - right.offset.x();
   const bool rectified = std::abs(left.fx - right.fx) < kSame && std::abs(left.fy - right.fy) < kSame &&
-                         std::abs(left.cx - right.cx) < kSame && std::abs(left.cy - right.cy) < kSame;
+                         std::abs(left.cx - right.cx) <= kMostAtInfinity && std::abs(left.cy - right.cy) < kSame;
   if (!rectified || !(baseline > kSame))
     throw Error(
         ErrorKind::kBadInput,
         "the two cameras are no rectified pair: P2 and P3 of calib.txt must agree in their first three columns, "
-        "and the fourth must put the right camera to the right of the left one");
-  return {left, baseline};
+        "but for up to 3 px of their upper right corners, and the fourth must put the right camera to the right of the "
+        "left one");
+  return {left, baseline, left.cx - right.cx};
 }
 
 void CheckSize(const ImageView& image, const Camera& camera) {

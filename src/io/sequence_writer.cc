@@ -24,7 +24,8 @@ std::string Format(const char* format, Numbers... numbers) {
 }
 
 /// Row "Pn: ..." of K [I | t].
-std::string CalibRow(int number, const Camera& camera, const Vec3& offset) {
+std::string CalibRow(int number, const Camera& camera) {
+  const Vec3& offset = camera.offset;
   const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(), camera.fy * offset.y() + camera.cy * offset.z(),
                     offset.z());
   return Format("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number, camera.fx, camera.cx, column.x(),
@@ -32,10 +33,10 @@ std::string CalibRow(int number, const Camera& camera, const Vec3& offset) {
 }
 
 std::string Calib(const StereoCamera& stereo) {
-  const Camera& camera = stereo.left;
-  const Vec3 baseline(-stereo.baseline_m, 0, 0);
-  return CalibRow(0, camera, Vec3::Zero()) + CalibRow(1, camera, baseline) + CalibRow(2, camera, camera.offset) +
-         CalibRow(3, camera, camera.offset + baseline);
+  StereoCamera at_reference = stereo;
+  at_reference.left.offset.setZero();
+  return CalibRow(0, at_reference.left) + CalibRow(1, RightOf(at_reference)) + CalibRow(2, stereo.left) +
+         CalibRow(3, RightOf(stereo));
 }
 
 std::string Times(const std::vector<double>& stamps) {

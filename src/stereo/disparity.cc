@@ -7,6 +7,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "stereo/grey.h"
+
 namespace sslcd {
 namespace {
 
@@ -80,6 +82,11 @@ void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step, c
 
 }  // namespace
 
+GreyPair GreyOf(const StereoView& images, const StereoCamera& camera) {
+  CheckImages(images);
+  return {Grey(images.left), Grey(images.right), camera.disparity_at_infinity};
+}
+
 DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_disparity, double scale_x,
                            double scale_y) {
   const int width = images.left.cols, height = images.left.rows;
@@ -87,7 +94,8 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   const int left = clamp(std::floor(box.left), width), right = clamp(std::ceil(box.right), width);
   const int top = clamp(std::floor(box.top), height), bottom = clamp(std::ceil(box.bottom), height);
   // What is found in the right image at the left of the box is part of the search; the matcher leaves out that margin.
-  const int levels = 16 * std::max(1, static_cast<int>(std::ceil(max_disparity * scale_x / 16)));
+  const double most = (max_disparity + images.disparity_at_infinity) * scale_x;
+  const int levels = 16 * std::max(1, static_cast<int>(std::ceil(most / 16)));
   const int margin = std::min(left, static_cast<int>(std::ceil(levels / scale_x)));
   if (right - left < 2 || bottom - top < 2) return {};
   const cv::Rect part(left - margin, top, right - left + margin, bottom - top);
@@ -108,7 +116,7 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   cv::Mat disparities;
   sixteenths.convertTo(disparities, CV_32F, 1. / 16);
   RefineDisparities(left_part, right_part, patch.step_x, disparities);
-  patch.values = disparities.colRange(skip, disparities.cols) * patch.step_x;
+  patch.values = disparities.colRange(skip, disparities.cols) * patch.step_x - images.disparity_at_infinity;
   patch.values.setTo(std::numeric_limits<float>::quiet_NaN(), ~(patch.values > 0));
   return patch;
 }

@@ -10,10 +10,12 @@ namespace sslcd {
 /// A pair of grey images of one size.
 struct GreyPair {
   cv::Mat left, right;
+  double disparity_at_infinity = 0;  ///< [px], see StereoCamera
 };
+GreyPair GreyOf(const StereoView& images, const StereoCamera& camera);
 
-/// Disparities of a part of the left image: `at` (row, column) of `values` belongs to the pixel
-/// (x0 + step_x * column, y0 + step_y * row) of the whole image.
+/// Disparities of a part of the left image, from that of what is infinitely far: `at` (row, column) of `values` belongs
+/// to the pixel (x0 + step_x * column, y0 + step_y * row) of the whole image.
 struct DisparityPatch {
   cv::Mat values;  ///< CV_32F, pixels of the whole image; NaN: not known
   double x0 = 0, y0 = 0, step_x = 1, step_y = 1;

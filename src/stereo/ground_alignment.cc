@@ -49,12 +49,17 @@ std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundVi
   return common;
 }
 
-/// Where the right image shows a place on the ground that the left one has at this pixel, to a fraction of a pixel.
+/// The place on the ground that the left image has at this pixel.
+Vec3 PlaceOnGround(const StereoCamera& camera, const GroundPlane& plane, const cv::Point2f& left) {
+  const Vec3 ray((left.x - camera.left.cx) / camera.left.fx, (left.y - camera.left.cy) / camera.left.fy, 1);
+  return ray * (-plane.height_m / plane.up.dot(ray));
+}
+
+/// Where the right image shows that place, to a fraction of a pixel.
 std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const StereoCamera& camera,
                                        const GroundPlane& plane, const cv::Point2f& left, const cv::Point2f& guess) {
   constexpr int kHalf = 7;
-  const Vec3 ray((left.x - camera.left.cx) / camera.left.fx, (left.y - camera.left.cy) / camera.left.fy, 1);
-  const Vec3 point = ray * (-plane.height_m / plane.up.dot(ray));
+  const Vec3 point = PlaceOnGround(camera, plane, left);
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
   const auto homography = PlaneHomography(camera.left, T_right_left, point, plane.up);
   if (!homography) return std::nullopt;
@@ -70,16 +75,13 @@ std::vector<StereoPixel> InBothImages(const StereoView& images, const StereoCame
   options.patch_px = 15;  // seen from so near, and so weak in texture
   const StereoPyramids pyramids = BuildPyramids(images, options);
   std::vector<cv::Point2f> guess = left;
-  for (cv::Point2f& p : guess) {
-    const Vec3 ray((p.x - camera.left.cx) / camera.left.fx, (p.y - camera.left.cy) / camera.left.fy, 1);
-    p.x += static_cast<float>(camera.left.fx * camera.baseline_m * plane.up.dot(ray) / plane.height_m);
-  }
+  for (cv::Point2f& p : guess) p.x = static_cast<float>(ProjectStereo(camera, PlaceOnGround(camera, plane, p)).right);
   const Followed right = Follow(pyramids.left, pyramids.right, left, guess, kFine, options);
   std::vector<StereoPixel> pixels;
   for (std::size_t i = 0; i < left.size(); ++i) {
     std::optional<cv::Point2f> at;
     if (right.found[i]) at = FindInRight(pyramids, camera, plane, left[i], right.at[i]);
-    const bool found = at && IsPair(left[i], *at, options);
+    const bool found = at && IsPair(camera, left[i], *at, options);
     pixels.push_back({left[i].x, left[i].y, found ? at->x : NAN});
   }
   return pixels;

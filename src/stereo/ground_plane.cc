@@ -168,7 +168,7 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
     std::vector<Difference> differences;
     std::vector<double> errors;
     for (const Sample& sample : ground) {
-      const double disparity = sample.row.dot(q), at = sample.u - disparity;
+      const double disparity = sample.row.dot(q), at = sample.u - disparity - grey.disparity_at_infinity;
       if (!(at >= 1 && at < right.cols - 3)) continue;
       const int x = static_cast<int>(at);
       const float part = static_cast<float>(at - x);
@@ -234,14 +234,12 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, con
 
 GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
                            const GroundOptions& options) {
-  CheckImages(images);
-  return EstimateGround(GreyPair{Grey(images.left), Grey(images.right)}, camera, objects, options);
+  return EstimateGround(GreyOf(images, camera), camera, objects, options);
 }
 
 std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
                                        const std::vector<Box2d>& objects, const GroundOptions& options) {
-  CheckImages(images);
-  const GreyPair grey{Grey(images.left), Grey(images.right)};
+  const GreyPair grey = GreyOf(images, camera);
   GroundPlane best;
   for (const double factor : {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.}) {
     GroundOptions there = options;

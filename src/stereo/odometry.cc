@@ -37,6 +37,12 @@ Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
   return variances.asDiagonal();
 }
 
+std::vector<StereoFrame*> Pointers(std::deque<StereoFrame>& frames) {
+  std::vector<StereoFrame*> pointers;
+  for (StereoFrame& frame : frames) pointers.push_back(&frame);
+  return pointers;
+}
+
 }  // namespace
 
 class StereoOdometry::Impl {
@@ -67,6 +73,13 @@ class StereoOdometry::Impl {
   }
 
   OdometryStep AddMissingFrame() { return Bridge(kMissing); }
+
+  std::optional<double> DisparityAtInfinity() const {
+    if (static_cast<int>(keyframes_.size()) < options_.window) return std::nullopt;
+    std::deque<StereoFrame> keyframes = keyframes_;
+    OdometryPoints points = points_;
+    return RefineWindow(camera_, 1, Pointers(keyframes), kLossPx, points, true);
+  }
 
  private:
   OdometryStep Start(const StereoPyramids& current) {
@@ -192,10 +205,8 @@ class StereoOdometry::Impl {
     TakeUpPoints(current, frame);
     keyframes_.push_back(frame);
     if (static_cast<int>(keyframes_.size()) > options_.window) keyframes_.pop_front();
-    std::vector<StereoFrame*> window;
-    for (StereoFrame& keyframe : keyframes_) window.push_back(&keyframe);
-    RefineWindow(camera_, std::min<int>(kFixedKeyframes, static_cast<int>(window.size()) - 1), window, kLossPx,
-                 points_);
+    const int fixed = std::min<int>(kFixedKeyframes, static_cast<int>(keyframes_.size()) - 1);
+    RefineWindow(camera_, fixed, Pointers(keyframes_), kLossPx, points_);
     DropMisfits(keyframes_.back());
     ForgetPoints();
     reference_images_ = current;
@@ -248,5 +259,6 @@ StereoOdometry::StereoOdometry(const StereoCamera& camera, const StereoOdometryO
 StereoOdometry::~StereoOdometry() = default;
 OdometryStep StereoOdometry::AddFrame(const StereoView& images) { return impl_->AddFrame(images); }
 OdometryStep StereoOdometry::AddMissingFrame() { return impl_->AddMissingFrame(); }
+std::optional<double> StereoOdometry::DisparityAtInfinity() const { return impl_->DisparityAtInfinity(); }
 
 }  // namespace sslcd

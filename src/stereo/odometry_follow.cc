@@ -108,16 +108,18 @@ StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyr
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
                                        const cv::Point2f& left, const cv::Point2f& right,
                                        const StereoOdometryOptions& options) {
-  if (!IsPair(left, right, options)) return std::nullopt;
+  if (!IsPair(camera, left, right, options)) return std::nullopt;
   const Patch patch{images.left[0], left, Triangulate(camera, {left.x, left.y, right.x}), options.patch_px / 2};
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
   const std::optional<cv::Point2f> at = FindPatch(patch, camera.left, T_right_left, images.right[0], right);
-  if (!at || !IsPair(left, *at, options)) return std::nullopt;
+  if (!at || !IsPair(camera, left, *at, options)) return std::nullopt;
   return StereoPixel{left.x, left.y, at->x};
 }
 
-bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options) {
-  return std::abs(left.y - right.y) <= options.max_row_error_px && left.x - right.x >= options.min_disparity_px;
+bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right,
+            const StereoOdometryOptions& options) {
+  return std::abs(left.y - right.y) <= options.max_row_error_px &&
+         left.x - right.x - camera.disparity_at_infinity >= options.min_disparity_px;
 }
 
 }  // namespace sslcd

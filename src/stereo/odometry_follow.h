@@ -39,6 +39,7 @@ std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoP
                                        const StereoOdometryOptions& options);
 
 /// May these be the left and right image of one point?
-bool IsPair(const cv::Point2f& left, const cv::Point2f& right, const StereoOdometryOptions& options);
+bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right,
+            const StereoOdometryOptions& options);
 
 }  // namespace sslcd

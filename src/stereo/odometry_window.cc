@@ -20,7 +20,8 @@ using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor
 constexpr double kNearest = 0.1;       // [m] in front of the camera
 constexpr double kMinPixelNoise = .1;  // [px] no matter how well everything seems to fit
 
-/// Residual [px] of one sighting (column left, row, column right), with derivatives.
+/// Residual [px] of one sighting (column left, row, column right), with derivatives. That of the column right by the
+/// disparity at infinity is -1.
 struct Reprojection {
   bool in_front = false;
   Vec3 residual = Vec3::Zero();
@@ -49,8 +50,9 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, cons
   return out;
 }
 
-/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed.
-class StereoCost final : public ceres::SizedCostFunction<3, 6, 3> {
+/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed. The others are the
+/// point and the disparity at infinity.
+class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
  public:
   StereoCost(const StereoCamera& camera, const StereoPixel& pixel, const Pose& T_odom_left)
       : camera_(camera), pixel_(pixel), T_odom_left_(T_odom_left) {}
@@ -60,9 +62,11 @@ class StereoCost final : public ceres::SizedCostFunction<3, 6, 3> {
     const Reprojection r =
         Reproject(camera_, T_odom_left_ * Pose::Exp(delta), pixel_, Eigen::Map<const Vec3>(blocks[1]));
     if (!r.in_front) return false;
-    Vec3Map{residual} = r.residual;
+    const bool both = !std::isnan(pixel_.right);
+    Vec3Map{residual} = r.residual - (both ? blocks[2][0] - camera_.disparity_at_infinity : 0) * Vec3::UnitZ();
     if (jacobians && jacobians[0]) RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
     if (jacobians && jacobians[1]) RowMajorMap<3>{jacobians[1]} = r.by_point;
+    if (jacobians && jacobians[2]) Vec3Map{jacobians[2]} = -(both ? 1 : 0) * Vec3::UnitZ();
     return true;
   }
 
@@ -94,12 +98,13 @@ bool InFront(const StereoFrame& frame, const Vec3& point) {
 StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
   const Camera& left = camera.left;
   const double column = left.fx * p.x() / p.z() + left.cx;
-  return {column, left.fy * p.y() / p.z() + left.cy, column - left.fx * camera.baseline_m / p.z()};
+  const double disparity = left.fx * camera.baseline_m / p.z() + camera.disparity_at_infinity;
+  return {column, left.fy * p.y() / p.z() + left.cy, column - disparity};
 }
 
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
   const Camera& left = camera.left;
-  const double z = left.fx * camera.baseline_m / (pixel.left - pixel.right);
+  const double z = left.fx * camera.baseline_m / (pixel.left - pixel.right - camera.disparity_at_infinity);
   return {(pixel.left - left.cx) / left.fx * z, (pixel.row - left.cy) / left.fy * z, z};
 }
 
@@ -113,6 +118,9 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   ceres::CauchyLoss loss(loss_px);
   ceres::Problem problem(ProblemOptions());
   Vec6 delta = Vec6::Zero();
+  double at_infinity = camera.disparity_at_infinity;
+  problem.AddParameterBlock(&at_infinity, 1);
+  problem.SetParameterBlockConstant(&at_infinity);
   std::vector<Vec3> places;  // Ceres keeps their addresses
   places.reserve(frame.sightings.size());
   for (const StereoSighting& sighting : frame.sightings) {
@@ -120,7 +128,7 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
     if (!InFront(frame, point)) continue;
     places.push_back(point);
     problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frame.T_odom_left), &loss, delta.data(),
-                             places.back().data());
+                             places.back().data(), &at_infinity);
     problem.SetParameterBlockConstant(places.back().data());
   }
   if (places.empty()) return;
@@ -131,8 +139,8 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
-                  OdometryPoints& points) {
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+                    OdometryPoints& points, bool calibrate) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
     for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
@@ -150,6 +158,10 @@ void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Stere
   ceres::Problem problem(ProblemOptions());
   std::vector<Vec6> deltas(frames.size(), Vec6::Zero());
   auto* ordering = new ceres::ParameterBlockOrdering;
+  double at_infinity = camera.disparity_at_infinity;
+  problem.AddParameterBlock(&at_infinity, 1);
+  if (!calibrate) problem.SetParameterBlockConstant(&at_infinity);
+  ordering->AddElementToGroup(&at_infinity, 1);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     problem.AddParameterBlock(deltas[i].data(), 6);
     if (static_cast<int>(i) < fixed) problem.SetParameterBlockConstant(deltas[i].data());
@@ -158,7 +170,7 @@ void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Stere
       const auto place = place_of.find(sighting.point);
       if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
       problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frames[i]->T_odom_left), &loss, deltas[i].data(),
-                               place->second->data());
+                               place->second->data(), &at_infinity);
       ordering->AddElementToGroup(place->second->data(), 0);
     }
   }
@@ -172,6 +184,7 @@ void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Stere
     frames[i]->T_odom_left.normalise();
   }
   for (const auto& [id, place] : place_of) points[id] = *place;
+  return at_infinity;
 }
 
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {

@@ -44,9 +44,10 @@ double StereoError(const StereoCamera& camera, const StereoFrame& frame, const S
 void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-/// `loss_px` as above.
-void RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
-                  OdometryPoints& points);
+/// `loss_px` as above. `calibrate`: the camera's disparity at infinity, too, is what fits best, and returned; else what
+/// it was. It shows, since points that come nearer by the camera's motion must come nearer by their disparity, too.
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+                    OdometryPoints& points, bool calibrate = false);
 
 /// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);

@@ -10,7 +10,8 @@
 
 namespace sslcd {
 
-std::optional<double> RowError(const std::vector<StereoView>& pairs, const StereoOdometryOptions& options) {
+std::optional<double> RowError(const StereoCamera& camera, const std::vector<StereoView>& pairs,
+                               const StereoOdometryOptions& options) {
   constexpr int kColumns = 6, kRows = 4, kLeastCells = 12;
   constexpr std::size_t kLeastPoints = 20;
   std::array<std::vector<float>, kColumns * kRows> cells;
@@ -20,7 +21,7 @@ std::optional<double> RowError(const std::vector<StereoView>& pairs, const Stere
     const std::vector<cv::Point2f> left = SpreadCorners(images, {}, options);
     const Followed right = FollowThereAndBack(images.left, images.right, left, left, kCoarse, options);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (!right.found[i] || !IsPair(left[i], right.at[i], options)) continue;
+      if (!right.found[i] || !IsPair(camera, left[i], right.at[i], options)) continue;
       const int column = static_cast<int>(kColumns * left[i].x / static_cast<float>(images.size.width));
       const int row = static_cast<int>(kRows * left[i].y / static_cast<float>(images.size.height));
       cells[row * kColumns + column].push_back(right.at[i].y - left[i].y);

@@ -298,6 +298,22 @@ class DetectTest(CliCase):
         self.refused(self.detect('--boxes', self.boxes), 3, 'calib.txt', 'P3')
 
     # what is asked for
+    def test_calibration_that_is_off(self):
+        for i in range(FRAMES):  # the right camera looks a pixel further to the right and up than calibration says
+            rows = [row[3:] + row[-3:] for row in look(BASELINE, i * STEP)]
+            write_png(self.data + f'/image_3/{i:06d}.png', rows[:1] + rows[:-1])
+        few = ('--set', 'vision.odometry.window=4')
+        result = self.detected('--boxes', self.boxes, *few)
+        self.assertIn('calibration is off', result.stderr)
+        self.assertIn('vision.odometry.calibrate', result.stderr, 'a way out')
+        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
+        self.assertEqual(principal[0], principal[2])
+        self.assertAlmostEqual(principal[2] - principal[3], 1, delta=0.2)
+        result = self.detected('--boxes', self.boxes, *few, '--force', '--set', 'vision.odometry.calibrate=false')
+        self.assertNotIn('calibration is off', result.stderr)
+        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
+        self.assertEqual(principal[2], principal[3])
+
     def test_bad_boxes(self):
         rows = read(self.boxes).splitlines()
         for row in ('4 Car 0.9 1 2 3', '4 Car 0.9 1 2 3 x', '-4 Car 0.9 1 2 3 4', '4 Car 1.9 1 2 3 4', '4 Car 0.9 3 2 1 4'):

@@ -127,6 +127,14 @@ TEST(StereoCamera, HasABaseline) {
   EXPECT_NEAR(MakeStereoCamera(left, right).baseline_m, 0.54, 1e-12);
   EXPECT_THROW(MakeStereoCamera(right, left), Error);
   EXPECT_THROW(MakeStereoCamera(left, left), Error);
+  right.cx = 602.5;
+  const StereoCamera shifted = MakeStereoCamera(left, right);
+  EXPECT_NEAR(shifted.disparity_at_infinity, -2.5, 1e-12);
+  EXPECT_EQ(RightOf(shifted).cx, 602.5);
+  EXPECT_NEAR(RightOf(shifted).offset.x(), -0.48, 1e-12);
+  right.cx = 603.5;
+  EXPECT_THROW(MakeStereoCamera(left, right), Error) << "another rectification, not an error of calibration";
+  right = RightOf(shifted);
   right.fx = 710;
   EXPECT_THROW(MakeStereoCamera(left, right), Error);
 }

@@ -53,6 +53,23 @@ TEST(MatchInside, DisparitiesAreNotPulledToWholePixels) {
   }
 }
 
+TEST(MatchInside, CountsFromWhatIsInfinitelyFar) {
+  for (double at_infinity : {-2.3, 0.4, 2.8}) {
+    StereoScene scene;
+    scene.camera.disparity_at_infinity = at_infinity;
+    scene.Add(0, 450 * 0.3 / 15.2 + 1, 0, {30, 2, 12});
+    scene.Render();
+    const DisparityPatch patch = MatchInside(GreyOf(scene.view(), scene.camera), {300, 60, 420, 150}, 20, 1, 1);
+    std::vector<float> values;
+    for (int y = 0; y < patch.values.rows; ++y) {
+      for (int x = 0; x < patch.values.cols; ++x)
+        if (patch.values.at<float>(y, x) > 0) values.push_back(patch.values.at<float>(y, x));
+    }
+    ASSERT_GT(values.size(), 1000u);
+    EXPECT_NEAR(Median(values), 15.2, 0.05) << at_infinity;
+  }
+}
+
 TEST(MatchInside, NothingIsKnownWithoutPixelsOrTexture) {
   StereoScene scene;
   scene.Render();

@@ -17,6 +17,7 @@ struct TwoViews {
   Pose T_a_b;
 
   explicit TwoViews(double turn_deg) {
+    a.camera.disparity_at_infinity = b.camera.disparity_at_infinity = -1.7;
     const Pose spot = Pose::Trans(0.3, 0, 7);
     T_a_b = spot * Pose::RotY(turn_deg * M_PI / 180) * Pose::Trans(0.2, 0, -7);
     b.T_scene_cam = T_a_b;

@@ -30,6 +30,7 @@ TEST(LiftBoxes, FindsACarThatShowsTwoSides) {
   for (double yaw : {0.5, 1.0, -0.7}) {
     for (double z : {9., 14.}) {
       StereoScene scene;
+      scene.camera.disparity_at_infinity = yaw > 0.7 ? 1.3 : 0;
       scene.Add(1, z, yaw, kCar);
       scene.Render();
       const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 0.8, scene.BoxOf(0)}}, Options());

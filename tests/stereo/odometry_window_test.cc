@@ -36,7 +36,8 @@ struct Scene {
 double Off(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
 
 TEST(OdometryWindow, TriangulateUndoesProject) {
-  const StereoCamera camera = Tunnel::Camera();
+  StereoCamera camera = Tunnel::Camera();
+  camera.disparity_at_infinity = 0.7;
   const Vec3 point(1, -2, 7);
   EXPECT_LT((Triangulate(camera, ProjectStereo(camera, point)) - point).norm(), 1e-12);
 }
@@ -72,6 +73,17 @@ TEST(OdometryWindow, RefineWindowMovesPosesAndPointsToWhereTheyWere) {
   for (int f = 1; f < 5; ++f) EXPECT_LT(Off(scene.frames[f].T_odom_left, truth.frames[f].T_odom_left), 1e-3) << f;
   for (const auto& [id, point] : truth.points) EXPECT_LT((scene.points[id] - point).norm(), 0.01) << id;
   EXPECT_EQ(scene.points[1000], Vec3(0, 0, 9));
+}
+
+TEST(OdometryWindow, RefineWindowCalibrates) {
+  Scene scene(2, 5, 80);
+  scene.camera.disparity_at_infinity = 0.4;  // it was 0
+  for (const StereoSighting& s : scene.frames[0].sightings) scene.points[s.point] = Triangulate(scene.camera, s.pixel);
+  std::vector<StereoFrame*> frames;
+  for (StereoFrame& frame : scene.frames) frames.push_back(&frame);
+  EXPECT_EQ(RefineWindow(scene.camera, 1, frames, 1, scene.points), 0.4) << "not asked for";
+  EXPECT_NEAR(RefineWindow(scene.camera, 1, frames, 1, scene.points, true), 0, 1e-3);
+  EXPECT_LT(Off(scene.frames[4].T_odom_left, Scene(2, 5, 80).frames[4].T_odom_left), 1e-3) << "to scale again";
 }
 
 TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {

@@ -28,7 +28,7 @@ cv::Mat Moved(const cv::Mat& image, double degrees, double down) {
 
 TEST(RowError, OfPerfectImagesIsNextToNothing) {
   const StereoScene scene = Wall();
-  const auto error = RowError({scene.view(), scene.view()}, {});
+  const auto error = RowError(StereoScene().camera, {scene.view(), scene.view()}, {});
   ASSERT_TRUE(error);
   EXPECT_LT(*error, 0.02);
 }
@@ -37,25 +37,25 @@ TEST(RowError, TellsHowFarTheRightCameraHasMoved) {
   const StereoScene scene = Wall();
   const cv::Mat lower = Moved(scene.right, 0, 0.4), turned = Moved(scene.right, 0.1, 0);
   const StereoView shifted{ViewOf(scene.left), ViewOf(lower)}, rolled{ViewOf(scene.left), ViewOf(turned)};
-  const auto shift = RowError({shifted, shifted}, {});
+  const auto shift = RowError(StereoScene().camera, {shifted, shifted}, {});
   ASSERT_TRUE(shift);
   EXPECT_NEAR(*shift, 0.4, 0.03);
-  const auto turn = RowError({rolled, rolled}, {});
+  const auto turn = RowError(StereoScene().camera, {rolled, rolled}, {});
   ASSERT_TRUE(turn);
   EXPECT_NEAR(*turn, 0.3, 0.1) << "a tenth of a degree over 640 columns: up to 0.56 px either way";
 }
 
 TEST(RowError, IsUnknownWithoutEnoughToSee) {
-  EXPECT_FALSE(RowError({}, {}));
+  EXPECT_FALSE(RowError(StereoScene().camera, {}, {}));
   const cv::Mat black(360, 640, CV_8U, cv::Scalar(0)), tiny(6, 6, CV_8U, cv::Scalar(0));
-  EXPECT_FALSE(RowError({{ViewOf(black), ViewOf(black)}}, {}));
-  EXPECT_FALSE(RowError({{ViewOf(tiny), ViewOf(tiny)}}, {}));
+  EXPECT_FALSE(RowError(StereoScene().camera, {{ViewOf(black), ViewOf(black)}}, {}));
+  EXPECT_FALSE(RowError(StereoScene().camera, {{ViewOf(tiny), ViewOf(tiny)}}, {}));
 }
 
 TEST(RowError, RefusesImagesThatAreNoPair) {
   const StereoScene scene = Wall();
   const cv::Mat half = scene.right.colRange(0, 320);
-  EXPECT_THROW(RowError({{ViewOf(scene.left), ViewOf(half)}}, {}), Error);
+  EXPECT_THROW(RowError(StereoScene().camera, {{ViewOf(scene.left), ViewOf(half)}}, {}), Error);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 #include "sslcd/io/calib_reader.h"
 #include "sslcd/io/pose_reader.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/stereo/odometry.h"
+#include "sslcd/stereo/rig_check.h"
 
 namespace sslcd {
 
@@ -58,6 +58,14 @@ inline StereoFolder OpenStereoFolder(const std::string& folder, const std::strin
   result.right = FilesIn(folder + (kitti_names ? "/image_3" : "/image_r"));
   result.truth = ReadTrajectory(poses.empty() ? folder + "/groundtruth.txt" : poses).poses;
   return result;
+}
+
+inline PairLoader Loader(const StereoFolder& folder) {
+  const auto read = [](const std::string& path) {
+    const cv::Mat image = cv::imread(path, cv::IMREAD_ANYCOLOR);
+    return Image{{image.data, image.data + image.total() * image.elemSize()}, image.cols, image.rows, image.channels()};
+  };
+  return [&folder, read](std::size_t i) { return std::pair(read(folder.left[i]), read(folder.right[i])); };
 }
 
 }  // namespace sslcd

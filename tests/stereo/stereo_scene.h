@@ -44,8 +44,8 @@ class StereoScene {
   Box2d BoxOf(int i) const { return *ProjectCuboid(blocks[i].T_cam_object, blocks[i].dims, camera.left); }
 
   void Render() {
-    left = Image(0);
-    right = Image(camera.baseline_m);
+    left = Image(camera.left, 0);
+    right = Image(RightOf(camera), camera.baseline_m);
   }
   StereoView view() const { return {ViewOf(left), ViewOf(right)}; }
   cv::Mat left, right;
@@ -97,12 +97,12 @@ class StereoScene {
     }
     return brightness;
   }
-  cv::Mat Image(double x) const {
-    cv::Mat image(camera.left.height, camera.left.width, CV_8U);
+  cv::Mat Image(const sslcd::Camera& from, double x) const {
+    cv::Mat image(from.height, from.width, CV_8U);
     const Vec3 origin = T_scene_cam * Vec3(x, 0, 0);
     for (int v = 0; v < image.rows; ++v) {
       for (int u = 0; u < image.cols; ++u) {
-        const Vec3 ray((u - camera.left.cx) / camera.left.fx, (v - camera.left.cy) / camera.left.fy, 1);
+        const Vec3 ray((u - from.cx) / from.fx, (v - from.cy) / from.fy, 1);
         image.at<unsigned char>(v, u) = cv::saturate_cast<unsigned char>(Trace(origin, T_scene_cam.so3() * ray));
       }
     }

@@ -15,14 +15,19 @@ struct Camera {
   int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
 };
 
-/// A rectified pair. The right camera differs from the left one in its place only, `baseline_m` to the right.
+/// A rectified pair. The right camera differs from the left one in its place, `baseline_m` to the right, and perhaps
+/// in the column of its principal point: u_left - u_right = fx baseline_m / z + disparity_at_infinity.
 struct StereoCamera {
   Camera left;
   double baseline_m = 0;
+  double disparity_at_infinity = 0;  ///< [px] cx of the left one less cx of the right one
 };
 
-/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, and the second stands to the
-/// right of the first.
+/// The right one of a pair.
+Camera RightOf(const StereoCamera& stereo);
+
+/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, but for 3 px between its
+/// columns, and the second stands to the right of the first.
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right);
 
 /// Throws Error(kBadInput) where the camera knows the size of its images, and that is another one.

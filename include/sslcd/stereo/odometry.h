@@ -25,6 +25,7 @@ struct StereoOdometryOptions {
   double keyframe_px = 8;      ///< a keyframe is due when the points have moved that far (median) since the last one,
   double keyframe_share = .8;  ///< ... or fewer than this share of its points are still followed
   int patience = 2;            ///< frames in a row lost before the odometry starts anew from where it believes to be
+  bool calibrate = true;       ///< CheckRig does; StereoOdometry itself takes the camera as it is
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
@@ -78,6 +79,10 @@ class StereoOdometry {
 
   /// A frame whose images are missing: it is lost, and has a pose nevertheless.
   OdometryStep AddMissingFrame();
+
+  /// StereoCamera::disparity_at_infinity [px] that fits what the window of keyframes has seen best. None: it is not
+  /// full. CheckRig says how far to believe it.
+  std::optional<double> DisparityAtInfinity() const;
 
  private:
   class Impl;

@@ -16,6 +16,7 @@ namespace sslcd {
 /// hardly shows in its residuals: those of rendered images and of KITTI's are nearly alike, but rows differ by 0.006
 /// px, and by 0.17 (colour) and 0.49 px (grey). None where fewer than half of the cells have 20 points. Points whose
 /// rows differ by more than `max_row_error_px` do not count. Throws Error(kBadInput) as CheckImages does.
-std::optional<double> RowError(const std::vector<StereoView>& pairs, const StereoOdometryOptions& options);
+std::optional<double> RowError(const StereoCamera& camera, const std::vector<StereoView>& pairs,
+                               const StereoOdometryOptions& options);
 
 }  // namespace sslcd
