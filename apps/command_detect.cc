@@ -28,12 +28,14 @@ struct DetectArguments {
 };
 
 void AddOptions(CLI::App& command, DetectArguments& a) {
-  command.add_option("DATASET", a.request.path, "folder with image_2, image_3 and calib.txt")->required();
+  command.add_option("DATASET", a.request.path, "folder with image_2, image_3 (or image_0, image_1) and calib.txt")
+      ->required();
   command.add_option("--format", a.format, "layout of the folder; guessed where not given")
       ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
   command.add_option("--odometry", a.request.odometry,
-                     "poses to go with the detections; or 'stereo': from the images, as where there is no file");
+                     "poses to go with the detections; or 'stereo': from the images, as where there is no file, and "
+                     "without a detector or boxes nothing else");
   a.images.AddTo(command);
   a.config.AddTo(command);
   command.add_option("--out", a.out, "folder to write: a sequence for sslcd_run run")->required();
@@ -75,13 +77,15 @@ SequenceFiles FilesOf(const Dataset& dataset) {
 }
 
 int Detect(DetectArguments& a, const Console& console) {
-  a.config.Load();  // wrong ones first
+  const bool has_detector = !a.config.Load().vision.detector.empty();  // wrong ones first
+  const bool odometry_alone =
+      a.request.odometry == "stereo" && !a.images.detects() && a.images.embedder.empty() && !has_detector;
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detections_policy = PartPolicy::kIgnored;
   ChooseOdometry(a.request);
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  const Configuration configuration = a.images.Load(a.config, dataset, true);
+  const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
   const int total = static_cast<int>(dataset.frames.size());
 
   const fs::path out = a.out;
@@ -97,8 +101,9 @@ int Detect(DetectArguments& a, const Console& console) {
   const bool fresh = !fs::exists(out) || fs::is_empty(out);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
-  ImageFrontend frontend = *a.images.Make(dataset, configuration, true, a.threads, watch);
-  if (dataset.odometry_path.empty()) console.Say("odometry: made from the images");
+  ImageFrontend frontend = *a.images.Make(dataset, configuration, !odometry_alone, a.threads, watch);
+  if (dataset.odometry_path.empty())
+    console.Say(odometry_alone ? "odometry: made from the images; no detections" : "odometry: made from the images");
 
   SequenceFiles files = FilesOf(dataset);
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost

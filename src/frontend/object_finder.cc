@@ -16,7 +16,7 @@ ObjectFinder::ObjectFinder(const StereoCamera& camera, const VisionOptions& opti
     if (options.detector.empty())
       throw Error(ErrorKind::kUsage,
                   "nothing to make detections from: name a detector's description (--detector, docs/models.md) or a "
-                  "file of 2D boxes (--boxes)");
+                  "file of 2D boxes (--boxes), or ask for odometry alone (detect --odometry stereo)");
     if (TaskOf(LoadModelDescription(options.detector).output.layout) == ModelTask::kDetect3d)
       detector_3d_.emplace(Detector3d::Load(options.detector, options.inference));
     else

@@ -52,7 +52,7 @@ class Loader {
     out_.labels = info_.labels;
     if (!layout_.calib.empty()) {
       const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
-      calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib);
+      calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib, layout_.cameras);
     }
     layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
     out_.camera = calibration_.left;

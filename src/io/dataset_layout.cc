@@ -2,6 +2,7 @@
 #include "io/dataset_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -22,9 +23,15 @@ std::string LastName(const std::string& folder) {
 
 std::string Stem(const std::string& name) { return name.substr(0, name.find('.')); }
 
+constexpr std::array<const char*, 2> kColourImages = {"/image_2", "/image_3"};
+constexpr std::array<std::array<const char*, 2>, 2> kGreyImages = {
+    {{"/image_0", "/image_1"}, {"/image_l", "/image_r"}}};
+
 bool LooksLikeSequence(const std::string& folder) {
   const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
-  return IsFolder(folder + "/image_2") ||
+  return IsFolder(folder + kColourImages[0]) ||
+         std::any_of(kGreyImages.begin(), kGreyImages.end(),
+                     [&](const auto& pair) { return IsFolder(folder + pair[0]); }) ||
          std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
 }
 bool LooksLikeRaw(const std::string& folder) {
@@ -42,7 +49,8 @@ DatasetFormat Guess(const std::string& root) {
   if (LooksLikeTracking(root)) return DatasetFormat::kKittiTracking;
   std::string message =
       "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, detections.txt, "
-      "sequence.yaml or image_2/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or tracklet_labels.xml), "
+      "sequence.yaml, image_2/ or image_0/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or "
+      "tracklet_labels.xml), "
       "KITTI tracking (calib/ or label_02/)";
   std::vector<std::string> inside;
   for (const std::string& name : FileNames(root)) {
@@ -110,8 +118,14 @@ DatasetLayout SequenceLayout(const std::string& folder) {
   layout.sequence_yaml = IfFile(folder + "/sequence.yaml");
   layout.embeddings = IfFile(folder + "/embeddings.npy");
   layout.colours = IfFile(folder + "/colours.npy");
-  layout.images = IfFolder(folder + "/image_2");
-  layout.images_right = IfFolder(folder + "/image_3");
+  layout.images = IfFolder(folder + kColourImages[0]);
+  layout.images_right = IfFolder(folder + kColourImages[1]);
+  for (const auto& [left, right] : kGreyImages) {  // taken where there are none in colour
+    if (!layout.images.empty() || !IsFolder(folder + left)) continue;
+    layout.images = folder + left;
+    layout.images_right = IfFolder(folder + right);
+    layout.cameras = CameraPair::kGrey;
+  }
   return layout;
 }
 

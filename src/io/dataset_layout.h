@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "sslcd/io/calib_reader.h"
 #include "sslcd/io/dataset.h"
 
 namespace sslcd {
@@ -17,8 +18,9 @@ struct DatasetLayout {
   std::string times;        ///< times.txt, or timestamps.txt of a raw drive
   std::string calib;        ///< calib.txt; for a raw drive the folder of calib_cam_to_cam.txt
   std::string sequence_yaml, embeddings, colours;
-  std::string images, images_right;  ///< folders of the left and right colour images
-  int image_digits = 6;              ///< in the images' names
+  std::string images, images_right;          ///< folders of the left and right images
+  CameraPair cameras = CameraPair::kColour;  ///< whose images those are
+  int image_digits = 6;                      ///< in the images' names
 };
 
 /// Finds out the format and the parts. Throws Error when the folder is none of the known kinds, when the sequence is

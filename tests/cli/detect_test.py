@@ -169,6 +169,22 @@ class DetectTest(CliCase):
         self.assertNotIn('colour', read(self.out + '/run/timing.json'), 'what is grey has no colour')
 
     # models
+    def test_odometry_alone(self):
+        for left, right in (('image_0', 'image_1'), ('image_l', 'image_r')):
+            os.rename(self.data + '/image_2', f'{self.data}/{left}')
+            os.rename(self.data + '/image_3', f'{self.data}/{right}')
+            if left == 'image_l':  # rows without keys
+                write(self.data + '/calib.txt', ''.join(row.split(': ')[1] + '\n' for row in CALIB.splitlines()))
+            result = self.detect('--odometry', 'stereo', '--force')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn('no detections', result.stdout)
+            self.assertEqual(read(self.out + '/detections.txt'), '')
+            ahead = [float(row.split()[3]) for row in read(self.out + '/odometry.txt').splitlines()]
+            self.assertEqual(len(ahead), FRAMES)
+            self.assertAlmostEqual(ahead[-1], (FRAMES - 1) * STEP, delta=0.05)
+            os.rename(f'{self.data}/{left}', self.data + '/image_2')
+            os.rename(f'{self.data}/{right}', self.data + '/image_3')
+
     def test_models(self):
         self.detected_with_models('--detector', MODELS + '/yolo_v8.yaml', '--embedder', MODELS + '/embedding.yaml')
         self.assertEqual(sorted(os.listdir(self.out)), sorted(SEQUENCE + ['embeddings.npy']))

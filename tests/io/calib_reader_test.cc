@@ -41,6 +41,19 @@ TEST(CalibReader, KeysMayComeWithoutColon) {
   EXPECT_LT((calibration.T_velo_imu->translation() - Vec3(5, 6, 7)).norm(), 1e-12);
 }
 
+TEST(CalibReader, ReadsGreyCamerasAndRowsWithoutKeys) {
+  const TempFolder folder;
+  const std::string left = "700 0 600 0 0 710 180 0 0 0 1 0", right = "700 0 600 -350 0 710 180 0 0 0 1 0";
+  for (const std::string& text : {left + "\n" + right, "P0: " + left + "\nP1: " + right + "\nP2: " + right}) {
+    const Calibration calibration = ReadCalibration(folder.Write("calib.txt", text), CameraPair::kGrey);
+    ASSERT_TRUE(calibration.left && calibration.right);
+    EXPECT_EQ(calibration.left->fy, 710);
+    EXPECT_NEAR(MakeStereoCamera(*calibration.left, *calibration.right).baseline_m, 0.5, 1e-12);
+  }
+  ExpectError([&] { ReadCalibration(folder.Write("calib.txt", "P2: " + left), CameraPair::kGrey); },
+              {"calib.txt:1", "no P0", "found: P2"});
+}
+
 TEST(CalibReader, ReadsARawDrive) {
   const TempFolder folder;
   folder.Write("calib_cam_to_cam.txt",

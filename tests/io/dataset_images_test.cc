@@ -60,6 +60,26 @@ TEST_F(Images, AreEnough) {
   EXPECT_EQ(Load().frames.size(), 2u);
 }
 
+TEST_F(Images, InColourAreTakenBeforeGreyOnes) {
+  const std::string rows = "700 0 600 0 0 700 180 0 0 0 1 0\n700 0 600 -280 0 700 180 0 0 0 1 0\n";
+  for (const auto& [left, right] : {std::pair("image_0", "image_1"), std::pair("image_l", "image_r")}) {
+    folder_.Write(left + std::string("/000000.png"), "picture");
+    folder_.Write(right + std::string("/000000.png"), "picture");
+    EXPECT_THAT(Load().frames[0].image_left, EndsWith("image_2/000000.png"));
+    Remove("image_2");
+    folder_.Write("calib.txt", rows);
+    const Dataset grey = Load();
+    ASSERT_EQ(grey.frames.size(), 1u);
+    EXPECT_THAT(grey.frames[0].image_left, EndsWith(std::string(left) + "/000000.png"));
+    EXPECT_THAT(grey.frames[0].image_right, EndsWith(std::string(right) + "/000000.png"));
+    EXPECT_NEAR(MakeStereoCamera(*grey.camera, *grey.camera_right).baseline_m, 0.4, 1e-12);
+    Remove(left);
+    Remove(right);
+    folder_.Write("calib.txt", kCalib);
+    WritePair(0, ".png");
+  }
+}
+
 TEST_F(Images, AreNotEnoughWherePartsAreNeeded) {
   request_.odometry_policy = PartPolicy::kNeeded;
   ExpectError([this] { Load(); }, {"no odometry here", "--odometry"});

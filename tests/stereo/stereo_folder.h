@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,31 +29,16 @@ inline std::vector<std::string> FilesIn(const std::string& folder) {
   return files;
 }
 
-/// calib.txt with keys, or two 3x4 matrices in one row.
-inline StereoCamera ReadStereoCamera(const std::string& path) {
-  std::ifstream file(path);
-  double P[24];
-  int count = 0;
-  while (count < 24 && file >> P[count]) ++count;
-  if (count == 24) {
-    Camera left;
-    left.fx = P[0], left.fy = P[5], left.cx = P[2], left.cy = P[6];
-    Camera right = left;
-    right.offset.x() = P[15] / P[12];
-    return MakeStereoCamera(left, right);
-  }
-  const Calibration calibration = ReadCalibration(path);
-  if (!calibration.left || !calibration.right) throw Error(ErrorKind::kBadInput, path + ": has no P2 and P3");
-  return MakeStereoCamera(*calibration.left, *calibration.right);
-}
-
 /// `poses`: ground truth; empty: groundtruth.txt in the folder.
 inline StereoFolder OpenStereoFolder(const std::string& folder, const std::string& poses = "") {
   StereoFolder result;
-  result.camera = ReadStereoCamera(folder + "/calib.txt");
-  const bool kitti_names = std::filesystem::exists(folder + "/image_2");
-  result.left = FilesIn(folder + (kitti_names ? "/image_2" : "/image_l"));
-  result.right = FilesIn(folder + (kitti_names ? "/image_3" : "/image_r"));
+  const bool colour = std::filesystem::exists(folder + "/image_2");
+  const Calibration calibration =
+      ReadCalibration(folder + "/calib.txt", colour ? CameraPair::kColour : CameraPair::kGrey);
+  if (!calibration.right) throw Error(ErrorKind::kBadInput, folder + "/calib.txt: has no right camera");
+  result.camera = MakeStereoCamera(*calibration.left, *calibration.right);
+  result.left = FilesIn(folder + (colour ? "/image_2" : "/image_l"));
+  result.right = FilesIn(folder + (colour ? "/image_3" : "/image_r"));
   result.truth = ReadTrajectory(poses.empty() ? folder + "/groundtruth.txt" : poses).poses;
   return result;
 }

@@ -17,11 +17,11 @@ namespace sslcd {
 /// Kinds of dataset folders; `sequence` names one of several sequences in there.
 enum class DatasetFormat {
   kAuto,           ///< told by what lies in the folder
-  kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2}, poses/NN.txt
+  kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2 (or image_0)}, poses/NN.txt
   kKittiTracking,  ///< calib/NNNN.txt label_02 oxts image_02
   kKittiRaw,  ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data, calib_*.txt there or above
   kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy colours.npy
-              ///< sequence.yaml image_2]
+              ///< sequence.yaml image_2 (or image_0, image_l)]
 };
 
 /// "auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence".
@@ -57,8 +57,8 @@ struct Dataset {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string name;
   std::vector<Frame> frames;           ///< one per pose; frames[i].index == i, stamps increase
-  std::optional<Camera> camera;        ///< P2; none: no calibration, nothing can be projected
-  std::optional<Camera> camera_right;  ///< P3
+  std::optional<Camera> camera;        ///< P2, of grey images P0; none: no calibration, nothing can be projected
+  std::optional<Camera> camera_right;  ///< P3 or P1
   Vec3 up_axis{0, -1, 0};  ///< unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
   LabelTable labels;
   std::optional<Trajectory> groundtruth;                         ///< rows without stamps got those of the frames
