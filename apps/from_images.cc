@@ -31,8 +31,8 @@ void WarnOfGround(const GroundReport& ground) {
   Log(LogLevel::kWarning, message);
 }
 
-/// Mends calibration, and returns how far rows are off, as an angle; what is wrong with the images, the frontend tells.
-std::optional<double> CheckRigOf(Dataset& dataset, const StereoOdometryOptions& options) {
+/// How far off calibration is; what is wrong with the images, the frontend tells.
+RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options) {
   const auto load = [&](std::size_t i) -> std::optional<std::pair<Image, Image>> {
     const Frame& frame = dataset.frames[i];
     if (frame.image_left.empty() || frame.image_right.empty()) return std::nullopt;
@@ -42,27 +42,20 @@ std::optional<double> CheckRigOf(Dataset& dataset, const StereoOdometryOptions& 
     return pair;
   };
   const StereoCamera camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  RigCheck check;
   try {
-    check = CheckRig(camera, dataset.frames.size(), load, options);
+    const RigCheck check = CheckRig(camera, dataset.frames.size(), load, options);
+    if (check.row_error)
+      Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px");
+    if (check.disparity_at_infinity != camera.disparity_at_infinity)
+      Log(LogLevel::kWarning,
+          "calibration is off by what " + Number("%.3f", *check.row_error) +
+              " px between rows of left and right images show; the disparity at infinity is taken to be " +
+              Number("%.3f", check.disparity_at_infinity) + " px, as points that come nearer say, not " +
+              Number("%.3f", camera.disparity_at_infinity) + " (vision.odometry.calibrate: false leaves it)");
+    return check;
   } catch (const Error&) {
-    return std::nullopt;
+    return {std::nullopt, camera.disparity_at_infinity};
   }
-  if (!check.row_error) return std::nullopt;
-  const double at_infinity = check.camera.disparity_at_infinity, tangential = check.camera.left.tangential;
-  if (at_infinity != camera.disparity_at_infinity || tangential != camera.left.tangential) {
-    Log(LogLevel::kWarning,
-        "calibration is off: rows of left and right images differ by " + Number("%.2f", *check.row_error) +
-            " px. By how points move, the disparity at infinity is " + Number("%.3f", at_infinity) +
-            " px (calibrated: " + Number("%.3f", camera.disparity_at_infinity) + ") and tangential distortion " +
-            Number("%.5f", tangential) + " (" + Number("%.5f", camera.left.tangential) +
-            "); they are used, vision.odometry.calibrate: false would leave them alone");
-  } else {
-    Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px");
-  }
-  dataset.camera = check.camera.left;
-  dataset.camera_right = RightOf(check.camera);
-  return *check.row_error / camera.left.fy;
 }
 
 }  // namespace
@@ -87,8 +80,11 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
   std::optional<double> row_error_rad;
-  if ((lifted || tracked) && dataset.camera && dataset.camera_right)
-    row_error_rad = CheckRigOf(dataset, vision.odometry);
+  if ((lifted || tracked) && dataset.camera && dataset.camera_right) {
+    const RigCheck check = CheckRigOf(dataset, vision.odometry);
+    dataset.camera_right->cx = dataset.camera->cx - check.disparity_at_infinity;
+    if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
+  }
   return config.Load([&](Configuration& c) {
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;

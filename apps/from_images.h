@@ -24,7 +24,7 @@ struct ImageArguments {
   /// a loss that suits the headings which are a quarter turn off; so does odometry from images, by how well these are
   /// rectified, and it is good enough for `loop.odometry` to be `ba.odometry`; and where both come from the same images
   /// there is no scale to estimate, since a wrong baseline stretches both alike. `detections`: they are made, too.
-  /// Where anything is made from stereo, the cameras of `dataset` become what CheckRig finds.
+  /// Where anything is made from stereo, the right camera of `dataset` gets the principal point that CheckRig finds.
   Configuration Load(ConfigArguments config, Dataset& dataset, bool detections) const;
 
   /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if `detections`.

@@ -19,8 +19,7 @@ StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
   constexpr double kSame = 1e-3, kMostAtInfinity = 3;  // [px], [m]
   const double baseline = left.offset.x() - right.offset.x();
   const bool rectified = std::abs(left.fx - right.fx) < kSame && std::abs(left.fy - right.fy) < kSame &&
-                         std::abs(left.cx - right.cx) <= kMostAtInfinity && std::abs(left.cy - right.cy) < kSame &&
-                         left.tangential == right.tangential;
+                         std::abs(left.cx - right.cx) <= kMostAtInfinity && std::abs(left.cy - right.cy) < kSame;
   if (!rectified || !(baseline > kSame))
     throw Error(
         ErrorKind::kBadInput,

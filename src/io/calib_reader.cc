@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/calib_reader.h"
 
-#include <cmath>
 #include <map>
 #include <vector>
 
@@ -129,12 +128,8 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
                  "; found: " + entries.Keys() + ". Add it, or remove the file where nothing is projected");
   }
   calibration.right = grey ? entries.CameraOf({"P1"}) : entries.CameraOf({"P3", "P_rect_03"});
-  const std::vector<double> tangential = entries.Numbers({"tangential"}, 1), size = entries.Numbers({"S_rect_02"}, 2);
-  if (!tangential.empty() && !(std::abs(tangential[0]) < 0.1))
-    entries.Fail(
-        "tangential: distortion that rectification has left is less than 0.1; leave it out where it is not known");
+  const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
-    if (*camera && !tangential.empty()) (*camera)->tangential = tangential[0];
     if (*camera && !size.empty())
       (*camera)->width = static_cast<int>(size[0]), (*camera)->height = static_cast<int>(size[1]);
   }

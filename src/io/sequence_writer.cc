@@ -36,8 +36,7 @@ std::string Calib(const StereoCamera& stereo) {
   StereoCamera at_reference = stereo;
   at_reference.left.offset.setZero();
   return CalibRow(0, at_reference.left) + CalibRow(1, RightOf(at_reference)) + CalibRow(2, stereo.left) +
-         CalibRow(3, RightOf(stereo)) +
-         (stereo.left.tangential == 0 ? "" : Format("tangential: %.9g\n", stereo.left.tangential));
+         CalibRow(3, RightOf(stereo));
 }
 
 std::string Times(const std::vector<double>& stamps) {

@@ -74,7 +74,7 @@ class StereoOdometry::Impl {
 
   OdometryStep AddMissingFrame() { return Bridge(kMissing); }
 
-  std::optional<StereoCamera> Calibrated() const {
+  std::optional<double> DisparityAtInfinity() const {
     if (static_cast<int>(keyframes_.size()) < options_.window) return std::nullopt;
     std::deque<StereoFrame> keyframes = keyframes_;
     OdometryPoints points = points_;
@@ -259,6 +259,6 @@ StereoOdometry::StereoOdometry(const StereoCamera& camera, const StereoOdometryO
 StereoOdometry::~StereoOdometry() = default;
 OdometryStep StereoOdometry::AddFrame(const StereoView& images) { return impl_->AddFrame(images); }
 OdometryStep StereoOdometry::AddMissingFrame() { return impl_->AddMissingFrame(); }
-std::optional<StereoCamera> StereoOdometry::Calibrated() const { return impl_->Calibrated(); }
+std::optional<double> StereoOdometry::DisparityAtInfinity() const { return impl_->DisparityAtInfinity(); }
 
 }  // namespace sslcd

@@ -19,7 +19,8 @@ void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
   v.Real("keyframe_px", o.keyframe_px, 0, 1000, "median way of the points after which a keyframe is due");
   v.Real("keyframe_share", o.keyframe_share, 0, 1, "a keyframe is due when fewer of its points are still followed");
   v.Integer("patience", o.patience, 0, 100, "frames in a row lost before it starts anew where it believes to be");
-  v.Flag("calibrate", o.calibrate, "before, mend calibration by the images (CheckRig), where rows show that it is off");
+  v.Flag("calibrate", o.calibrate,
+         "before, find the disparity at infinity from the images, where rows show that calibration is off");
 }
 
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {

@@ -20,23 +20,13 @@ using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor
 constexpr double kNearest = 0.1;       // [m] in front of the camera
 constexpr double kMinPixelNoise = .1;  // [px] no matter how well everything seems to fit
 
-/// What may be adjusted of the camera: disparity at infinity, tangential distortion.
-using Rig = Eigen::Vector2d;
-Rig RigOf(const StereoCamera& camera) { return {camera.disparity_at_infinity, camera.left.tangential}; }
-StereoCamera WithRig(StereoCamera camera, const Rig& rig) {
-  camera.disparity_at_infinity = rig[0];
-  camera.left.tangential = rig[1];
-  return camera;
-}
-
-/// Residual [px] of one sighting (column left, row, column right), with derivatives, to which distortion matters
-/// little.
+/// Residual [px] of one sighting (column left, row, column right), with derivatives. That of the column right by the
+/// disparity at infinity is -1.
 struct Reprojection {
   bool in_front = false;
   Vec3 residual = Vec3::Zero();
   Mat36 by_pose;  // of a right perturbation of T_odom_left
   Mat3 by_point;
-  Eigen::Matrix<double, 3, 2> by_rig;
 };
 
 Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, const StereoPixel& pixel,
@@ -53,9 +43,7 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, cons
   by_p << fx * iz, 0, -fx * p.x() * iz * iz,  //
       0, fy * iz, -fy * p.y() * iz * iz,      //
       fx * iz, 0, -fx * (p.x() - camera.baseline_m) * iz * iz;
-  const double x = p.x() * iz, y = p.y() * iz, x_right = x - camera.baseline_m * iz;
-  out.by_rig << 0, 2 * fx * x * y, 0, fy * (x * x + 3 * y * y), -1, 2 * fx * x_right * y;
-  if (std::isnan(pixel.right)) out.residual.z() = 0, by_p.row(2).setZero(), out.by_rig.row(2).setZero();
+  if (std::isnan(pixel.right)) out.residual.z() = 0, by_p.row(2).setZero();
   // p(T Exp(d)) = Exp(-d) p, to first order p - rho + p x phi.
   out.by_pose << -by_p, by_p * lie::SO3<double>::hat(p);
   out.by_point = by_p * R_left_odom;
@@ -63,22 +51,22 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, cons
 }
 
 /// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed. The others are the
-/// point and the rig.
-class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 2> {
+/// point and the disparity at infinity.
+class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
  public:
   StereoCost(const StereoCamera& camera, const StereoPixel& pixel, const Pose& T_odom_left)
       : camera_(camera), pixel_(pixel), T_odom_left_(T_odom_left) {}
 
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     const Vec6 delta = Eigen::Map<const Vec6>(blocks[0]);
-    const StereoCamera camera = WithRig(camera_, Eigen::Map<const Rig>(blocks[2]));
     const Reprojection r =
-        Reproject(camera, T_odom_left_ * Pose::Exp(delta), pixel_, Eigen::Map<const Vec3>(blocks[1]));
+        Reproject(camera_, T_odom_left_ * Pose::Exp(delta), pixel_, Eigen::Map<const Vec3>(blocks[1]));
     if (!r.in_front) return false;
-    Vec3Map{residual} = r.residual;
+    const bool both = !std::isnan(pixel_.right);
+    Vec3Map{residual} = r.residual - (both ? blocks[2][0] - camera_.disparity_at_infinity : 0) * Vec3::UnitZ();
     if (jacobians && jacobians[0]) RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
     if (jacobians && jacobians[1]) RowMajorMap<3>{jacobians[1]} = r.by_point;
-    if (jacobians && jacobians[2]) RowMajorMap<2>{jacobians[2]} = r.by_rig;
+    if (jacobians && jacobians[2]) Vec3Map{jacobians[2]} = -(both ? 1 : 0) * Vec3::UnitZ();
     return true;
   }
 
@@ -109,17 +97,15 @@ bool InFront(const StereoFrame& frame, const Vec3& point) {
 
 StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
   const Camera& left = camera.left;
-  const double x = p.x() / p.z(), y = p.y() / p.z(), x_right = x - camera.baseline_m / p.z(), p1 = left.tangential;
-  return {left.fx * (x + 2 * p1 * x * y) + left.cx, left.fy * (y + p1 * (x * x + 3 * y * y)) + left.cy,
-          left.fx * (x_right + 2 * p1 * x_right * y) + left.cx - camera.disparity_at_infinity};
+  const double column = left.fx * p.x() / p.z() + left.cx;
+  const double disparity = left.fx * camera.baseline_m / p.z() + camera.disparity_at_infinity;
+  return {column, left.fy * p.y() / p.z() + left.cy, column - disparity};
 }
 
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
   const Camera& left = camera.left;
-  const double x = (pixel.left - left.cx) / left.fx, y = (pixel.row - left.cy) / left.fy;
-  const double x_right = (pixel.right + camera.disparity_at_infinity - left.cx) / left.fx, p1 = left.tangential;
-  const double z = camera.baseline_m / ((x - x_right) * (1 - 2 * p1 * y));
-  return {(x - 2 * p1 * x * y) * z, (y - p1 * (x * x + 3 * y * y)) * z, z};
+  const double z = left.fx * camera.baseline_m / (pixel.left - pixel.right - camera.disparity_at_infinity);
+  return {(pixel.left - left.cx) / left.fx * z, (pixel.row - left.cy) / left.fy * z, z};
 }
 
 double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
@@ -132,9 +118,9 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   ceres::CauchyLoss loss(loss_px);
   ceres::Problem problem(ProblemOptions());
   Vec6 delta = Vec6::Zero();
-  Rig rig = RigOf(camera);
-  problem.AddParameterBlock(rig.data(), 2);
-  problem.SetParameterBlockConstant(rig.data());
+  double at_infinity = camera.disparity_at_infinity;
+  problem.AddParameterBlock(&at_infinity, 1);
+  problem.SetParameterBlockConstant(&at_infinity);
   std::vector<Vec3> places;  // Ceres keeps their addresses
   places.reserve(frame.sightings.size());
   for (const StereoSighting& sighting : frame.sightings) {
@@ -142,7 +128,7 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
     if (!InFront(frame, point)) continue;
     places.push_back(point);
     problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frame.T_odom_left), &loss, delta.data(),
-                             places.back().data(), rig.data());
+                             places.back().data(), &at_infinity);
     problem.SetParameterBlockConstant(places.back().data());
   }
   if (places.empty()) return;
@@ -153,8 +139,8 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-StereoCamera RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
-                          double loss_px, OdometryPoints& points, bool calibrate) {
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+                    OdometryPoints& points, bool calibrate) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
     for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
@@ -172,10 +158,10 @@ StereoCamera RefineWindow(const StereoCamera& camera, int fixed, const std::vect
   ceres::Problem problem(ProblemOptions());
   std::vector<Vec6> deltas(frames.size(), Vec6::Zero());
   auto* ordering = new ceres::ParameterBlockOrdering;
-  Rig rig = RigOf(camera);
-  problem.AddParameterBlock(rig.data(), 2);
-  if (!calibrate) problem.SetParameterBlockConstant(rig.data());
-  ordering->AddElementToGroup(rig.data(), 1);
+  double at_infinity = camera.disparity_at_infinity;
+  problem.AddParameterBlock(&at_infinity, 1);
+  if (!calibrate) problem.SetParameterBlockConstant(&at_infinity);
+  ordering->AddElementToGroup(&at_infinity, 1);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     problem.AddParameterBlock(deltas[i].data(), 6);
     if (static_cast<int>(i) < fixed) problem.SetParameterBlockConstant(deltas[i].data());
@@ -184,21 +170,21 @@ StereoCamera RefineWindow(const StereoCamera& camera, int fixed, const std::vect
       const auto place = place_of.find(sighting.point);
       if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
       problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frames[i]->T_odom_left), &loss, deltas[i].data(),
-                               place->second->data(), rig.data());
+                               place->second->data(), &at_infinity);
       ordering->AddElementToGroup(place->second->data(), 0);
     }
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.linear_solver_ordering.reset(ordering);
-  options.max_num_iterations = calibrate ? 20 : 8;
+  options.max_num_iterations = 8;
   Solve(options, problem);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i]->T_odom_left *= Pose::Exp(deltas[i]);
     frames[i]->T_odom_left.normalise();
   }
   for (const auto& [id, place] : place_of) points[id] = *place;
-  return WithRig(camera, rig);
+  return at_infinity;
 }
 
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {

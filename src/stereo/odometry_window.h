@@ -31,7 +31,7 @@ using OdometryPoints = std::map<int, Vec3>;
 /// Where a camera at the origin sees a point in front of it.
 StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& point_left);
 
-/// The point of which both images show where it is, at more than the disparity at infinity; distortion to first order.
+/// The point of which both images show where it is; disparity > 0.
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 
 /// How far the sighting is from where its point should appear, the largest of its coordinates. Infinite for a point
@@ -44,11 +44,10 @@ double StereoError(const StereoCamera& camera, const StereoFrame& frame, const S
 void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-/// `loss_px` as above. Returns the camera; `calibrate`: with the disparity at infinity and the tangential distortion
-/// that fit best. The one shows, since points that come nearer by the camera's motion must come nearer by their
-/// disparity, too; the other, since they must move along straight lines.
-StereoCamera RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
-                          double loss_px, OdometryPoints& points, bool calibrate = false);
+/// `loss_px` as above. `calibrate`: the camera's disparity at infinity, too, is what fits best, and returned; else what
+/// it was. It shows, since points that come nearer by the camera's motion must come nearer by their disparity, too.
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+                    OdometryPoints& points, bool calibrate = false);
 
 /// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);

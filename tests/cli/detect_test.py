@@ -322,13 +322,12 @@ class DetectTest(CliCase):
         result = self.detected('--boxes', self.boxes, *few)
         self.assertIn('calibration is off', result.stderr)
         self.assertIn('vision.odometry.calibrate', result.stderr, 'a way out')
-        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()[:4]]
+        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
         self.assertEqual(principal[0], principal[2])
         self.assertAlmostEqual(principal[2] - principal[3], 1, delta=0.2)
-        self.assertLess(abs(float(read(self.out + '/calib.txt').split('tangential:')[1])), 0.01)
         result = self.detected('--boxes', self.boxes, *few, '--force', '--set', 'vision.odometry.calibrate=false')
         self.assertNotIn('calibration is off', result.stderr)
-        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()[:4]]
+        principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
         self.assertEqual(principal[2], principal[3])
 
     def test_bad_boxes(self):

@@ -81,7 +81,6 @@ TEST(CalibReader, RefusesBadEntries) {
   refuse("P2: 700 0 600 70 0 710 180 71 0 0 1 x\n", {"calib.txt:1: P2: expected a number, found 'x'"});
   refuse("P2: 0 0 600 70 0 710 180 71 0 0 1 0\n", {"calib.txt:1", "no projection matrix"});
   refuse("P2: nan 0 600 70 0 710 180 71 0 0 1 0\n", {"calib.txt:1", "no projection matrix"});
-  refuse(good + "tangential: nan\n", {"calib.txt:2: tangential", "leave it out"});
   refuse(good + "Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n", {"calib.txt:2: not a rotation matrix"});
   ExpectError([&] { ReadRawCalibration(folder.path()); }, {"calib_cam_to_cam.txt", "No such file"});
 }

@@ -16,7 +16,9 @@ struct Driven {
 
 Driven Drive(const StereoFolder& input) {
   Driven driven;
-  StereoOdometry odometry(CheckRig(input.camera, input.left.size(), Loader(input), {}).camera, {});
+  StereoCamera camera = input.camera;
+  camera.disparity_at_infinity = CheckRig(camera, input.left.size(), Loader(input), {}).disparity_at_infinity;
+  StereoOdometry odometry(camera, {});
   for (std::size_t i = 0; i < input.left.size(); ++i) {
     const cv::Mat left = cv::imread(input.left[i], cv::IMREAD_UNCHANGED);
     const cv::Mat right = cv::imread(input.right[i], cv::IMREAD_UNCHANGED);

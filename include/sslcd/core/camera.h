@@ -13,10 +13,6 @@ struct Camera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   Vec3 offset{0, 0, 0};       ///< K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
   int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
-  /// What rectification has left of p1, tangential distortion (Brown's model, OpenCV's): what should appear at x, y
-  /// (over the focal length, from the principal point) is at x + 2 p1 x y, y + p1 (x^2 + 3 y^2). Heeded where points
-  /// are measured (stereo odometry, ground alignment), not by boxes.
-  double tangential = 0;
 };
 
 /// A rectified pair. The right camera differs from the left one in its place, `baseline_m` to the right, and perhaps

@@ -28,9 +28,8 @@ struct Calibration {
 
 /// Reads calib.txt of KITTI odometry, tracking or object, with or without colons after the keys, or a raw drive's
 /// calib_cam_to_cam.txt (P_rect_02, S_rect_02; no T_cam_velo in there). Rows of numbers without a key are P0, P1, ...
-/// `tangential`, one number, is Camera::tangential of both. The image size is known from S_rect_02 only. Throws Error
-/// with file:line when the left camera is missing, naming the keys found, or when an entry is no projection or
-/// rotation.
+/// The image size is known from S_rect_02 only. Throws Error with file:line when the left camera is missing, naming the
+/// keys found, or when an entry is no projection or rotation.
 Calibration ReadCalibration(const std::string& path, CameraPair pair = CameraPair::kColour);
 
 /// Reads a raw drive's folder of calib_cam_to_cam.txt, calib_velo_to_cam.txt, calib_imu_to_velo.txt; the latter two may

@@ -80,9 +80,9 @@ class StereoOdometry {
   /// A frame whose images are missing: it is lost, and has a pose nevertheless.
   OdometryStep AddMissingFrame();
 
-  /// The camera with the disparity at infinity and the tangential distortion that fit best what the window of keyframes
-  /// has seen. None: it is not full. CheckRig says how far to believe it.
-  std::optional<StereoCamera> Calibrated() const;
+  /// StereoCamera::disparity_at_infinity [px] that fits what the window of keyframes has seen best. None: it is not
+  /// full. CheckRig says how far to believe it.
+  std::optional<double> DisparityAtInfinity() const;
 
  private:
   class Impl;

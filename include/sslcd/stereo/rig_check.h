@@ -16,19 +16,18 @@ using PairLoader = std::function<std::optional<std::pair<Image, Image>>(std::siz
 
 /// How far off the calibration of a rectified pair is, as its images tell.
 struct RigCheck {
-  std::optional<double> row_error;  ///< RowError [px]
-  StereoCamera camera;              ///< with the disparity at infinity and the tangential distortion to be used
+  std::optional<double> row_error;   ///< RowError [px]
+  double disparity_at_infinity = 0;  ///< of StereoCamera, what should be used instead of what it has [px]
 };
 
 /// Looks at pairs all over the sequence for their row error, and drives StereoOdometry through some eight bursts of
-/// frames, each until its window is full. In each the disparity at infinity and the tangential distortion are adjusted
-/// together with points and poses. A tenth of a pixel at infinity, a hundredth of a degree between the cameras, is 0.5
-/// % of the distance of a point with 20 px, and of the way that an odometry by such points goes; KITTI's drives 09_30
-/// and 10_03 have -0.2 and -0.4 px.
+/// frames, each until its window is full. In each the disparity at infinity is adjusted together with points and poses:
+/// a hundredth of a degree between the cameras, or 0.1 px, is 0.5 % of the distance of a point with 20 px, and of the
+/// way that an odometry by such points goes. Of KITTI's drives 09_30 and 10_03 it is -0.2 and -0.4 px.
 ///
 /// The median of the bursts counts as much as it is surer, by their scatter, than calibration, which is taken to be as
-/// far off in columns, and by distortion, as it is in rows (RowError). Where rows fit to 0.03 px, or their error is not
-/// known, or options.calibrate is off, it stays.
+/// far off in columns as it is in rows (RowError). Where rows fit to 0.03 px, or their error is not known, or
+/// options.calibrate is off, it stays.
 ///
 /// Throws Error(kBadInput) as StereoOdometry does.
 RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
