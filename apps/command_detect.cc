@@ -34,8 +34,8 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
       ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
   command.add_option("--odometry", a.request.odometry,
-                     "poses to go with the detections; or 'stereo': from the images, as where there is no file, and "
-                     "without a detector or boxes nothing else");
+                     "poses to go with the detections; or 'stereo': from the images, as where there is no file; "
+                     "that, without a detector or boxes, makes odometry alone");
   a.images.AddTo(command);
   a.config.AddTo(command);
   command.add_option("--out", a.out, "folder to write: a sequence for sslcd_run run")->required();
@@ -80,6 +80,9 @@ int Detect(DetectArguments& a, const Console& console) {
   const bool has_detector = !a.config.Load().vision.detector.empty();  // wrong ones first
   const bool odometry_alone =
       a.request.odometry == "stereo" && !a.images.detects() && a.images.embedder.empty() && !has_detector;
+  if (odometry_alone && a.overlays)
+    throw Error(ErrorKind::kUsage,
+                "--overlays show detections: name a detector (--detector) or boxes (--boxes), or leave it out");
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detections_policy = PartPolicy::kIgnored;
   ChooseOdometry(a.request);
@@ -134,7 +137,8 @@ int Detect(DetectArguments& a, const Console& console) {
   const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
   WriteFileAtomically((out / "config.yaml").string(), yaml);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
-              "; map it with: sslcd_run run " + a.out + " --config " + (out / "config.yaml").string());
+              (odometry_alone ? "; map it with detections: sslcd_run run " : "; map it with: sslcd_run run ") + a.out +
+              " --config " + (out / "config.yaml").string() + (odometry_alone ? " --detections FILE" : ""));
   if (failure) {
     Log(LogLevel::kWarning, "stopped by an error: " + a.out + " holds the frames before it (" +
                                 std::to_string(files.detections.size()) + ")");

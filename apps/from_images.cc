@@ -33,29 +33,33 @@ void WarnOfGround(const GroundReport& ground) {
 
 /// How far off calibration is; what is wrong with the images, the frontend tells.
 RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options) {
+  std::pair<int, int> size(0, 0);  // of the first pair; others are left out
   const auto load = [&](std::size_t i) -> std::optional<std::pair<Image, Image>> {
     const Frame& frame = dataset.frames[i];
     if (frame.image_left.empty() || frame.image_right.empty()) return std::nullopt;
     std::pair<Image, Image> pair{LoadImage(frame.image_left), LoadImage(frame.image_right)};
     const auto& [left, right] = pair;
     if (left.empty() || left.width != right.width || left.height != right.height) return std::nullopt;
+    if (size.first == 0) size = {left.width, left.height};
+    if (size != std::pair(left.width, left.height)) return std::nullopt;
     return pair;
   };
   const StereoCamera camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  try {
-    const RigCheck check = CheckRig(camera, dataset.frames.size(), load, options);
-    if (check.row_error)
-      Log(LogLevel::kInfo, "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px");
-    if (check.disparity_at_infinity != camera.disparity_at_infinity)
-      Log(LogLevel::kWarning,
-          "calibration is off by what " + Number("%.3f", *check.row_error) +
-              " px between rows of left and right images show; the disparity at infinity is taken to be " +
-              Number("%.3f", check.disparity_at_infinity) + " px, as points that come nearer say, not " +
-              Number("%.3f", camera.disparity_at_infinity) + " (vision.odometry.calibrate: false leaves it)");
-    return check;
-  } catch (const Error&) {
-    return {std::nullopt, camera.disparity_at_infinity};
+  const RigCheck check = CheckRig(camera, dataset.frames.size(), load, options);
+  if (!check.row_error) return check;
+  const std::string rows = "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px";
+  if (check.disparity_at_infinity != camera.disparity_at_infinity) {
+    Log(LogLevel::kWarning, "calibration is off: " + rows + ". As points move, the disparity at infinity is " +
+                                Number("%.3f", check.disparity_at_infinity) + " px, which is used instead of " +
+                                Number("%.3f", camera.disparity_at_infinity) +
+                                "; vision.odometry.calibrate: false leaves it");
+  } else if (check.unsure) {
+    Log(LogLevel::kWarning, "calibration is off: " + rows +
+                                ", and no frames tell by how much columns do, so distances may be some per cent off");
+  } else {
+    Log(LogLevel::kInfo, rows);
   }
+  return check;
 }
 
 }  // namespace
@@ -102,7 +106,7 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   if (!sequence.odometry && !detections) return std::nullopt;
   if (!dataset.camera || !dataset.camera_right)
     throw Error(ErrorKind::kBadInput, {dataset.name},
-                "needs calib.txt with P2 and P3 to make anything from its images");
+                "needs calib.txt with P2 and P3 (of grey images P0 and P1) to make anything from its images");
   sequence.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
   if (detections && !boxes.empty()) {
     sequence.boxes = ReadBoxes(boxes);

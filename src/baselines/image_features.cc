@@ -39,8 +39,9 @@ std::vector<std::optional<double>> Disparities(const cv::Mat& left, const cv::Ma
 
 }  // namespace
 
-ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const Camera& camera,
-                              double baseline_m, const AppearanceOptions& options) {
+ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const StereoCamera& stereo,
+                              const AppearanceOptions& options) {
+  const Camera& camera = stereo.left;
   const cv::Mat in_left = Read(left), in_right = Read(right);
   if (in_left.size() != in_right.size())
     throw Error(ErrorKind::kBadInput, {right}, "has not the size of " + left + "; both must be rectified alike");
@@ -62,8 +63,9 @@ ImageFeatures ExtractFeatures(const std::string& left, const std::string& right,
     std::memcpy(features.descriptors[i].data(), descriptors.ptr(static_cast<int>(i)), sizeof(BinaryDescriptor));
     std::optional<Vec3>& point = features.points.emplace_back();
     if (!disparities[i]) continue;
-    const double depth = camera.fx * baseline_m / *disparities[i];
-    if (depth > options.max_depth_m) continue;
+    const double disparity = *disparities[i] - stereo.disparity_at_infinity;
+    const double depth = camera.fx * stereo.baseline_m / disparity;
+    if (!(disparity > 0) || depth > options.max_depth_m) continue;
     point = depth * Vec3((p.x - camera.cx) / camera.fx, (p.y - camera.cy) / camera.fy, 1);
   }
   return features;

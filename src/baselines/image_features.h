@@ -22,8 +22,8 @@ struct ImageFeatures {
 /// 2010, which VINS-Fusion uses). Depth by tracking each from left to right and back (Lucas and Kanade, as in
 /// VINS-Fusion), to a fraction of a pixel. Throws Error(kBadInput) on an image that cannot be read, or a pair of
 /// different sizes.
-ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const Camera& camera,
-                              double baseline_m, const AppearanceOptions& options);
+ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const StereoCamera& stereo,
+                              const AppearanceOptions& options);
 
 /// Where the camera of `query` stands in that of `old`, and how many points agree. None: too few matches, or no pose.
 /// Matches are each other's nearest; a pose by RANSAC; then, as ORB-SLAM's loop closing does, all points of `old` are

@@ -16,14 +16,16 @@ Camera RightOf(const StereoCamera& stereo) {
 }
 
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
-  constexpr double kSame = 1e-3, kMostAtInfinity = 3;  // [px], [m]
+  constexpr double kSame = 1e-3;  // [px], [m]
   const double baseline = left.offset.x() - right.offset.x();
   const bool rectified = std::abs(left.fx - right.fx) < kSame && std::abs(left.fy - right.fy) < kSame &&
-                         std::abs(left.cx - right.cx) <= kMostAtInfinity && std::abs(left.cy - right.cy) < kSame;
+                         std::abs(left.cx - right.cx) <= StereoCamera::kMostAtInfinity &&
+                         std::abs(left.cy - right.cy) < kSame;
   if (!rectified || !(baseline > kSame))
     throw Error(
         ErrorKind::kBadInput,
-        "the two cameras are no rectified pair: P2 and P3 of calib.txt must agree in their first three columns, "
+        "the two cameras are no rectified pair: P2 and P3 of calib.txt (of grey images P0 and P1) must agree in their "
+        "first three columns, "
         "but for up to 3 px of their upper right corners, and the fourth must put the right camera to the right of the "
         "left one");
   return {left, baseline, left.cx - right.cx};

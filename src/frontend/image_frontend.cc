@@ -127,7 +127,9 @@ ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& option
   Impl& m = *impl_;
   if (std::none_of(sequence.frames.begin(), sequence.frames.end(),
                    [](const Frame& frame) { return !frame.image_left.empty() && !frame.image_right.empty(); }))
-    throw Error(ErrorKind::kBadInput, "no frame has a left and a right image (image_2/000000.png, image_3/000000.png)");
+    throw Error(
+        ErrorKind::kBadInput,
+        "no frame has a left and a right image (image_2/000000.png, image_3/000000.png; grey: image_0, image_1)");
   m.sequence = std::move(sequence);
   m.options = options;
   m.hooks = std::move(hooks);

@@ -2,6 +2,7 @@
 #include "sslcd/io/calib_reader.h"
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "io/files.h"
@@ -16,23 +17,24 @@ struct Entry {
   std::vector<std::string> fields;
 };
 
-/// "key: field field ..." rows by key; those without one are P0, P1, ... Fields become numbers only where they are
-/// used: dates are among them.
+/// "key: field field ..." rows by key; where no row has one they are P0, P1, ... Fields become numbers only where they
+/// are used: dates are among them.
 class Entries {
  public:
   explicit Entries(const std::string& path) : path_(path) {
     TextRows row(path);
-    int nameless = 0;
+    std::map<std::string, Entry> nameless;
     while (row.Next()) {
       std::string key(row.Text(0));
       const bool named = !ParseNumber(key);
       if (key.back() == ':') key.pop_back();
-      Entry& entry = entries_[named ? key : "P" + std::to_string(nameless++)];
+      Entry& entry = named ? entries_[key] : nameless["P" + std::to_string(nameless.size())];
       entry.line = row.where().line;
       entry.fields.clear();
       for (std::size_t i = named ? 1 : 0; i < row.size(); ++i) entry.fields.emplace_back(row.Text(i));
       last_line_ = entry.line;
     }
+    if (entries_.empty()) entries_ = std::move(nameless);
   }
 
   /// The first of the keys that is there, as `count` numbers; empty: none is.
@@ -121,13 +123,13 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   Entries entries(path);
   Calibration calibration;
   const bool grey = pair == CameraPair::kGrey;
-  calibration.left = grey ? entries.CameraOf({"P0"}) : entries.CameraOf({"P2", "P_rect_02"});
+  calibration.left = grey ? entries.CameraOf({"P0", "P2"}) : entries.CameraOf({"P2", "P_rect_02"});
   if (!calibration.left) {
-    entries.Fail((grey ? std::string("no P0 here, the left grey camera")
+    entries.Fail((grey ? std::string("no P0 (or P2) here, the left camera")
                        : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
                  "; found: " + entries.Keys() + ". Add it, or remove the file where nothing is projected");
   }
-  calibration.right = grey ? entries.CameraOf({"P1"}) : entries.CameraOf({"P3", "P_rect_03"});
+  calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
     if (*camera && !size.empty())

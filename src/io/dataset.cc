@@ -139,7 +139,7 @@ void Loader::AddFramesWithoutPoses() {
   }
   if (stamps.empty())
     throw Error(ErrorKind::kBadInput, {request_.path},
-                "no frames: odometry from images needs times.txt or a folder of left images (image_2)");
+                "no frames: odometry from images needs times.txt or a folder of left images (image_2, or image_0)");
   if (const auto warning = GapWarning(stamps)) Warn(*warning);
   frames_in_file_ = stamps.size();
   const std::size_t limit = request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : stamps.size();

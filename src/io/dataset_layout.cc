@@ -23,15 +23,22 @@ std::string LastName(const std::string& folder) {
 
 std::string Stem(const std::string& name) { return name.substr(0, name.find('.')); }
 
-constexpr std::array<const char*, 2> kColourImages = {"/image_2", "/image_3"};
-constexpr std::array<std::array<const char*, 2>, 2> kGreyImages = {
-    {{"/image_0", "/image_1"}, {"/image_l", "/image_r"}}};
+struct ImagePair {
+  const char *left, *right;
+  CameraPair cameras;
+};
+constexpr std::array<ImagePair, 3> kImagePairs = {{{"/image_2", "/image_3", CameraPair::kColour},
+                                                   {"/image_0", "/image_1", CameraPair::kGrey},
+                                                   {"/image_l", "/image_r", CameraPair::kGrey}}};
+
+bool HasImages(const std::string& folder) {
+  return IsFolder(folder) && (!NumberedFiles(folder, ".png").empty() || !NumberedFiles(folder, ".jpg").empty());
+}
 
 bool LooksLikeSequence(const std::string& folder) {
   const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
-  return IsFolder(folder + kColourImages[0]) ||
-         std::any_of(kGreyImages.begin(), kGreyImages.end(),
-                     [&](const auto& pair) { return IsFolder(folder + pair[0]); }) ||
+  return std::any_of(kImagePairs.begin(), kImagePairs.end(),
+                     [&](const ImagePair& pair) { return IsFolder(folder + pair.left); }) ||
          std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
 }
 bool LooksLikeRaw(const std::string& folder) {
@@ -49,7 +56,7 @@ DatasetFormat Guess(const std::string& root) {
   if (LooksLikeTracking(root)) return DatasetFormat::kKittiTracking;
   std::string message =
       "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, detections.txt, "
-      "sequence.yaml, image_2/ or image_0/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or "
+      "sequence.yaml, image_2/, image_0/ or image_l/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or "
       "tracklet_labels.xml), "
       "KITTI tracking (calib/ or label_02/)";
   std::vector<std::string> inside;
@@ -118,14 +125,13 @@ DatasetLayout SequenceLayout(const std::string& folder) {
   layout.sequence_yaml = IfFile(folder + "/sequence.yaml");
   layout.embeddings = IfFile(folder + "/embeddings.npy");
   layout.colours = IfFile(folder + "/colours.npy");
-  layout.images = IfFolder(folder + kColourImages[0]);
-  layout.images_right = IfFolder(folder + kColourImages[1]);
-  for (const auto& [left, right] : kGreyImages) {  // taken where there are none in colour
-    if (!layout.images.empty() || !IsFolder(folder + left)) continue;
-    layout.images = folder + left;
-    layout.images_right = IfFolder(folder + right);
-    layout.cameras = CameraPair::kGrey;
-  }
+  const auto complete = std::find_if(kImagePairs.begin(), kImagePairs.end(), [&](const ImagePair& pair) {
+    return HasImages(folder + pair.left) && HasImages(folder + pair.right);
+  });
+  const ImagePair& pair = complete == kImagePairs.end() ? kImagePairs[0] : *complete;
+  layout.images = IfFolder(folder + pair.left);
+  layout.images_right = IfFolder(folder + pair.right);
+  layout.cameras = pair.cameras;
   return layout;
 }
 
@@ -182,7 +188,8 @@ DatasetLayout RawLayout(const std::string& root) {
   } else {
     message += poses ? " or add odometry.txt" : " or add detections.txt";
   }
-  if (policy == PartPolicy::kIfThere) message += "; or add left and right images (image_2, image_3) to make it from";
+  if (policy == PartPolicy::kIfThere)
+    message += "; or add left and right images (image_2, image_3; grey: image_0, image_1) to make it from";
   throw Error(ErrorKind::kBadInput, {root}, message);
 }
 

@@ -177,7 +177,7 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.linear_solver_ordering.reset(ordering);
-  options.max_num_iterations = 8;
+  options.max_num_iterations = calibrate ? 20 : 8;
   Solve(options, problem);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i]->T_odom_left *= Pose::Exp(deltas[i]);

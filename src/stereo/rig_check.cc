@@ -27,7 +27,7 @@ std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
 /// Disparities at infinity of bursts of frames: as many as fill a window, from evenly spread ones on.
 std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                              const StereoOdometryOptions& options) {
-  constexpr std::size_t kBursts = 8, kWindows = 3;  // the most bursts; the most frames of one, in windows
+  constexpr std::size_t kBursts = 8, kWindows = 6;  // the most bursts; the most frames of one, in windows
   const std::size_t most = kWindows * static_cast<std::size_t>(options.window);
   std::vector<double> found;
   std::size_t next = 0;
@@ -35,14 +35,14 @@ std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, con
     const std::size_t first = next;
     StereoOdometry odometry(camera, options);
     std::optional<double> value;
-    OdometryStatus status = OdometryStatus::kFirst;
-    for (; next < std::min(frames, first + most) && !value && status != OdometryStatus::kLost; ++next) {
-      const auto pair = load(next);
-      status =
-          (pair ? odometry.AddFrame({pair->first.view(), pair->second.view()}) : odometry.AddMissingFrame()).status;
+    for (; next < std::min(frames, first + most) && !value; ++next) {
+      if (const auto pair = load(next))
+        odometry.AddFrame({pair->first.view(), pair->second.view()});
+      else
+        odometry.AddMissingFrame();
       value = odometry.DisparityAtInfinity();
     }
-    if (value) found.push_back(*value);
+    if (value && std::abs(*value) < StereoCamera::kMostAtInfinity) found.push_back(*value);
     next = std::max(next, first + frames / kBursts);
   }
   return found;
@@ -62,10 +62,11 @@ double ErrorOfMedian(const std::vector<double>& values, double median) {
 RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                   const StereoOdometryOptions& options) {
   const double calibrated = camera.disparity_at_infinity;
-  RigCheck check{RowErrorOf(camera, frames, load, options), calibrated};
+  RigCheck check{RowErrorOf(camera, frames, load, options), calibrated, false};
   if (!options.calibrate || !check.row_error || *check.row_error < kSure) return check;
   const std::vector<double> found = InBursts(camera, frames, load, options);
-  if (found.empty()) return check;
+  check.unsure = found.empty();
+  if (check.unsure) return check;
   const double median = Median(found);
   const double trust = std::pow(*check.row_error, 2);
   const double doubt = std::pow(std::max(kSure, ErrorOfMedian(found, median)), 2);

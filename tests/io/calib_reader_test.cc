@@ -44,14 +44,15 @@ TEST(CalibReader, KeysMayComeWithoutColon) {
 TEST(CalibReader, ReadsGreyCamerasAndRowsWithoutKeys) {
   const TempFolder folder;
   const std::string left = "700 0 600 0 0 710 180 0 0 0 1 0", right = "700 0 600 -350 0 710 180 0 0 0 1 0";
-  for (const std::string& text : {left + "\n" + right, "P0: " + left + "\nP1: " + right + "\nP2: " + right}) {
+  for (const std::string& text : {left + "\n" + right, "P0: " + left + "\nP1: " + right + "\nP2: " + right + "\n1 2",
+                                  "P2: " + left + "\nP3: " + right}) {
     const Calibration calibration = ReadCalibration(folder.Write("calib.txt", text), CameraPair::kGrey);
     ASSERT_TRUE(calibration.left && calibration.right);
     EXPECT_EQ(calibration.left->fy, 710);
     EXPECT_NEAR(MakeStereoCamera(*calibration.left, *calibration.right).baseline_m, 0.5, 1e-12);
   }
-  ExpectError([&] { ReadCalibration(folder.Write("calib.txt", "P2: " + left), CameraPair::kGrey); },
-              {"calib.txt:1", "no P0", "found: P2"});
+  ExpectError([&] { ReadCalibration(folder.Write("calib.txt", "P3: " + left), CameraPair::kGrey); },
+              {"calib.txt:1", "no P0", "found: P3"});
 }
 
 TEST(CalibReader, ReadsARawDrive) {

@@ -80,6 +80,14 @@ TEST_F(Images, InColourAreTakenBeforeGreyOnes) {
   }
 }
 
+TEST_F(Images, GreyPairsAreTakenOnlyWhole) {
+  folder_.Write("image_0/000000.png", "picture");
+  Remove("image_3");
+  folder_.Write("odometry.txt", kPoses);
+  folder_.Write("detections.txt", kRow);
+  EXPECT_THAT(Load().frames[0].image_left, EndsWith("image_2/000000.png")) << "image_1 is missing";
+}
+
 TEST_F(Images, AreNotEnoughWherePartsAreNeeded) {
   request_.odometry_policy = PartPolicy::kNeeded;
   ExpectError([this] { Load(); }, {"no odometry here", "--odometry"});

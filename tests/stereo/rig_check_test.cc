@@ -55,6 +55,12 @@ TEST(CheckRig, BelievesACalibrationThatFitsRows) {
   EXPECT_EQ(check.disparity_at_infinity, 0);
 }
 
+TEST(CheckRig, DoesNotBelieveThatImagesWereNotRectified) {
+  const RigCheck check = Rig(-6, 0.3).Check();
+  EXPECT_EQ(check.disparity_at_infinity, 0);
+  EXPECT_TRUE(check.unsure);
+}
+
 TEST(CheckRig, LeavesCalibrationAloneIfAskedTo) {
   StereoOdometryOptions options;
   options.calibrate = false;
@@ -67,6 +73,7 @@ TEST(CheckRig, TellsNothingWithoutMotionOrImages) {
   Rig still(-0.4, 0.3, 1);
   still.pairs.resize(20, still.pairs[0]);
   EXPECT_EQ(still.Check().disparity_at_infinity, 0);
+  EXPECT_TRUE(still.Check().unsure);
   const auto missing = [](std::size_t) { return std::nullopt; };
   const RigCheck none = CheckRig(Tunnel::Camera(), 20, missing, {});
   EXPECT_FALSE(none.row_error);

@@ -20,14 +20,15 @@ struct Camera {
 struct StereoCamera {
   Camera left;
   double baseline_m = 0;
-  double disparity_at_infinity = 0;  ///< [px] cx of the left one less cx of the right one
+  double disparity_at_infinity = 0;             ///< [px] cx of the left one less cx of the right one
+  static constexpr double kMostAtInfinity = 3;  ///< [px] more than that is another rectification
 };
 
 /// The right one of a pair.
 Camera RightOf(const StereoCamera& stereo);
 
-/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, but for 3 px between its
-/// columns, and the second stands to the right of the first.
+/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, but for kMostAtInfinity between
+/// its columns, and the second stands to the right of the first.
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right);
 
 /// Throws Error(kBadInput) where the camera knows the size of its images, and that is another one.

@@ -11,7 +11,7 @@ namespace sslcd {
 /// The pair of cameras of a KITTI-style rig that is used.
 enum class CameraPair {
   kColour,  ///< P2 and P3
-  kGrey,    ///< P0 and P1
+  kGrey,    ///< P0 and P1, else those
 };
 
 /// Calibration of a KITTI-style rig. `cam` is the rectified camera 0, the frame that labels and projections are given
@@ -27,7 +27,7 @@ struct Calibration {
 };
 
 /// Reads calib.txt of KITTI odometry, tracking or object, with or without colons after the keys, or a raw drive's
-/// calib_cam_to_cam.txt (P_rect_02, S_rect_02; no T_cam_velo in there). Rows of numbers without a key are P0, P1, ...
+/// calib_cam_to_cam.txt (P_rect_02, S_rect_02; no T_cam_velo in there). Where no row has a key they are P0, P1, ...
 /// The image size is known from S_rect_02 only. Throws Error with file:line when the left camera is missing, naming the
 /// keys found, or when an entry is no projection or rotation.
 Calibration ReadCalibration(const std::string& path, CameraPair pair = CameraPair::kColour);

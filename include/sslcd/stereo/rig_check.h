@@ -18,6 +18,7 @@ using PairLoader = std::function<std::optional<std::pair<Image, Image>>(std::siz
 struct RigCheck {
   std::optional<double> row_error;   ///< RowError [px]
   double disparity_at_infinity = 0;  ///< of StereoCamera, what should be used instead of what it has [px]
+  bool unsure = false;               ///< rows show that calibration is off, and no frames tell by how much columns are
 };
 
 /// Looks at pairs all over the sequence for their row error, and drives StereoOdometry through some eight bursts of
