@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <memory>
-#include <tuple>
 #include <utility>
 
 #include "baselines/image_features.h"
@@ -89,9 +89,11 @@ class Recogniser {
   const ImageFeatures& FeaturesOf(int frame) {
     const auto known = features_.find(frame);
     if (known != features_.end()) return known->second;
-    const auto& [left, right] = std::tie(dataset_.frames[frame].image_left, dataset_.frames[frame].image_right);
+    const std::filesystem::path left = dataset_.frames[frame].image_left, right = dataset_.frames[frame].image_right;
+    const auto missing = left.parent_path().parent_path() / "image_3" / left.filename();
     const StereoCamera camera = MakeStereoCamera(*dataset_.camera, *dataset_.camera_right);
-    ImageFeatures features = ExtractFeatures(left, right, camera, options_);
+    ImageFeatures features =
+        ExtractFeatures(left.string(), (right.empty() ? missing : right).string(), camera, options_);
     return features_.insert({frame, std::move(features)}).first->second;
   }
 

@@ -25,9 +25,8 @@ StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
     throw Error(
         ErrorKind::kBadInput,
         "the two cameras are no rectified pair: P2 and P3 of calib.txt (of grey images P0 and P1) must agree in their "
-        "first three columns, "
-        "but for up to 3 px of their upper right corners, and the fourth must put the right camera to the right of the "
-        "left one");
+        "first three columns, but for up to 3 px between the columns of their principal points, and the fourth must "
+        "put the right camera to the right of the left one");
   return {left, baseline, left.cx - right.cx};
 }
 

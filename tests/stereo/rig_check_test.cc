@@ -14,12 +14,16 @@ namespace {
 
 Image Copy(const cv::Mat& grey) { return {{grey.data, grey.data + grey.total()}, grey.cols, grey.rows, 1}; }
 
-/// A drive ahead, whose right images lie some pixels to the right of and below where calibration has them.
+/// A drive ahead, whose right images are turned and then lie some pixels to the right of and below where calibration
+/// has them.
 struct Rig {
   std::vector<std::pair<Image, Image>> pairs;
 
-  Rig(double right_px, double down_px, int frames = 20) {
-    const cv::Matx23d shift(1, 0, right_px, 0, 1, down_px);
+  Rig(double right_px, double down_px, int frames = 20, double roll_deg = 0) {
+    const Camera camera = Tunnel::Camera().left;
+    cv::Mat shift =
+        cv::getRotationMatrix2D({static_cast<float>(camera.cx), static_cast<float>(camera.cy)}, roll_deg, 1);
+    shift.at<double>(0, 2) += right_px, shift.at<double>(1, 2) += down_px;
     for (int i = 0; i < frames; ++i) {
       const Tunnel::Pair seen = Tunnel().Look(Pose::Trans(0, 0, 0.4 * i));
       cv::Mat moved;
@@ -59,6 +63,14 @@ TEST(CheckRig, DoesNotBelieveThatImagesWereNotRectified) {
   const RigCheck check = Rig(-6, 0.3).Check();
   EXPECT_EQ(check.disparity_at_infinity, 0);
   EXPECT_TRUE(check.unsure);
+}
+
+TEST(CheckRig, DoesNotTakeARolledCameraForAnother) {
+  for (double roll_deg : {-0.4, 0.2, 0.4}) {
+    const RigCheck check = Rig(0, 0, 20, roll_deg).Check();
+    EXPECT_GT(*check.row_error, 0.2);
+    EXPECT_EQ(check.disparity_at_infinity, 0) << roll_deg;
+  }
 }
 
 TEST(CheckRig, LeavesCalibrationAloneIfAskedTo) {

@@ -28,7 +28,7 @@ struct RigCheck {
 ///
 /// The median of the bursts counts as much as it is surer, by their scatter, than calibration, which is taken to be as
 /// far off in columns as it is in rows (RowError). Where rows fit to 0.03 px, or their error is not known, or
-/// options.calibrate is off, it stays.
+/// what is found is less than a quarter of it, as a rolled right camera has it, or options.calibrate is off, it stays.
 ///
 /// Throws Error(kBadInput) as StereoOdometry does.
 RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
