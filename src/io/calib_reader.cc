@@ -125,9 +125,11 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   const bool grey = pair == CameraPair::kGrey;
   calibration.left = grey ? entries.CameraOf({"P0", "P2"}) : entries.CameraOf({"P2", "P_rect_02"});
   if (!calibration.left) {
-    entries.Fail((grey ? std::string("no P0 (or P2) here, the left camera")
-                       : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
-                 "; found: " + entries.Keys() + ". Add it, or remove the file where nothing is projected");
+    entries.Fail(
+        (grey ? std::string("no P0 (or P2) here, the left camera")
+              : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
+        "; found: " + entries.Keys() +
+        ". Add it (grey images need both of their folders to be taken), or remove the file where nothing is projected");
   }
   calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);

@@ -189,8 +189,8 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
 
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
                                  const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
-  CheckSize(images.left, camera.left);
   const GreyPair grey = GreyOf(images, camera);
+  CheckSize(images.left, camera.left);
   std::vector<LiftedBox> lifted(boxes.size());
   std::vector<std::size_t> order;
   std::vector<Box2d> clipped(boxes.size());
