@@ -69,17 +69,13 @@ Answer TimedMatch(const LayoutPair& pair, const Options& options) {
 std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options, int threads,
                              const Console& console) {
   std::vector<Answer> answers(pairs.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&](bool tells) {
-    for (std::size_t i = next++; i < pairs.size(); i = next++) {
-      answers[i] = TimedMatch(pairs[i], options);
-      if (tells) console.Progress("pair", static_cast<int>(i) + 1, static_cast<int>(pairs.size()));
-    }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work, false);
-  work(true);
-  for (std::thread& helper : helpers) helper.join();
+  std::atomic<int> done{0};
+  const std::thread::id here = std::this_thread::get_id();
+  ForEach(pairs.size(), threads, [&](std::size_t i) {
+    answers[i] = TimedMatch(pairs[i], options);
+    ++done;
+    if (std::this_thread::get_id() == here) console.Progress("pair", done, static_cast<int>(pairs.size()));
+  });
   console.EndProgress();
   return answers;
 }

@@ -17,6 +17,7 @@
 #include "sslcd/io/boxes_reader.h"
 #include "sslcd/stereo/ground_alignment.h"
 #include "sslcd/stereo/rig_check.h"
+#include "threads.h"
 
 namespace sslcd::apps {
 namespace {
@@ -62,6 +63,16 @@ RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options
   return check;
 }
 
+/// Where two cameras should look for AlignGround; the first left image says how many rows there are.
+std::optional<double> SpotAheadOf(const Dataset& dataset, double height_m) {
+  const auto has_image = [](const Frame& frame) { return !frame.image_left.empty(); };
+  const auto first = std::find_if(dataset.frames.begin(), dataset.frames.end(), has_image);
+  if (!dataset.camera || !dataset.camera_right || first == dataset.frames.end()) return std::nullopt;
+  const Image image = LoadImage(first->image_left);
+  if (image.empty()) return std::nullopt;  // the frontend tells
+  return SpotAhead(*dataset.camera, image.height, height_m);
+}
+
 }  // namespace
 
 void ImageArguments::AddTo(CLI::App& command) {
@@ -89,7 +100,9 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
     dataset.camera_right->cx = dataset.camera->cx - check.disparity_at_infinity;
     if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
   }
+  const std::optional<double> spot_ahead = SpotAheadOf(dataset, vision.lift.ground.height_m);
   return config.Load([&](Configuration& c) {
+    if (spot_ahead) c.options.loop.views.ahead_m = *spot_ahead;
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error_rad);
@@ -123,7 +136,7 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   return frontend;
 }
 
-ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration) {
+ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads) {
   std::map<int, std::pair<std::string, std::string>> paths;
   for (const Frame& frame : dataset.frames)
     if (!frame.image_left.empty() && !frame.image_right.empty())
@@ -136,28 +149,35 @@ ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configu
     Log(LogLevel::kWarning, std::string("images of different passes are not aligned: ") + error.what());
     return {};
   }
-  // What is wrong with the images is said once: it may be wrong with all of them.
-  const auto complain = [said = std::make_shared<bool>(false)](const std::string& path, const std::string& what) {
-    if (!*said) Log(LogLevel::kWarning, path + ": not aligned with images of other passes: " + what);
-    *said = true;
-    return std::nullopt;
-  };
-  return [paths, camera, complain, vision = configuration.vision](int a, int b,
-                                                                  const Pose& guess) -> std::optional<RelativePose> {
-    if (Interrupted() || paths.count(a) == 0 || paths.count(b) == 0) return std::nullopt;
+  const auto align = [paths, camera, vision = configuration.vision](const ViewPair& pair, std::string& problem) {
+    std::optional<RelativePose> answer;
+    const auto a = paths.find(pair.a_frame), b = paths.find(pair.b_frame);
+    if (Interrupted() || a == paths.end() || b == paths.end()) return answer;
     Image images[4];
-    const std::string* const files[] = {&paths.at(a).first, &paths.at(a).second, &paths.at(b).first,
-                                        &paths.at(b).second};
+    const std::string* const files[] = {&a->second.first, &a->second.second, &b->second.first, &b->second.second};
+    const auto complain = [&](const std::string& file, const std::string& what) {
+      problem = file + ": not aligned with images of other passes: " + what;
+    };
     for (int i = 0; i < 4; ++i) {
       images[i] = LoadImage(*files[i]);
-      if (images[i].empty()) return complain(*files[i], "it cannot be read");
+      if (images[i].empty()) return complain(*files[i], "it cannot be read"), answer;
     }
     try {
-      return AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera, guess,
-                         vision.lift.ground, vision.alignment);
+      answer = AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera,
+                           pair.T_a_b_guess, vision.lift.ground, vision.alignment);
     } catch (const Error& error) {  // the run before this is not lost
-      return complain(*files[2], error.what());
+      complain(*files[2], error.what());
     }
+    return answer;
+  };
+  return [align, threads](const std::vector<ViewPair>& pairs) {
+    std::vector<std::optional<RelativePose>> answers(pairs.size());
+    std::vector<std::string> problems(pairs.size());
+    ForEach(pairs.size(), threads, [&](std::size_t i) { answers[i] = align(pairs[i], problems[i]); });
+    // What is wrong with the images is said once: it may be wrong with all of them.
+    const auto first = std::find_if(problems.begin(), problems.end(), [](const std::string& p) { return !p.empty(); });
+    if (first != problems.end()) Log(LogLevel::kWarning, *first);
+    return answers;
   };
 }
 

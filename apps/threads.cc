@@ -2,8 +2,12 @@
 #include "threads.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <thread>
+#include <vector>
 
 namespace sslcd::apps {
 
@@ -15,6 +19,26 @@ void AddThreads(CLI::App& command, int& threads, int least, const std::string& m
     cv::setNumThreads(given > 0 ? std::min(given, HardwareThreads()) : HardwareThreads());
   };
   command.add_option_function<int>("--threads", set, meaning)->check(CLI::Range(least, 1024));
+}
+
+void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr problem;
+  std::mutex mutex;
+  const auto take = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!problem) problem = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(take);
+  take();
+  for (std::thread& helper : helpers) helper.join();
+  if (problem) std::rethrow_exception(problem);
 }
 
 }  // namespace sslcd::apps

@@ -3,13 +3,18 @@
 // A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else POSES is needed).
 // Prints one row for each. Errors as KITTI's (eval/segment_error.h), over sub-paths of all lengths of 10, 20, ... 100
 // m, 200, ... 800 m that begin at any frame, with the disparity at infinity that CheckRig finds; the ATE after SE(3)
-// alignment, and by how much the path is too long; times are those of AddFrame, reading the images left out: by the
+// alignment, and by how much the path is too long; the steps' squared errors by their covariances (median and mean per
+// degree of freedom: .89 and 1 are right); times are those of AddFrame, reading the images left out: by the
 // clock, and of all processors together.
 #include <sys/resource.h>
 
+#include <Eigen/Cholesky>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <numeric>
 
+#include "sslcd/core/median.h"
 #include "sslcd/eval/segment_error.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "stereo/stereo_folder.h"
@@ -31,6 +36,7 @@ void Measure(const std::string& folder, const std::string& poses) {
   StereoOdometry odometry(camera, {});
   std::vector<Pose> est, ref = input.truth;
   int lost = 0, keyframes = 0;
+  std::vector<double> normalised;
   double points = 0, wall = 0, cpu = 0;
   for (std::size_t i = 0; i < input.left.size(); ++i) {
     const cv::Mat left = cv::imread(input.left[i], cv::IMREAD_UNCHANGED);
@@ -44,6 +50,9 @@ void Measure(const std::string& folder, const std::string& poses) {
     lost += step.status == OdometryStatus::kLost;
     keyframes += step.keyframe;
     points += step.points;
+    if (i == 0 || i >= ref.size()) continue;
+    const Vec6 error = ((est[i - 1].inverse() * est[i]).inverse() * (ref[i - 1].inverse() * ref[i])).Log();
+    normalised.push_back(error.dot(step.covariance.ldlt().solve(error)) / 6);
   }
   const std::size_t frames = est.size();
   est.resize(std::min(est.size(), ref.size()));
@@ -57,9 +66,11 @@ void Measure(const std::string& folder, const std::string& poses) {
   std::printf(
       "%-40s at infinity %+.3f px  frames %zu  lost %d  keyframes %d  points %.0f  translation %.3f %%  rotation %.5f "
       "deg/m  "
-      "ATE %.4f m  scale %+.4f %%  wall %.1f ms  cpu %.1f ms\n",
+      "ATE %.4f m  scale %+.4f %%  steps over covariance %.2f %.2f  wall %.1f ms  cpu %.1f ms\n",
       folder.c_str(), camera.disparity_at_infinity, frames, lost, keyframes, points / frames, 100 * error.translation,
-      error.rotation_rad_per_m * 180 / M_PI, ate, 100 * (1 / scale - 1), 1e3 * wall / frames, 1e3 * cpu / frames);
+      error.rotation_rad_per_m * 180 / M_PI, ate, 100 * (1 / scale - 1), normalised.empty() ? NAN : Median(normalised),
+      std::accumulate(normalised.begin(), normalised.end(), 0.) / static_cast<double>(normalised.size()),
+      1e3 * wall / frames, 1e3 * cpu / frames);
 }
 
 }  // namespace

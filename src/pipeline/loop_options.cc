@@ -50,7 +50,8 @@ void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
   visitor.Flag("enabled", options.enabled,
                "where there are stereo images, cameras of different passes are tied by the ground both see");
   visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
-  visitor.Real("ahead_m", options.ahead_m, 0, 100, "the two look at one spot, so far ahead of each ...");
+  visitor.Real("ahead_m", options.ahead_m, 0, 100,
+               "the two look at one spot, so far ahead of each; for images, the tools choose it by the camera ...");
   visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
   visitor.Real("gap_m", options.gap_m, 1, 10000, "so much path lies between the two at least ...");
   visitor.Real("reach_m", options.reach_m, 0, 10000,

@@ -4,7 +4,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "sslcd/core/error.h"
 #include "sslcd/optim/pose_graph_robust.h"
 
 namespace sslcd {
@@ -55,17 +57,26 @@ std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const Path
                               const LoopOptions& loop_options) {
   const LoopViewOptions& options = loop_options.views;
   const double reach_m = std::max(options.reach_m, PathUntilOff(loop_options.odometry, options.guess_m));
-  std::vector<ViewTie> ties;
+  std::vector<ViewTie> tried;
+  std::vector<ViewPair> pairs;
   double last_m = -options.every_m;
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     if (frames[i].travelled - last_m < options.every_m) continue;
     const int old = SameSpot(frames, i, path, reach_m, options);
     if (old < 0) continue;
     last_m = frames[i].travelled;
-    const Pose guess = frames[old].T_world_cam.inverse() * frames[i].T_world_cam;
-    const std::optional<RelativePose> aligned = align(frames[old].frame, frames[i].frame, guess);
-    if (aligned && IsMeasurement(*aligned)) ties.push_back({old, i, *aligned});
+    tried.push_back({old, i, {}});
+    pairs.push_back({frames[old].frame, frames[i].frame, frames[old].T_world_cam.inverse() * frames[i].T_world_cam});
   }
+  if (pairs.empty()) return {};
+  const std::vector<std::optional<RelativePose>> answers = align(pairs);
+  if (answers.size() != pairs.size())
+    throw Error(ErrorKind::kBadInput, {"view aligner"},
+                "gave " + std::to_string(answers.size()) + " answers for " + std::to_string(pairs.size()) +
+                    " pairs of frames: it must give one each");
+  std::vector<ViewTie> ties;
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (answers[i] && IsMeasurement(*answers[i])) ties.push_back({tried[i].from, tried[i].to, *answers[i]});
   return ties;
 }
 

@@ -68,40 +68,74 @@ std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const Stere
   return found->at;
 }
 
+/// Places on the ground in one stereo pair.
+struct PairView {
+  GroundPlane plane;
+  std::vector<Vec3> places;  ///< by the plane
+  std::vector<StereoPixel> pixels;
+};
+
 /// Where both images of a pair show places on the ground that the left one has at these pixels.
-std::vector<StereoPixel> InBothImages(const StereoView& images, const StereoCamera& camera, const GroundPlane& plane,
-                                      const std::vector<cv::Point2f>& left) {
+PairView InBothImages(const StereoView& images, const StereoCamera& camera, const GroundPlane& plane,
+                      const std::vector<cv::Point2f>& left) {
   StereoOdometryOptions options;
   options.patch_px = 15;  // seen from so near, and so weak in texture
   const StereoPyramids pyramids = BuildPyramids(images, options);
+  PairView view{plane, {}, {}};
   std::vector<cv::Point2f> guess = left;
-  for (cv::Point2f& p : guess) p.x = static_cast<float>(ProjectStereo(camera, PlaceOnGround(camera, plane, p)).right);
+  for (cv::Point2f& p : guess) {
+    view.places.push_back(PlaceOnGround(camera, plane, p));
+    p.x = static_cast<float>(ProjectStereo(camera, view.places.back()).right);
+  }
   const Followed right = Follow(pyramids.left, pyramids.right, left, guess, kFine, options);
-  std::vector<StereoPixel> pixels;
   for (std::size_t i = 0; i < left.size(); ++i) {
     std::optional<cv::Point2f> at;
     if (right.found[i]) at = FindInRight(pyramids, camera, plane, left[i], right.at[i]);
     const bool found = at && IsPair(camera, left[i], *at, options);
-    pixels.push_back({left[i].x, left[i].y, found ? at->x : NAN});
+    view.pixels.push_back({left[i].x, left[i].y, found ? at->x : NAN});
   }
-  return pixels;
+  return view;
+}
+
+constexpr double kLeastPx = 0.1;  // finer than that nothing is found
+
+/// By the noise of the left pixel. The right column is looked for from there: it is off by as much, and the disparity
+/// by its own.
+Eigen::Matrix3d WeightBy(double column_px, double row_px) {
+  constexpr double kDisparityPx = 0.15;
+  Eigen::Matrix3d weight;
+  weight << 1 / column_px, 0, 0,  //
+      0, 1 / row_px, 0,           //
+      1 / kDisparityPx, 0, -1 / kDisparityPx;
+  return weight;
+}
+
+/// Patches of ground are laid over each other to half a pixel of the view that has them farther away: what that is in
+/// this view, which has them `here` metres ahead, the other one `there`.
+Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, double here, double there) {
+  constexpr double kPatchPx = 0.5;
+  const double off_m = kPatchPx * std::max(here, there) / camera.left.fx;
+  return WeightBy(std::hypot(kLeastPx, off_m * camera.left.fx / here),
+                  std::hypot(kLeastPx, off_m * camera.left.fy * height_m / (here * here)));
 }
 
 /// The pose T_a_b of the left cameras that fits all four images best, from `guess` on. None: too few places.
-std::optional<RelativePose> AdjustPose(const std::vector<StereoPixel>& in_a, const std::vector<StereoPixel>& in_b,
-                                       const StereoCamera& camera, const Pose& guess, int min_points) {
+std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_b, const StereoCamera& camera,
+                                       const Pose& guess, int min_points) {
   StereoFrame a, b{guess, {}};
   OdometryPoints points;
-  for (int i = 0; i < static_cast<int>(in_a.size()); ++i) {
-    const bool placed_by_a = !std::isnan(in_a[i].right);
-    if (!placed_by_a && std::isnan(in_b[i].right)) continue;
-    points[i] = placed_by_a ? Triangulate(camera, in_a[i]) : Vec3(guess * Triangulate(camera, in_b[i]));
-    a.sightings.push_back({i, in_a[i]});
-    b.sightings.push_back({i, in_b[i]});
+  for (int i = 0; i < static_cast<int>(in_a.pixels.size()); ++i) {
+    const StereoPixel &pixel_a = in_a.pixels[i], &pixel_b = in_b.pixels[i];
+    const bool placed_by_a = !std::isnan(pixel_a.right);
+    if (!placed_by_a && std::isnan(pixel_b.right)) continue;
+    points[i] = placed_by_a ? Triangulate(camera, pixel_a) : Vec3(guess * Triangulate(camera, pixel_b));
+    a.sightings.push_back({i, pixel_a, WeightBy(kLeastPx, kLeastPx)});  // places are chosen there
+    b.sightings.push_back(
+        {i, pixel_b, WeightOfPatch(camera, in_b.plane.height_m, in_b.places[i].z(), in_a.places[i].z())});
   }
   if (static_cast<int>(points.size()) < min_points) return std::nullopt;
-  constexpr double kLossPx = 1;  // between passes, patches are off by some tenths
-  RefineWindow(camera, 1, {&a, &b}, kLossPx, points);
+  constexpr double kLoss = 2;  // standard deviations
+  RefineWindow(camera, 1, {&a, &b}, kLoss, points);
   constexpr double kAlike = 10;  // patches overlap, and errors of neighbours are alike
   return RelativePose{b.T_odom_left, kAlike * StepCovariance(camera, a, b, points, PixelNoise(camera, b, points))};
 }
@@ -120,6 +154,13 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
   visitor.Real("max_sigma_m", options.max_sigma_m, 0, 100, "found only if its place is known this well");
 }
 
+std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m) {
+  constexpr double kCommon = 7, kFarthest = 12;  // [m] of ground, seen by both
+  const double below = (rows - camera.cy) / camera.fy, nearest = height_m / below;
+  if (!(below > 0) || nearest > kFarthest) return std::nullopt;
+  return nearest + 0.5 * kCommon;
+}
+
 std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
                                         const Pose& T_a_b_guess, const GroundOptions& ground,
                                         const GroundAlignmentOptions& options) {
@@ -130,10 +171,12 @@ std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b
   const Pose T_left_ref = Pose::Trans(camera.left.offset);
   const Pose T_ref_ground_a = T_left_ref.inverse() * view_a.T_cam_ground;
   const Pose T_ref_ground_b = T_left_ref.inverse() * view_b.T_cam_ground;
-  const std::optional<Pose> motion =
-      FindMotion(view_a, view_b, camera, OnGround(T_ref_ground_a.inverse() * T_a_b_guess * T_ref_ground_b), options);
-  if (!motion) return std::nullopt;
-  const std::optional<CommonGround> common = FindCommonGround(view_a, view_b, camera, *motion, options);
+  const Pose guess = OnGround(T_ref_ground_a.inverse() * T_a_b_guess * T_ref_ground_b);
+  std::optional<CommonGround> common = FindCommonGround(view_a, view_b, camera, guess, options);
+  if (!common) {  // it is off by more than patches are looked for
+    const std::optional<Pose> motion = FindMotion(view_a, view_b, camera, guess, options);
+    if (motion) common = FindCommonGround(view_a, view_b, camera, *motion, options);
+  }
   if (!common) return std::nullopt;
   const Pose by_planes = view_a.T_cam_ground * common->motion * view_b.T_cam_ground.inverse();
   const std::optional<RelativePose> left =

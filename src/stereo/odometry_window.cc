@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "sslcd/core/median.h"
 
 namespace sslcd {
 namespace {
@@ -17,11 +20,11 @@ using Vec3Map = Eigen::Map<Vec3>;
 template <int columns>
 using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor>>;
 
-constexpr double kNearest = 0.1;       // [m] in front of the camera
-constexpr double kMinPixelNoise = .1;  // [px] no matter how well everything seems to fit
+constexpr double kNearest = 0.1;             // [m] in front of the camera
+constexpr double kMinPixelNoise = .1;        // no matter how well everything seems to fit
+constexpr double kSigmasPerMedian = 1.4826;  // of the absolute values of what is normally distributed
 
-/// Residual [px] of one sighting (column left, row, column right), with derivatives. That of the column right by the
-/// disparity at infinity is -1.
+/// Weighted residual of one sighting (column, row, right column), with derivatives.
 struct Reprojection {
   bool in_front = false;
   Vec3 residual = Vec3::Zero();
@@ -29,21 +32,30 @@ struct Reprojection {
   Mat3 by_point;
 };
 
-Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, const StereoPixel& pixel,
+/// What there is of it.
+Mat3 Weight(const StereoSighting& sighting) {
+  Mat3 weight = sighting.weight;
+  if (std::isnan(sighting.pixel.right)) weight.row(2).setZero();
+  return weight;
+}
+
+Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, const StereoSighting& sighting,
                        const Vec3& point) {
   Reprojection out;
   const Mat3 R_left_odom = T_odom_left.so3().inverse().matrix();
   const Vec3 p = R_left_odom * (point - T_odom_left.translation());
   if (!(p.z() > kNearest)) return out;
   out.in_front = true;
-  const StereoPixel seen = ProjectStereo(camera, p);
-  out.residual << seen.left - pixel.left, seen.row - pixel.row, seen.right - pixel.right;
+  const StereoPixel &pixel = sighting.pixel, seen = ProjectStereo(camera, p);
+  out.residual << seen.left - pixel.left, seen.row - pixel.row, std::isnan(pixel.right) ? 0 : seen.right - pixel.right;
   const double iz = 1 / p.z(), fx = camera.left.fx, fy = camera.left.fy;
   Mat3 by_p;
   by_p << fx * iz, 0, -fx * p.x() * iz * iz,  //
       0, fy * iz, -fy * p.y() * iz * iz,      //
       fx * iz, 0, -fx * (p.x() - camera.baseline_m) * iz * iz;
-  if (std::isnan(pixel.right)) out.residual.z() = 0, by_p.row(2).setZero();
+  const Mat3 weight = Weight(sighting);
+  out.residual = weight * out.residual;
+  by_p = weight * by_p;
   // p(T Exp(d)) = Exp(-d) p, to first order p - rho + p x phi.
   out.by_pose << -by_p, by_p * lie::SO3<double>::hat(p);
   out.by_point = by_p * R_left_odom;
@@ -54,25 +66,25 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, cons
 /// point and the disparity at infinity.
 class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
  public:
-  StereoCost(const StereoCamera& camera, const StereoPixel& pixel, const Pose& T_odom_left)
-      : camera_(camera), pixel_(pixel), T_odom_left_(T_odom_left) {}
+  StereoCost(const StereoCamera& camera, const StereoSighting& sighting, const Pose& T_odom_left)
+      : camera_(camera), sighting_(sighting), T_odom_left_(T_odom_left) {}
 
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     const Vec6 delta = Eigen::Map<const Vec6>(blocks[0]);
     const Reprojection r =
-        Reproject(camera_, T_odom_left_ * Pose::Exp(delta), pixel_, Eigen::Map<const Vec3>(blocks[1]));
+        Reproject(camera_, T_odom_left_ * Pose::Exp(delta), sighting_, Eigen::Map<const Vec3>(blocks[1]));
     if (!r.in_front) return false;
-    const bool both = !std::isnan(pixel_.right);
-    Vec3Map{residual} = r.residual - (both ? blocks[2][0] - camera_.disparity_at_infinity : 0) * Vec3::UnitZ();
+    const Vec3 by_infinity = -Weight(sighting_).col(2);
+    Vec3Map{residual} = r.residual + (blocks[2][0] - camera_.disparity_at_infinity) * by_infinity;
     if (jacobians && jacobians[0]) RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
     if (jacobians && jacobians[1]) RowMajorMap<3>{jacobians[1]} = r.by_point;
-    if (jacobians && jacobians[2]) Vec3Map{jacobians[2]} = -(both ? 1 : 0) * Vec3::UnitZ();
+    if (jacobians && jacobians[2]) Vec3Map{jacobians[2]} = by_infinity;
     return true;
   }
 
  private:
   const StereoCamera& camera_;
-  const StereoPixel pixel_;
+  const StereoSighting sighting_;
   const Pose T_odom_left_;
 };
 
@@ -110,12 +122,12 @@ Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
 
 double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
                    const Vec3& point) {
-  const Reprojection r = Reproject(camera, frame.T_odom_left, sighting.pixel, point);
+  const Reprojection r = Reproject(camera, frame.T_odom_left, {sighting.point, sighting.pixel}, point);
   return r.in_front ? r.residual.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame) {
-  ceres::CauchyLoss loss(loss_px);
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss, StereoFrame& frame) {
+  ceres::CauchyLoss cauchy(loss);
   ceres::Problem problem(ProblemOptions());
   Vec6 delta = Vec6::Zero();
   double at_infinity = camera.disparity_at_infinity;
@@ -127,7 +139,7 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
     const Vec3& point = points.at(sighting.point);
     if (!InFront(frame, point)) continue;
     places.push_back(point);
-    problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frame.T_odom_left), &loss, delta.data(),
+    problem.AddResidualBlock(new StereoCost(camera, sighting, frame.T_odom_left), &cauchy, delta.data(),
                              places.back().data(), &at_infinity);
     problem.SetParameterBlockConstant(places.back().data());
   }
@@ -139,7 +151,7 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss,
                     OdometryPoints& points, bool calibrate) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
@@ -154,7 +166,7 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
     place_of[id] = &places.back();
   }
 
-  ceres::CauchyLoss loss(loss_px);
+  ceres::CauchyLoss cauchy(loss);
   ceres::Problem problem(ProblemOptions());
   std::vector<Vec6> deltas(frames.size(), Vec6::Zero());
   auto* ordering = new ceres::ParameterBlockOrdering;
@@ -169,7 +181,7 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
     for (const StereoSighting& sighting : frames[i]->sightings) {
       const auto place = place_of.find(sighting.point);
       if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
-      problem.AddResidualBlock(new StereoCost(camera, sighting.pixel, frames[i]->T_odom_left), &loss, deltas[i].data(),
+      problem.AddResidualBlock(new StereoCost(camera, sighting, frames[i]->T_odom_left), &cauchy, deltas[i].data(),
                                place->second->data(), &at_infinity);
       ordering->AddElementToGroup(place->second->data(), 0);
     }
@@ -188,35 +200,35 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
 }
 
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
-  double squares = 0;
-  int count = 0;
+  std::vector<double> residuals;
   for (const StereoSighting& sighting : frame.sightings) {
-    const Reprojection r = Reproject(camera, frame.T_odom_left, sighting.pixel, points.at(sighting.point));
+    const Reprojection r = Reproject(camera, frame.T_odom_left, sighting, points.at(sighting.point));
     if (!r.in_front) continue;
-    squares += r.residual.squaredNorm();
-    count += std::isnan(sighting.pixel.right) ? 2 : 3;
+    const int known = std::isnan(sighting.pixel.right) ? 2 : 3;
+    for (int i = 0; i < known; ++i) residuals.push_back(std::abs(r.residual[i]));
   }
-  return std::max(kMinPixelNoise, std::sqrt(squares / std::max(1, count)));
+  if (residuals.empty()) return kMinPixelNoise;
+  return std::max(kMinPixelNoise, kSigmasPerMedian * Median(std::move(residuals)));
 }
 
 Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points, double noise_px) {
-  std::map<int, StereoPixel> seen_before;
-  for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting.pixel;
+                             const OdometryPoints& points, double noise) {
+  std::map<int, StereoSighting> seen_before;
+  for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting;
   Eigen::Matrix<double, 6, 6> information = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
   for (const StereoSighting& sighting : to.sightings) {
     const auto before = seen_before.find(sighting.point);
     if (before == seen_before.end()) continue;
     const Vec3& point = points.at(sighting.point);
     const Reprojection a = Reproject(camera, from.T_odom_left, before->second, point);
-    const Reprojection b = Reproject(camera, to.T_odom_left, sighting.pixel, point);
+    const Reprojection b = Reproject(camera, to.T_odom_left, sighting, point);
     if (!a.in_front || !b.in_front) continue;
     // [A B; B' C] with the point last; without it remains A - B C^-1 B'.
     const Mat36 B = b.by_point.transpose() * b.by_pose;
     const Mat3 C = a.by_point.transpose() * a.by_point + b.by_point.transpose() * b.by_point;
     information += b.by_pose.transpose() * b.by_pose - B.transpose() * C.ldlt().solve(B);
   }
-  return noise_px * noise_px * information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+  return noise * noise * information.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
 }
 
 }  // namespace sslcd

@@ -18,6 +18,9 @@ struct StereoPixel {
 struct StereoSighting {
   int point = 0;
   StereoPixel pixel;
+  /// What residuals (column, row, right column) are multiplied by: the square root of their information, to a factor
+  /// that all sightings share. Without a right column the third row does not count.
+  Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
 };
 
 /// A frame and what is seen in it. Poses and points are those of the left camera, in the axes of the first one.
@@ -39,23 +42,23 @@ Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
                    const Vec3& point);
 
-/// Moves the frame to where its sightings fit the points best (robust least squares: residuals of more than `loss_px`
-/// count for less and less); the points stay.
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss_px, StereoFrame& frame);
+/// Moves the frame to where its sightings fit the points best (robust least squares: weighted residuals of more than
+/// `loss` count for less and less); the points stay.
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss, StereoFrame& frame);
 
 /// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-/// `loss_px` as above. `calibrate`: the camera's disparity at infinity, too, is what fits best, and returned; else what
+/// `loss` as above. `calibrate`: the camera's disparity at infinity, too, is what fits best, and returned; else what
 /// it was. It shows, since points that come nearer by the camera's motion must come nearer by their disparity, too.
-double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss_px,
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss,
                     OdometryPoints& points, bool calibrate = false);
 
-/// Root mean square of how far coordinates are from where their points should appear; at least what can be told apart.
+/// Standard deviation of the weighted residuals, by their median; at least what can be told apart.
 double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
 
 /// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points that both see, whose
-/// places are known from these two frames alone; points are eliminated (Schur complement). Each coordinate has noise of
-/// `noise_px`, independently. Huge where there are too few points.
+/// places are known from these two frames alone; points are eliminated (Schur complement). Weighted residuals have
+/// noise of `noise`, independently. Huge where there are too few points.
 Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points, double noise_px);
+                             const OdometryPoints& points, double noise);
 
 }  // namespace sslcd

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "loop_drives.h"
+#include "sslcd/core/error.h"
 #include "sslcd/core/median.h"
 
 namespace sslcd {
@@ -31,32 +32,32 @@ TEST(TieViews, PairsCamerasThatFaceTheSameGround) {
   options.views.reach_m = 40;
   int asked = 0, exact = 0;
   const auto frames = ThereAndBack();
-  const auto ties = TieViews(
-      frames, path,
-      [&](int a, int b, const Pose& guess) -> std::optional<RelativePose> {
-        ++asked;
-        EXPECT_LT(a, b);
-        // Both look at a point 7 m ahead: they stand 14 m apart; less exactly where the reach ends.
-        EXPECT_NEAR((guess.translation() - Vec3(2, 0, 14)).norm(), 0, 3.5);
-        exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
-        if (asked % 2 == 0) return std::nullopt;
-        return Measured(guess);
-      },
-      options);
-  EXPECT_GE(asked, 10) << "every 3 m, as far as odometry reaches from the loop";
-  EXPECT_LE(asked, 30);
+  const auto ties = TieViews(frames, path, OneByOne([&](const ViewPair& pair) -> std::optional<RelativePose> {
+                               const Pose& guess = pair.T_a_b_guess;
+                               ++asked;
+                               EXPECT_LT(pair.a_frame, pair.b_frame);
+                               // Both look at a point 7 m ahead: they stand 14 m apart; less exactly where the reach
+                               // ends.
+                               EXPECT_NEAR((guess.translation() - Vec3(2, 0, 14)).norm(), 0, options.views.apart_m);
+                               exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
+                               if (asked % 2 == 0) return std::nullopt;
+                               return Measured(guess);
+                             }),
+                             options);
+  EXPECT_GE(asked, 15) << "every 2 m, as far as odometry reaches from the loop";
+  EXPECT_LE(asked, 45);
   EXPECT_EQ(static_cast<int>(ties.size()), (asked + 1) / 2) << "what could not be aligned is no tie";
-  EXPECT_GE(exact, asked - 4);
+  EXPECT_GE(exact, asked - 6);
   for (const ViewTie& tie : ties) EXPECT_LE(path.From(frames[tie.to].travelled).To(frames[tie.from].travelled), 40);
 }
 
 TEST(TieViews, NoneWhereNoLoopSaysWhereToLook) {
   LoopOptions options;
   options.views.reach_m = 25;  // of plain path, less than gap_m
-  const auto never = [](int, int, const Pose&) -> std::optional<RelativePose> {
+  const auto never = OneByOne([](const ViewPair&) -> std::optional<RelativePose> {
     ADD_FAILURE();
     return std::nullopt;
-  };
+  });
   EXPECT_TRUE(TieViews(ThereAndBack(), {}, never, options).empty());
   EXPECT_TRUE(TieViews({}, {}, never, options).empty());
 }
@@ -72,7 +73,7 @@ TEST(TieViews, AGoodOdometryNeedsNoLoop) {
   options.odometry = noise;
   options.odometry.translation_floor_m = 0;
   options.odometry.rotation_walk = 1e-4;
-  const auto align = [](int, int, const Pose& guess) { return std::optional<RelativePose>(Measured(guess)); };
+  const auto align = OneByOne([](const ViewPair& pair) { return std::optional(Measured(pair.T_a_b_guess)); });
   EXPECT_GT(TieViews(ThereAndBack(), {}, align, options).size(), 20u);
 }
 
@@ -82,11 +83,11 @@ struct TruthAligner {
   Pose off;
   double limit_m = 1;  ///< of the guess
   int asked = 0, refused = 0;
-  std::optional<RelativePose> operator()(int a, int b, const Pose& guess) {
+  std::optional<RelativePose> operator()(const ViewPair& pair) {
     ++asked;
     const auto& truth = drives.world.truth.poses;
-    const Pose T = truth[a].inverse() * truth[b];
-    if ((T.inverse() * guess).translation().norm() > limit_m) return ++refused, std::nullopt;
+    const Pose T = truth[pair.a_frame].inverse() * truth[pair.b_frame];
+    if ((T.inverse() * pair.T_a_b_guess).translation().norm() > limit_m) return ++refused, std::nullopt;
     Vec6 variances;
     variances << Vec3::Constant(4e-4), Vec3::Constant(1e-6);
     return RelativePose{T * off, variances.asDiagonal()};
@@ -95,7 +96,7 @@ struct TruthAligner {
 
 RunResult RunWith(const Drives& drives, TruthAligner& aligner, const Options& options = {}) {
   MapperContext context = drives.Context();
-  context.view_aligner = [&](int a, int b, const Pose& guess) { return aligner(a, b, guess); };
+  context.view_aligner = OneByOne([&](const ViewPair& pair) { return aligner(pair); });
   return RunSequence(drives.frames, context, options);
 }
 
@@ -154,11 +155,11 @@ TEST(ViewAligner, AFewWrongTiesDoLittleHarm) {
   TruthAligner aligner{drives, {}}, right{drives, {}};
   MapperContext context = drives.Context();
   int count = 0;
-  context.view_aligner = [&](int a, int b, const Pose& guess) {
-    auto answer = aligner(a, b, guess);
+  context.view_aligner = OneByOne([&](const ViewPair& pair) {
+    auto answer = aligner(pair);
     if (answer && ++count % 8 == 0) answer->T_a_b = answer->T_a_b * Pose::Trans(0.8, 0, 0.5);
     return answer;
-  };
+  });
   Options options;  // as of good odometry: then loops are measured by views
   options.loop.odometry.translation_floor_m = options.loop.odometry.translation_walk = 0.003;
   options.loop.odometry.rotation_floor_rad = options.loop.odometry.rotation_walk = 1e-3;
@@ -177,17 +178,26 @@ TEST(TieViews, AnswersThatAreNoneAreLeftOut) {
   LoopOptions options;
   options.views.reach_m = 200;
   int asked = 0;
-  const auto align = [&](int, int, const Pose& guess) {
-    RelativePose answer = Measured(guess);
+  const auto align = OneByOne([&](const ViewPair& pair) {
+    RelativePose answer = Measured(pair.T_a_b_guess);
     const int kind = asked++ % 4;
     if (kind == 1) answer.covariance(5, 5) = 0;
     if (kind == 2) answer.covariance(0, 0) = NAN;
     if (kind == 3) answer.T_a_b.translation().x() = INFINITY;
     return std::optional<RelativePose>(answer);
-  };
+  });
   const std::vector<ViewTie> ties = TieViews(ThereAndBack(), {}, align, options);
   EXPECT_EQ(static_cast<int>(ties.size()), (asked + 3) / 4);
   EXPECT_GT(asked, 8);
+}
+
+TEST(TieViews, EachPairNeedsAnAnswer) {
+  LoopOptions options;
+  options.views.reach_m = 200;
+  const auto too_few = [](const std::vector<ViewPair>& pairs) {
+    return std::vector<std::optional<RelativePose>>(pairs.size() - 1);
+  };
+  EXPECT_THROW(TieViews(ThereAndBack(), {}, too_few, options), Error);
 }
 
 TEST(ViewAligner, IsNotAskedWithoutLoopsOrWhenSwitchedOff) {
@@ -207,7 +217,7 @@ TEST(ViewAligner, RefiningAgainDoesNotAddTies) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.3, 2);
   TruthAligner aligner{drives, {}};
   MapperContext context = drives.Context();
-  context.view_aligner = [&](int a, int b, const Pose& guess) { return aligner(a, b, guess); };
+  context.view_aligner = OneByOne([&](const ViewPair& pair) { return aligner(pair); });
   Mapper mapper({}, context);
   for (const Frame& frame : drives.frames) mapper.AddFrame(frame);
   mapper.Refine();

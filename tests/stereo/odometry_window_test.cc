@@ -86,6 +86,28 @@ TEST(OdometryWindow, RefineWindowCalibrates) {
   EXPECT_LT(Off(scene.frames[4].T_odom_left, Scene(2, 5, 80).frames[4].T_odom_left), 1e-3) << "to scale again";
 }
 
+// Left columns are off, and right ones with them: where only that is noise, rows and disparities tell the pose.
+TEST(OdometryWindow, WeightsSayWhatIsWorthHow) {
+  Eigen::Matrix3d weight;
+  weight << 1, 0, 0, 0, 100, 0, 100, 0, -100;
+  double off[2];
+  for (const bool weighted : {false, true}) {
+    Scene scene(1, 2, 60);
+    std::mt19937 random(1);
+    std::normal_distribution<double> gauss(0, 1);
+    for (StereoSighting& s : scene.frames[1].sightings) {
+      const double error = gauss(random);
+      s.pixel.left += error, s.pixel.right += error;
+      if (weighted) s.weight = weight;
+      if (s.point % 5 == 0) s.pixel.right = NAN;  // then the third row says nothing
+    }
+    const Pose truth = scene.frames[1].T_odom_left;
+    RefinePose(scene.camera, scene.points, 3, scene.frames[1]);
+    off[weighted] = Off(truth, scene.frames[1].T_odom_left);
+  }
+  EXPECT_LT(off[true], 0.2 * off[false]);
+}
+
 TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
   Eigen::Matrix<double, 6, 6> scatter = Eigen::Matrix<double, 6, 6>::Zero(), told = scatter;
   constexpr int kTrials = 150;
@@ -116,6 +138,8 @@ TEST(OdometryWindow, PixelNoiseIsThatOfTheResiduals) {
   for (StereoSighting& s : scene.frames[0].sightings)
     s.pixel.left += gauss(random), s.pixel.row += gauss(random), s.pixel.right = NAN;
   EXPECT_NEAR(PixelNoise(scene.camera, scene.frames[0], scene.points), 0.7, 0.07);
+  for (std::size_t i = 0; i < 40; ++i) scene.frames[0].sightings[i].pixel.row += 30;
+  EXPECT_NEAR(PixelNoise(scene.camera, scene.frames[0], scene.points), 0.7, 0.1) << "by what fits";
   scene.frames[0].sightings.clear();
   EXPECT_GT(PixelNoise(scene.camera, scene.frames[0], scene.points), 0);
 }

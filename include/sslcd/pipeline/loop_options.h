@@ -46,9 +46,9 @@ void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options);
 /// loops as shortcuts, says where to look.
 struct LoopViewOptions {
   bool enabled = true;
-  double every_m = 3;   ///< a tie every so much path at most
-  double ahead_m = 7;   ///< the two look at one spot on the ground, so far ahead of each ...
-  double apart_m = 4;   ///< ... to this
+  double every_m = 2;   ///< a tie every so much path at most
+  double ahead_m = 7;   ///< the two look at one spot on the ground, so far ahead of each (SpotAhead) ...
+  double apart_m = 6;   ///< ... to this
   double gap_m = 30;    ///< so much path lies between them at least
   double reach_m = 75;  ///< ... and with closed loops as shortcuts so much at most, or what a better odometry takes ...
   double guess_m = 0.3;  ///< ... to be this far off (LoopOptions::odometry)

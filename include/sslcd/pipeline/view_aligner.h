@@ -3,17 +3,34 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "sslcd/core/relative_pose.h"
 
 namespace sslcd {
 
-/// Measures from the images of two frames where the second one's camera stands in the first one's frame, given a
-/// guess that odometry or closed loops make right to some decimetres (AlignGround is such a one; a host may bring its
-/// own).
-/// None: the images do not tell; an answer that is not finite, or whose covariance is singular, is none, too. Both
-/// frames are named by their numbers (Frame::index). Called by Mapper::Refine, in order of the frames; what it throws
-/// ends that.
-using ViewAligner = std::function<std::optional<RelativePose>(int a_frame, int b_frame, const Pose& T_a_b_guess)>;
+/// Two frames, named by their numbers (Frame::index), and where the second one's camera is thought to stand in the
+/// first one's frame: odometry or closed loops make that right to some decimetres.
+struct ViewPair {
+  int a_frame = 0, b_frame = 0;
+  Pose T_a_b_guess;
+};
+
+/// Measures T_a_b of each pair from the images of its frames (AlignGround is one that does; a host may bring its own).
+/// One answer for each pair, in their order. None: the images do not tell; an answer that is not finite, or whose
+/// covariance is singular, is none, too. Called by Mapper::Refine with all pairs at once, so that they can be aligned
+/// in parallel; what it throws ends that.
+using ViewAligner = std::function<std::vector<std::optional<RelativePose>>(const std::vector<ViewPair>&)>;
+
+/// Aligns one pair after the other by `align(ViewPair)`, which returns std::optional<RelativePose>.
+template <class Align>
+ViewAligner OneByOne(Align align) {
+  return [align = std::move(align)](const std::vector<ViewPair>& pairs) mutable {
+    std::vector<std::optional<RelativePose>> answers;
+    for (const ViewPair& pair : pairs) answers.push_back(align(pair));
+    return answers;
+  };
+}
 
 }  // namespace sslcd
