@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 #include "commands.h"
 #include "sslcd/io/atomic_file.h"
@@ -69,13 +67,9 @@ Answer TimedMatch(const LayoutPair& pair, const Options& options) {
 std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options, int threads,
                              const Console& console) {
   std::vector<Answer> answers(pairs.size());
-  std::atomic<int> done{0};
-  const std::thread::id here = std::this_thread::get_id();
-  ForEach(pairs.size(), threads, [&](std::size_t i) {
-    answers[i] = TimedMatch(pairs[i], options);
-    ++done;
-    if (std::this_thread::get_id() == here) console.Progress("pair", done, static_cast<int>(pairs.size()));
-  });
+  ForEach(
+      pairs.size(), threads, [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], options); },
+      [&](int done, int total) { console.Progress("pair", done, total); });
   console.EndProgress();
   return answers;
 }

@@ -136,7 +136,8 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   return frontend;
 }
 
-ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads) {
+ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads,
+                            std::function<void(int done, int total)> progress) {
   std::map<int, std::pair<std::string, std::string>> paths;
   for (const Frame& frame : dataset.frames)
     if (!frame.image_left.empty() && !frame.image_right.empty())
@@ -170,10 +171,11 @@ ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configu
     }
     return answer;
   };
-  return [align, threads](const std::vector<ViewPair>& pairs) {
+  return [align, threads, progress = std::move(progress)](const std::vector<ViewPair>& pairs) {
     std::vector<std::optional<RelativePose>> answers(pairs.size());
     std::vector<std::string> problems(pairs.size());
-    ForEach(pairs.size(), threads, [&](std::size_t i) { answers[i] = align(pairs[i], problems[i]); });
+    ForEach(
+        pairs.size(), threads, [&](std::size_t i) { answers[i] = align(pairs[i], problems[i]); }, progress);
     // What is wrong with the images is said once: it may be wrong with all of them.
     const auto first = std::find_if(problems.begin(), problems.end(), [](const std::string& p) { return !p.empty(); });
     if (first != problems.end()) Log(LogLevel::kWarning, *first);

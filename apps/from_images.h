@@ -36,7 +36,8 @@ struct ImageArguments {
 /// Aligns frames by the ground in their stereo images (AlignGround), which are read again. None: `dataset` lacks a
 /// second camera or the images, or `loop.views` is off. To be called before Make(). Answers nothing more after an
 /// interrupt.
-ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads);
+ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads,
+                            std::function<void(int done, int total)> progress);
 
 /// The next frame. Its error is thrown where it is the first one (`done` is 0), else kept in `failure`, so that the
 /// results of the frames before are not lost: then, as at the end, there is none.

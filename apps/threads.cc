@@ -21,13 +21,19 @@ void AddThreads(CLI::App& command, int& threads, int least, const std::string& m
   command.add_option_function<int>("--threads", set, meaning)->check(CLI::Range(least, 1024));
 }
 
-void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+             const std::function<void(int done, int total)>& progress) {
   std::atomic<std::size_t> next{0};
+  std::atomic<int> done{0};
   std::exception_ptr problem;
   std::mutex mutex;
-  const auto take = [&] {
+  const auto take = [&](bool tells) {
     try {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
+      for (std::size_t i = next++; i < count; i = next++) {
+        work(i);
+        ++done;
+        if (tells && progress) progress(done, static_cast<int>(count));
+      }
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (!problem) problem = std::current_exception();
@@ -35,8 +41,8 @@ void ForEach(std::size_t count, int threads, const std::function<void(std::size_
     }
   };
   std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(take);
-  take();
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(take, false);
+  take(true);
   for (std::thread& helper : helpers) helper.join();
   if (problem) std::rethrow_exception(problem);
 }
