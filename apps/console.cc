@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 
@@ -14,10 +15,11 @@
 namespace sslcd::apps {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+std::atomic<bool> g_interrupted{false};  // lock-free, so a handler may set it and any thread read it
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void OnInterrupt(int) {
-  g_interrupted = 1;
+  g_interrupted = true;
   std::signal(SIGINT, SIG_DFL);
 }
 

@@ -63,14 +63,15 @@ RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options
   return check;
 }
 
-/// Where two cameras should look for AlignGround; the first left image says how many rows there are.
+/// Where two cameras should look for AlignGround. None: there are no stereo images, or none shows near ground.
 std::optional<double> SpotAheadOf(const Dataset& dataset, double height_m) {
-  const auto has_image = [](const Frame& frame) { return !frame.image_left.empty(); };
-  const auto first = std::find_if(dataset.frames.begin(), dataset.frames.end(), has_image);
-  if (!dataset.camera || !dataset.camera_right || first == dataset.frames.end()) return std::nullopt;
-  const Image image = LoadImage(first->image_left);
-  if (image.empty()) return std::nullopt;  // the frontend tells
-  return SpotAhead(*dataset.camera, image.height, height_m);
+  if (!dataset.camera || !dataset.camera_right) return std::nullopt;
+  for (const Frame& frame : dataset.frames) {
+    if (frame.image_left.empty()) continue;
+    const Image image = LoadImage(frame.image_left);
+    if (!image.empty()) return SpotAhead(*dataset.camera, image.height, height_m);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -101,6 +102,9 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
     if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
   }
   const std::optional<double> spot_ahead = SpotAheadOf(dataset, vision.lift.ground.height_m);
+  if (spot_ahead)
+    Log(LogLevel::kInfo, "ground of different passes is compared " + Number("%.1f", *spot_ahead) +
+                             " m ahead of the cameras, unless loop.views.ahead_m says otherwise");
   return config.Load([&](Configuration& c) {
     if (spot_ahead) c.options.loop.views.ahead_m = *spot_ahead;
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;

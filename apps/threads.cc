@@ -6,6 +6,7 @@
 #include <exception>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -41,7 +42,10 @@ void ForEach(std::size_t count, int threads, const std::function<void(std::size_
     }
   };
   std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(take, false);
+  try {
+    for (std::size_t i = 1; i < std::min<std::size_t>(threads, count); ++i) helpers.emplace_back(take, false);
+  } catch (const std::system_error&) {  // no more to be had
+  }
   take(true);
   for (std::thread& helper : helpers) helper.join();
   if (problem) std::rethrow_exception(problem);

@@ -136,8 +136,11 @@ std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_
   if (static_cast<int>(points.size()) < min_points) return std::nullopt;
   constexpr double kLoss = 2;  // standard deviations
   RefineWindow(camera, 1, {&a, &b}, kLoss, points);
-  constexpr double kAlike = 10;  // patches overlap, and errors of neighbours are alike
-  return RelativePose{b.T_odom_left, kAlike * StepCovariance(camera, a, b, points, PixelNoise(camera, b, points))};
+  // Patches overlap, and errors of neighbours are alike. Noise is what the weights say, or more where residuals do.
+  constexpr double kAlike = 2.5;
+  const double noise =
+      std::max({1., ResidualScale(camera, a, points).z(), ResidualScale(camera, b, points).maxCoeff()});
+  return RelativePose{b.T_odom_left, kAlike * StepCovariance(camera, a, b, points, noise)};
 }
 
 }  // namespace

@@ -122,7 +122,9 @@ class StereoOdometry::Impl {
 
   OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
     const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
-    Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, PixelNoise(camera_, frame, points_));
+    constexpr double kLeastNoise = 0.1;  // [px] no matter how well everything seems to fit
+    const double noise = std::max(kLeastNoise, ResidualScale(camera_, frame, points_).norm() / std::sqrt(3.));
+    Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, noise);
     if (lost_ > 0) covariance += GuessCovariance(velocity_, lost_);
 
     const bool keyframe = KeyframeIsDue(frame);

@@ -20,9 +20,7 @@ using Vec3Map = Eigen::Map<Vec3>;
 template <int columns>
 using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor>>;
 
-constexpr double kNearest = 0.1;             // [m] in front of the camera
-constexpr double kMinPixelNoise = .1;        // no matter how well everything seems to fit
-constexpr double kSigmasPerMedian = 1.4826;  // of the absolute values of what is normally distributed
+constexpr double kNearest = 0.1;  // [m] in front of the camera
 
 /// Weighted residual of one sighting (column, row, right column), with derivatives.
 struct Reprojection {
@@ -35,7 +33,7 @@ struct Reprojection {
 /// What there is of it.
 Mat3 Weight(const StereoSighting& sighting) {
   Mat3 weight = sighting.weight;
-  if (std::isnan(sighting.pixel.right)) weight.row(2).setZero();
+  if (std::isnan(sighting.pixel.right)) weight.row(2).setZero(), weight.col(2).setZero();
   return weight;
 }
 
@@ -199,16 +197,19 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
   return at_infinity;
 }
 
-double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
-  std::vector<double> residuals;
+Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
+  constexpr double kSigmasPerMedian = 1.4826;  // of the absolute values of what is normally distributed
+  std::vector<double> residuals[3];
   for (const StereoSighting& sighting : frame.sightings) {
     const Reprojection r = Reproject(camera, frame.T_odom_left, sighting, points.at(sighting.point));
     if (!r.in_front) continue;
     const int known = std::isnan(sighting.pixel.right) ? 2 : 3;
-    for (int i = 0; i < known; ++i) residuals.push_back(std::abs(r.residual[i]));
+    for (int i = 0; i < known; ++i) residuals[i].push_back(std::abs(r.residual[i]));
   }
-  if (residuals.empty()) return kMinPixelNoise;
-  return std::max(kMinPixelNoise, kSigmasPerMedian * Median(std::move(residuals)));
+  Vec3 scale = Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    if (!residuals[i].empty()) scale[i] = kSigmasPerMedian * Median(std::move(residuals[i]));
+  return scale;
 }
 
 Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,

@@ -19,7 +19,7 @@ struct StereoSighting {
   int point = 0;
   StereoPixel pixel;
   /// What residuals (column, row, right column) are multiplied by: the square root of their information, to a factor
-  /// that all sightings share. Without a right column the third row does not count.
+  /// that all sightings share; lower triangular but for the last row, which does not count without a right column.
   Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
 };
 
@@ -52,8 +52,8 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
 double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss,
                     OdometryPoints& points, bool calibrate = false);
 
-/// Standard deviation of the weighted residuals, by their median; at least what can be told apart.
-double PixelNoise(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
+/// Standard deviations of the three weighted residuals, by their medians; 0 of what is not known of any point.
+Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
 
 /// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points that both see, whose
 /// places are known from these two frames alone; points are eliminated (Schur complement). Weighted residuals have

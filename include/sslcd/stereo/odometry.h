@@ -50,9 +50,9 @@ struct OdometryStep {
   bool keyframe = false;    ///< new points were taken up here
   int points = 0;           ///< points that fit the pose; of the first frame, and of one started anew, points found
   /// Covariance of the step from the previous frame, of the right perturbation of T_previous_current,
-  /// [translation, rotation], in the current reference camera's axes; twice too large where calibration is exact, and
-  /// too small where it is not. Of a step that was guessed, and of the one after it, which takes the error of the guess
-  /// back, what constant velocity may be off by. Zero for the first frame.
+  /// [translation, rotation], in the current reference camera's axes; its variances are twice too large where
+  /// calibration is exact, and too small where it is not. Of a step that was guessed, and of the one after it, which
+  /// takes the error of the guess back, what constant velocity may be off by. Zero for the first frame.
   Pose::Matrix6 covariance = Pose::Matrix6::Zero();
 };
 
