@@ -69,7 +69,10 @@ def main():
     parser.add_argument("--exact", action="store_true")
     parser.add_argument("--trials", type=int, default=300)
     arguments = parser.parse_args()
-    position, R, edges = read_graph(arguments.graph)
+    try:
+        position, R, edges = read_graph(arguments.graph)
+    except (OSError, ValueError, IndexError, KeyError, np.linalg.LinAlgError) as error:
+        parser.error(f"{arguments.graph}: cannot be read as the graph.g2o of a run: {error}")
     steps = {b: covariance for a, b, covariance in edges if b == a + 1}
     measured = [edge for edge in edges if edge[1] != edge[0] + 1]
     if len(steps) != len(position) - 1 or not measured:

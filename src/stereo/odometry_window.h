@@ -19,7 +19,7 @@ struct StereoSighting {
   int point = 0;
   StereoPixel pixel;
   /// What residuals (column, row, right column) are multiplied by: the square root of their information, to a factor
-  /// that all sightings share; lower triangular but for the last row, which does not count without a right column.
+  /// that all sightings share. Lower triangular: without a right column, the last row does not count.
   Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
 };
 
