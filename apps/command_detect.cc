@@ -88,14 +88,7 @@ int Detect(DetectArguments& a, const Console& console) {
   ChooseOdometry(a.request);
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
-  const int total = static_cast<int>(dataset.frames.size());
-
   const fs::path out = a.out;
-  const Camera camera = dataset.camera.value_or(Camera());
-  Overlays overlays(out / "overlays");
-  std::function<void(const Frame&, const ImageView&)> watch;
-  if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
   RefuseInput(out, dataset);
   if (a.force && !dataset.groundtruth && fs::exists(out / "groundtruth.txt"))
     throw Error(ErrorKind::kUsage,
@@ -104,6 +97,13 @@ int Detect(DetectArguments& a, const Console& console) {
   const bool fresh = !fs::exists(out) || fs::is_empty(out);
   PrepareSequenceFolder(out, a.force);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
+  const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
+  const int total = static_cast<int>(dataset.frames.size());
+
+  const Camera camera = dataset.camera.value_or(Camera());
+  Overlays overlays(out / "overlays");
+  std::function<void(const Frame&, const ImageView&)> watch;
+  if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
   ImageFrontend frontend = *a.images.Make(dataset, configuration, !odometry_alone, a.threads, watch);
   if (dataset.odometry_path.empty())
     console.Say(odometry_alone ? "odometry: made from the images; no detections" : "odometry: made from the images");
@@ -134,6 +134,8 @@ int Detect(DetectArguments& a, const Console& console) {
   WriteSequenceFiles(out, files);
   overlays.RemoveOthers();
   Configuration resolved = configuration;
+  if (a.images.MeasuresByStereo(configuration.vision, dataset, !odometry_alone))
+    resolved.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
   const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
   WriteFileAtomically((out / "config.yaml").string(), yaml);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "sslcd/core/for_each.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/pairs_reader.h"
 #include "sslcd/loop/decision.h"

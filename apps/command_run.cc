@@ -113,7 +113,7 @@ struct Mapped {
 
 Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
-  const ViewAligner aligner = MakeViewAligner(
+  const ViewAligner aligner = a.images.MakeAligner(
       dataset, configuration, a.threads, [&console](int done, int count) { console.Progress("view", done, count); });
   std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");

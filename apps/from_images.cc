@@ -2,8 +2,6 @@
 #include "from_images.h"
 
 #include <algorithm>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,13 +9,13 @@
 
 #include "console.h"
 #include "image_loader.h"
+#include "sslcd/core/for_each.h"
 #include "sslcd/core/log.h"
 #include "sslcd/core/median.h"
 #include "sslcd/detectors/model_description.h"
 #include "sslcd/io/boxes_reader.h"
 #include "sslcd/stereo/ground_alignment.h"
-#include "sslcd/stereo/rig_check.h"
-#include "threads.h"
+#include "stereo_files.h"
 
 namespace sslcd::apps {
 namespace {
@@ -32,46 +30,36 @@ void WarnOfGround(const GroundReport& ground) {
   Log(LogLevel::kWarning, message);
 }
 
-/// How far off calibration is; what is wrong with the images, the frontend tells.
-RigCheck CheckRigOf(const Dataset& dataset, const StereoOdometryOptions& options) {
-  std::pair<int, int> size(0, 0);  // of the first pair; others are left out
-  const auto load = [&](std::size_t i) -> std::optional<std::pair<Image, Image>> {
-    const Frame& frame = dataset.frames[i];
-    if (frame.image_left.empty() || frame.image_right.empty()) return std::nullopt;
-    std::pair<Image, Image> pair{LoadImage(frame.image_left), LoadImage(frame.image_right)};
-    const auto& [left, right] = pair;
-    if (left.empty() || left.width != right.width || left.height != right.height) return std::nullopt;
-    if (size.first == 0) size = {left.width, left.height};
-    if (size != std::pair(left.width, left.height)) return std::nullopt;
-    return pair;
-  };
-  const StereoCamera camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
-  const RigCheck check = CheckRig(camera, dataset.frames.size(), load, options);
-  if (!check.row_error) return check;
-  const std::string rows = "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px";
-  if (check.disparity_at_infinity != camera.disparity_at_infinity) {
-    Log(LogLevel::kWarning, "calibration is off: " + rows + ". As points move, the disparity at infinity is " +
-                                Number("%.3f", check.disparity_at_infinity) + " px, which is used instead of " +
-                                Number("%.3f", camera.disparity_at_infinity) +
-                                "; vision.odometry.calibrate: false leaves it");
-  } else if (check.unsure) {
-    Log(LogLevel::kWarning, "calibration is off: " + rows +
-                                ", and no frames tell by how much columns do, so distances may be some per cent off");
-  } else {
-    Log(LogLevel::kInfo, rows);
-  }
-  return check;
+/// Whether 2D boxes are lifted by stereo images. (3D detectors bring the depth.)
+bool LiftsBoxes(const ImageArguments& arguments, const VisionOptions& vision) {
+  if (!arguments.boxes.empty()) return true;
+  return !vision.detector.empty() &&
+         TaskOf(LoadModelDescription(vision.detector).output.layout) == ModelTask::kDetect2d;
 }
 
-/// Where two cameras should look for AlignGround. None: there are no stereo images, or none shows near ground.
-std::optional<double> SpotAheadOf(const Dataset& dataset, double height_m) {
-  if (!dataset.camera || !dataset.camera_right) return std::nullopt;
-  for (const Frame& frame : dataset.frames) {
-    if (frame.image_left.empty()) continue;
-    const Image image = LoadImage(frame.image_left);
-    if (!image.empty()) return SpotAhead(*dataset.camera, image.height, height_m);
+/// AlignGround of two frames, read from their files. None: they cannot be aligned; `problem` says what is wrong with
+/// the images.
+std::optional<RelativePose> Align(const ViewPair& pair, const StereoFiles& files, const StereoCamera& camera,
+                                  const VisionOptions& vision, std::string& problem) {
+  const auto& a = files[pair.a_frame];
+  const auto& b = files[pair.b_frame];
+  Image images[4];
+  const std::string* const paths[] = {&a.first, &a.second, &b.first, &b.second};
+  const auto complain = [&](const std::string& file, const std::string& what) {
+    problem = file + ": not aligned with images of other passes: " + what;
+    return std::nullopt;
+  };
+  for (int i = 0; i < 4; ++i) {
+    if (Interrupted() || paths[i]->empty()) return std::nullopt;
+    images[i] = LoadImage(*paths[i]);
+    if (images[i].empty()) return complain(*paths[i], "it cannot be read");
   }
-  return std::nullopt;
+  try {
+    return AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera,
+                       pair.T_a_b_guess, vision.lift.ground, vision.alignment);
+  } catch (const Error& error) {  // others may do
+    return complain(*paths[2], error.what());
+  }
 }
 
 }  // namespace
@@ -86,22 +74,21 @@ void ImageArguments::AddTo(CLI::App& command) {
 Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, bool detections) const {
   if (!detector.empty()) config.settings.push_back("vision.detector=" + detector);
   if (!embedder.empty()) config.settings.push_back("vision.embedder=" + embedder);
-  const VisionOptions vision = config.Load().vision;
+  const Configuration given = config.Load();
+  const VisionOptions& vision = given.vision;
   if (detections && boxes.empty()) config.CheckPath(vision.detector);
   if (detections) config.CheckPath(vision.embedder);
-  const auto detects_2d = [&vision] {
-    return !vision.detector.empty() &&
-           TaskOf(LoadModelDescription(vision.detector).output.layout) == ModelTask::kDetect2d;
-  };
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
-  const bool lifted = detections && (!boxes.empty() || detects_2d()), tracked = dataset.odometry_path.empty();
-  std::optional<double> row_error_rad;
-  if ((lifted || tracked) && dataset.camera && dataset.camera_right) {
-    const RigCheck check = CheckRigOf(dataset, vision.odometry);
+  const bool lifted = detections && LiftsBoxes(*this, vision), tracked = dataset.odometry_path.empty();
+  const StereoFiles files = StereoFilesOf(dataset);
+  std::optional<double> row_error_rad, spot_ahead;
+  if (MeasuresByStereo(vision, dataset, detections) && dataset.camera && dataset.camera_right) {
+    const RigCheck check = CheckRigOf(files, MakeStereoCamera(*dataset.camera, *dataset.camera_right), vision.odometry);
     dataset.camera_right->cx = dataset.camera->cx - check.disparity_at_infinity;
     if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
   }
-  const std::optional<double> spot_ahead = SpotAheadOf(dataset, vision.lift.ground.height_m);
+  if (given.options.loop.views.enabled && dataset.camera && dataset.camera_right)
+    spot_ahead = SpotAheadOf(files, *dataset.camera, vision.lift.ground.height_m);
   if (spot_ahead)
     Log(LogLevel::kInfo, "ground of different passes is compared " + Number("%.1f", *spot_ahead) +
                              " m ahead of the cameras, unless loop.views.ahead_m says otherwise");
@@ -112,6 +99,10 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error_rad);
     if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
+}
+
+bool ImageArguments::MeasuresByStereo(const VisionOptions& vision, const Dataset& dataset, bool detections) const {
+  return dataset.odometry_path.empty() || (detections && LiftsBoxes(*this, vision));
 }
 
 std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Configuration& configuration, bool detections,
@@ -140,13 +131,12 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   return frontend;
 }
 
-ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configuration, int threads,
-                            std::function<void(int done, int total)> progress) {
-  std::map<int, std::pair<std::string, std::string>> paths;
-  for (const Frame& frame : dataset.frames)
-    if (!frame.image_left.empty() && !frame.image_right.empty())
-      paths[frame.index] = {frame.image_left, frame.image_right};
-  if (paths.empty() || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
+ViewAligner ImageArguments::MakeAligner(const Dataset& dataset, const Configuration& configuration, int threads,
+                                        std::function<void(int done, int total)> progress) const {
+  const StereoFiles files = StereoFilesOf(dataset);
+  const bool none = std::none_of(files.begin(), files.end(),
+                                 [](const auto& pair) { return !pair.first.empty() && !pair.second.empty(); });
+  if (none || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
   StereoCamera camera;
   try {
     camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
@@ -154,32 +144,20 @@ ViewAligner MakeViewAligner(const Dataset& dataset, const Configuration& configu
     Log(LogLevel::kWarning, std::string("images of different passes are not aligned: ") + error.what());
     return {};
   }
-  const auto align = [paths, camera, vision = configuration.vision](const ViewPair& pair, std::string& problem) {
-    std::optional<RelativePose> answer;
-    const auto a = paths.find(pair.a_frame), b = paths.find(pair.b_frame);
-    if (Interrupted() || a == paths.end() || b == paths.end()) return answer;
-    Image images[4];
-    const std::string* const files[] = {&a->second.first, &a->second.second, &b->second.first, &b->second.second};
-    const auto complain = [&](const std::string& file, const std::string& what) {
-      problem = file + ": not aligned with images of other passes: " + what;
-    };
-    for (int i = 0; i < 4; ++i) {
-      images[i] = LoadImage(*files[i]);
-      if (images[i].empty()) return complain(*files[i], "it cannot be read"), answer;
-    }
-    try {
-      answer = AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera,
-                           pair.T_a_b_guess, vision.lift.ground, vision.alignment);
-    } catch (const Error& error) {  // the run before this is not lost
-      complain(*files[2], error.what());
-    }
-    return answer;
-  };
-  return [align, threads, progress = std::move(progress)](const std::vector<ViewPair>& pairs) {
+  const VisionOptions vision = configuration.vision;
+  const bool check = vision.odometry.calibrate && !MeasuresByStereo(vision, dataset, detects());
+  return [=, progress = std::move(progress)](const std::vector<ViewPair>& pairs) {
     std::vector<std::optional<RelativePose>> answers(pairs.size());
     std::vector<std::string> problems(pairs.size());
-    ForEach(
-        pairs.size(), threads, [&](std::size_t i) { answers[i] = align(pairs[i], problems[i]); }, progress);
+    try {
+      StereoCamera used = camera;
+      if (check) used.disparity_at_infinity = CheckRigOf(files, camera, vision.odometry).disparity_at_infinity;
+      ForEach(
+          pairs.size(), threads, [&](std::size_t i) { answers[i] = Align(pairs[i], files, used, vision, problems[i]); },
+          progress);
+    } catch (const Error& error) {  // the run before this is not lost
+      problems.push_back(std::string("images of different passes are not aligned: ") + error.what());
+    }
     // What is wrong with the images is said once: it may be wrong with all of them.
     const auto first = std::find_if(problems.begin(), problems.end(), [](const std::string& p) { return !p.empty(); });
     if (first != problems.end()) Log(LogLevel::kWarning, *first);

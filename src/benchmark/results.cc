@@ -2,15 +2,14 @@
 #include "sslcd/benchmark/results.h"
 
 #include <atomic>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <sstream>
-#include <thread>
 #include <utility>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/for_each.h"
 #include "sslcd/io/atomic_file.h"
 
 namespace sslcd::benchmark {
@@ -71,36 +70,21 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
     missing[world->second].push_back(i);
   }
 
-  std::atomic<std::size_t> next{0};
   std::atomic<bool> stopped{false};
   std::mutex one_at_a_time;
-  std::exception_ptr problem;
-  const auto work = [&] {
-    try {
-      for (std::size_t world = next++; world < missing.size(); world = next++) {
-        std::optional<sim::HalvSequence> sequence;
-        for (const std::size_t i : missing[world]) {
-          if (hooks.stop && hooks.stop()) stopped = true;
-          if (stopped) return;
-          if (!sequence) sequence = MakeSequence(trials[i]);
-          results[i] = RunTrial(trials[i], *sequence);
-          folder.Put(trials[i], results[i]);
-          const std::lock_guard<std::mutex> lock(one_at_a_time);
-          ++done;
-          if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));
-        }
-      }
-    } catch (...) {
+  ForEach(missing.size(), threads, [&](std::size_t world) {
+    std::optional<sim::HalvSequence> sequence;
+    for (const std::size_t i : missing[world]) {
+      if (hooks.stop && hooks.stop()) stopped = true;
+      if (stopped) return;
+      if (!sequence) sequence = MakeSequence(trials[i]);
+      results[i] = RunTrial(trials[i], *sequence);
+      folder.Put(trials[i], results[i]);
       const std::lock_guard<std::mutex> lock(one_at_a_time);
-      if (!problem) problem = std::current_exception();
-      stopped = true;
+      ++done;
+      if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));
     }
-  };
-  std::vector<std::thread> helpers;
-  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
-  work();
-  for (std::thread& helper : helpers) helper.join();
-  if (problem) std::rethrow_exception(problem);
+  });
   if (stopped) return std::nullopt;
   return results;
 }

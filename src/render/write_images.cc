@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/render/write_images.h"
 
-#include <atomic>
 #include <cstdio>
-#include <exception>
-#include <mutex>
 #include <opencv2/imgcodecs.hpp>
-#include <thread>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/for_each.h"
 #include "sslcd/io/atomic_file.h"
 
 namespace sslcd::render {
@@ -75,28 +72,9 @@ void WriteImages(const Renderer& renderer, const std::filesystem::path& folder, 
     for (const char* name : {"depth_2", "depth_3", "instance_2", "instance_3"})
       MakeWritableFolder((folder / name).string());
   }
-  std::atomic<int> next{0};
-  std::mutex mutex;
-  std::exception_ptr trouble;
-  int done = 0;
-  const auto work = [&] {
-    try {
-      for (int frame = next++; frame < renderer.frames(); frame = next++) {
-        WriteFrame(renderer, folder, frame, output.truth);
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (output.progress) output.progress(++done, renderer.frames());
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      trouble = std::current_exception();
-      next = renderer.frames();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 1; i < output.threads; ++i) threads.emplace_back(work);
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (trouble) std::rethrow_exception(trouble);
+  ForEach(
+      static_cast<std::size_t>(renderer.frames()), output.threads,
+      [&](std::size_t frame) { WriteFrame(renderer, folder, static_cast<int>(frame), output.truth); }, output.progress);
 }
 
 }  // namespace sslcd::render

@@ -96,7 +96,8 @@ class DetectTest(CliCase):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual(self.count(result, 'boxes lifted'), FRAMES)
             self.assertEqual(read(out + '/odometry_tum.txt'), expected)
-            self.assertEqual(read(out + '/config.yaml'), read(self.out + '/config.yaml'))
+            calibrated = read(self.out + '/config.yaml').replace('calibrate: false', 'calibrate: true')  # not yet
+            self.assertEqual(read(out + '/config.yaml'), calibrated)
             # But for the digits that the file of detections does not have.
             for a, b in zip(objects(out), objects(self.out + '/run')):
                 self.assertEqual(a['observations'], b['observations'])
@@ -314,10 +315,13 @@ class DetectTest(CliCase):
         self.refused(self.detect('--boxes', self.boxes), 3, 'calib.txt', 'P3')
 
     # what is asked for
-    def test_calibration_that_is_off(self):
-        for i in range(FRAMES):  # the right camera looks a pixel further to the right and up than calibration says
+    def turn_the_right_camera(self):
+        for i in range(FRAMES):  # a pixel further to the right and up than calibration says
             rows = [row[3:] + row[-3:] for row in look(BASELINE, i * STEP)]
             write_png(self.data + f'/image_3/{i:06d}.png', rows[:1] + rows[:-1])
+
+    def test_calibration_that_is_off(self):
+        self.turn_the_right_camera()
         few = ('--set', 'vision.odometry.window=4')
         result = self.detected('--boxes', self.boxes, *few)
         self.assertIn('calibration is off', result.stderr)
@@ -325,10 +329,34 @@ class DetectTest(CliCase):
         principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
         self.assertEqual(principal[0], principal[2])
         self.assertAlmostEqual(principal[2] - principal[3], 1, delta=0.2)
+        self.assertIn('calibrate: false', read(self.out + '/config.yaml'), 'done: runs of these need not look again')
         result = self.detected('--boxes', self.boxes, *few, '--force', '--set', 'vision.odometry.calibrate=false')
         self.assertNotIn('calibration is off', result.stderr)
         principal = [float(row.split()[3]) for row in read(self.out + '/calib.txt').splitlines()]
         self.assertEqual(principal[2], principal[3])
+
+    def test_calibration_that_is_off_where_nothing_but_passes_needs_images(self):
+        self.turn_the_right_camera()
+        there_and_back = list(range(FRAMES)) + list(range(FRAMES))[::-1]
+        for i, same in enumerate(there_and_back):
+            for image in ('image_2', 'image_3'):
+                if i >= FRAMES:
+                    shutil.copy(f'{self.data}/{image}/{same:06d}.png', f'{self.data}/{image}/{i:06d}.png')
+        poses = ''.join(f'{0.1 * i:.1f} 0 0 {STEP * place:.3f} 0 0 0 1\n' for i, place in enumerate(there_and_back))
+        write(self.data + '/odometry.txt', poses)
+        write(self.data + '/detections.txt', '')
+        settings = ('every_m=0.4', 'gap_m=1', 'apart_m=0.5')
+        near = [word for setting in settings for word in ('--set', 'loop.views.' + setting)]
+
+        def warnings(*options):
+            result = call('run', self.data, '--out', self.out, '--set', 'vision.odometry.window=4', *near, *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return result.stderr.count('calibration is off')
+
+        self.assertEqual(warnings(), 1)
+        self.assertEqual(warnings('--set', 'vision.odometry.calibrate=false'), 0)
+        self.assertEqual(warnings('--set', 'loop.views.enabled=false'), 0)
+        self.assertEqual(warnings('--set', 'loop.views.gap_m=100'), 0, 'nothing to align')
 
     def test_bad_boxes(self):
         rows = read(self.boxes).splitlines()

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace sslcd {
+
+/// Calls work(i) for each i below `count`, in any order, on `threads` threads at most; the calling one is among them.
+/// After each, progress(done, count), one call at a time, `done` from 1 on. The first exception of either ends it and
+/// is thrown here when all threads have stopped. For who asks for threads: link Threads::Threads.
+inline void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+                    const std::function<void(int done, int count)>& progress = {}) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;  // of all below
+  std::exception_ptr problem;
+  int done = 0;
+  const auto take = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) {
+        work(i);
+        const std::lock_guard<std::mutex> lock(mutex);
+        ++done;
+        if (progress) progress(done, static_cast<int>(count));
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!problem) problem = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> helpers;
+  try {
+    for (std::size_t i = 1; i < std::min<std::size_t>(std::max(threads, 1), count); ++i) helpers.emplace_back(take);
+  } catch (const std::system_error&) {  // no more to be had
+  }
+  take();
+  for (std::thread& helper : helpers) helper.join();
+  if (problem) std::rethrow_exception(problem);
+}
+
+}  // namespace sslcd
