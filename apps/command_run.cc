@@ -68,7 +68,8 @@ Dataset Load(RunArguments& a, const Console& console) {
   if (dataset.rows_dropped > 0) line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
   console.Say(line);
   if (dataset.rows_read == 0 && !a.images.detects())
-    Log(LogLevel::kWarning, "no detections: the map will be empty and the trajectory the odometry's");
+    Log(LogLevel::kWarning,
+        "no detections: the map will be empty, and nothing but images that can be aligned corrects the odometry");
   return dataset;
 }
 

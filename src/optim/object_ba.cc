@@ -62,8 +62,8 @@ void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
 
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options) {
   BaSummary summary;
-  if (problem.cameras.empty() || problem.sightings.empty()) {
-    summary.message = "nothing to optimise: no sightings";
+  if (problem.cameras.empty() || (problem.sightings.empty() && problem.ties.empty())) {
+    summary.message = "nothing to optimise: no sightings and no ties";
     return summary;
   }
   if (!Finite(problem)) {

@@ -133,6 +133,27 @@ TEST(SolveBa, OnTheGroundAPitchingOdometryDoesNotClimb) {
   EXPECT_LT(level, 0.4 * as_before);
 }
 
+TEST(SolveBa, SlopesAreThoseOfThePathInMetres) {
+  Truth truth;
+  BaProblem metric = Street(100, 1, 0, truth);
+  for (BaOdometry& edge : metric.odometry) edge.T_from_to = edge.T_from_to * Pose::RotX(1e-3);
+  OnlyOdometry(metric);
+  metric.slope = {0.05, 20};
+  BaProblem halved = metric;
+  for (BaOdometry& edge : halved.odometry) edge.T_from_to.translation() /= 2;
+  halved.log_scale = std::log(2.);
+  BaOptions options;
+  options.odometry.scale_prior = 0;  // known
+  options.odometry.translation_walk = options.odometry.vertical_walk = options.odometry.rotation_walk = 0;
+  options.odometry.rotation_floor_rad = 5e-3;
+  const double before = std::abs(metric.cameras.back().T_world_cam.translation().y());
+  ASSERT_TRUE(SolveBa(metric, options).usable);
+  ASSERT_TRUE(SolveBa(halved, options).usable);
+  const double after = metric.cameras.back().T_world_cam.translation().y();
+  EXPECT_LT(std::abs(after), 0.9 * before);
+  EXPECT_NEAR(halved.cameras.back().T_world_cam.translation().y(), after, 0.01 * std::abs(after));
+}
+
 TEST(SolveBa, AHillStaysWhereTheOdometryIsGood) {
   Truth truth;
   BaProblem problem = Street(200, 1, 0, truth);
@@ -171,6 +192,21 @@ TEST(SolveBa, TiesHoldWhatTheyMeasureAndWrongOnesLittle) {
     EXPECT_GT(WorstCamera(problem, truth), 0.5);
     EXPECT_LT(WorstCamera(tied, truth), wrong ? 0.2 : 0.1);
   }
+}
+
+TEST(SolveBa, ATieIsAsGoodInEachDirectionAsItsCovarianceSaysInTheSecondCamerasAxes) {
+  const Pose T_from_to = Pose::Trans(3, 0, 1) * Pose::RotY(M_PI / 2);
+  BaProblem problem;
+  problem.cameras = {{0, Pose()}, {1, T_from_to * Pose::Trans(0.05, 0, 0.05)}};
+  // One knows where it stands along its x, the other one along its z.
+  Pose::Matrix6 along_x = 1e-6 * Pose::Matrix6::Identity(), along_z = along_x;
+  along_x(2, 2) = along_z(0, 0) = 1;
+  problem.ties.push_back({0, 1, {T_from_to * Pose::Trans(0, 0, 0.2), along_x}});
+  problem.ties.push_back({0, 1, {T_from_to * Pose::Trans(0.2, 0, 0), along_z}});
+  ASSERT_TRUE(SolveBa(problem, {}).usable);
+  const Pose& solved = problem.cameras[1].T_world_cam;
+  EXPECT_LT((solved.translation() - T_from_to.translation()).norm(), 1e-3);
+  EXPECT_LT((T_from_to.so3().inverse() * solved.so3()).Log().norm(), 1e-3);
 }
 
 TEST(SolveBa, IsDeterministic) {

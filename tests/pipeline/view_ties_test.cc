@@ -126,6 +126,17 @@ TEST(ViewAligner, MakesTheTrajectoryMoreExactThanObjectsDo) {
   EXPECT_EQ(tied.graph.edges.size() + by_views, plain.graph.edges.size() + tied.views_tied) << "nothing twice";
 }
 
+TEST(ViewAligner, NeedsNoObjectsWhereOdometryIsGood) {
+  Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
+  for (Frame& frame : drives.frames) frame.detections.clear();
+  Options options;
+  options.loop.views.reach_m = 1000;
+  TruthAligner aligner{drives, {}, 100};
+  const RunResult plain = drives.Run(), tied = RunWith(drives, aligner, options);
+  EXPECT_GT(tied.views_tied, 30);
+  EXPECT_LT(drives.Judge(tied).ate, 0.5 * drives.Judge(plain).ate);
+}
+
 TEST(ViewAligner, MeasuresLoopsAnewWhereOdometryIsGood) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.3, 1);
   Options options;  // as of good stereo odometry
