@@ -11,6 +11,7 @@
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
+#include "stereo_files.h"
 #include "threads.h"
 
 namespace sslcd::apps {
@@ -50,8 +51,9 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
   for (const auto& frame : detections)
     for (const Detection& detection : frame) ++(detection.colour.empty() ? without : with);
   if (with > 0 && without > 0)
-    Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
-                                " detections have no colour (their boxes lie outside the image): no colours.npy");
+    Log(LogLevel::kWarning,
+        std::to_string(without) + " of " + std::to_string(with + without) +
+            " detections have no colour (grey images, or boxes outside of the image): no colours.npy");
 }
 
 // What is written has the names of what was read.
@@ -69,7 +71,7 @@ void RefuseInput(const fs::path& out, const Dataset& dataset) {
 // All but the frames.
 SequenceFiles FilesOf(const Dataset& dataset) {
   SequenceFiles files;
-  if (dataset.camera && dataset.camera_right) files.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  if (dataset.camera && dataset.camera_right) files.camera = StereoCameraOf(dataset);
   files.up_axis = dataset.up_axis;
   files.labels = dataset.labels;
   files.groundtruth = dataset.groundtruth;
@@ -94,8 +96,10 @@ int Detect(DetectArguments& a, const Console& console) {
     throw Error(ErrorKind::kUsage,
                 (out / "groundtruth.txt").string() +
                     ": would be of other frames, and the dataset has none to put in its place; move it");
-  const bool fresh = !fs::exists(out) || fs::is_empty(out);
+  if (std::error_code none; fs::equivalent(a.images.boxes, out / "detections.txt", none))
+    throw Error(ErrorKind::kUsage, a.images.boxes + ": is read, and would be written; write elsewhere");
   PrepareSequenceFolder(out, a.force);
+  const bool fresh = fs::is_empty(out);
   if (a.overlays) MakeWritableFolder((out / "overlays").string());
   const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
   const int total = static_cast<int>(dataset.frames.size());

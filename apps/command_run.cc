@@ -73,6 +73,16 @@ Dataset Load(RunArguments& a, const Console& console) {
   return dataset;
 }
 
+// What is read must not be overwritten by what comes of it.
+void RefuseInput(const RunArguments& a, const Dataset& dataset) {
+  std::error_code none;
+  for (const std::string& input :
+       {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes})
+    for (const std::string& output : RunFolderPaths(a.out))
+      if (std::filesystem::equivalent(input, output, none))
+        throw Error(ErrorKind::kUsage, input + ": is read, and would be written; name another folder with --out");
+}
+
 std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path path = std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
   const bool tracking = dataset.format == DatasetFormat::kKittiTracking;
@@ -179,6 +189,7 @@ int Run(RunArguments& a, const Console& console) {
   a.config.Load();            // wrong ones first,
   MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
+  RefuseInput(a, dataset);
   std::vector<int> identities = IdentitiesOf(a, dataset);
   const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
   const Mapped mapped = MapFrames(a, dataset, configuration, console);

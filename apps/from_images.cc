@@ -58,7 +58,7 @@ std::optional<RelativePose> Align(const ViewPair& pair, const StereoFiles& files
     return AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()}, camera,
                        pair.T_a_b_guess, vision.lift.ground, vision.alignment);
   } catch (const Error& error) {  // others may do
-    return complain(*paths[2], error.what());
+    return complain(a.first + ", " + b.first, error.what());
   }
 }
 
@@ -83,7 +83,7 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
   const StereoFiles files = StereoFilesOf(dataset);
   std::optional<double> row_error_rad, spot_ahead;
   if (MeasuresByStereo(vision, dataset, detections) && dataset.camera && dataset.camera_right) {
-    const RigCheck check = CheckRigOf(files, MakeStereoCamera(*dataset.camera, *dataset.camera_right), vision.odometry);
+    const RigCheck check = CheckRigOf(files, StereoCameraOf(dataset), vision.odometry);
     dataset.camera_right->cx = dataset.camera->cx - check.disparity_at_infinity;
     if (check.row_error) row_error_rad = *check.row_error / dataset.camera->fy;
   }
@@ -114,8 +114,9 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
   if (!sequence.odometry && !detections) return std::nullopt;
   if (!dataset.camera || !dataset.camera_right)
     throw Error(ErrorKind::kBadInput, {dataset.name},
-                "needs calib.txt with P2 and P3 (of grey images P0 and P1) to make anything from its images");
-  sequence.camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+                "needs calib.txt (raw drives: calib_cam_to_cam.txt) with P2 and P3, of grey images P0 and P1, to make "
+                "anything from its images");
+  sequence.camera = StereoCameraOf(dataset);
   if (detections && !boxes.empty()) {
     sequence.boxes = ReadBoxes(boxes);
     const auto beyond = sequence.boxes->lower_bound(static_cast<int>(dataset.frames.size()));
@@ -139,7 +140,7 @@ ViewAligner ImageArguments::MakeAligner(const Dataset& dataset, const Configurat
   if (none || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
   StereoCamera camera;
   try {
-    camera = MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+    camera = StereoCameraOf(dataset);
   } catch (const Error& error) {  // who maps given detections needs no pair
     Log(LogLevel::kWarning, std::string("images of different passes are not aligned: ") + error.what());
     return {};
@@ -189,7 +190,7 @@ std::string FrontendTable(const FrontendReport& report) {
     Log(LogLevel::kWarning, "boxes that no sizes are known for are not lifted:" + unknown +
                                 "; map them to known labels (docs/models.md), which vision.lift.classes lists");
   WarnOfGround(report.ground);
-  std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(report.frames)},
+  std::vector<std::vector<std::string>> rows = {{"frames read", std::to_string(report.frames)},
                                                 {"without images", std::to_string(report.images_failed)},
                                                 {"odometry guessed", std::to_string(report.lost)}};
   for (const auto& [status, count] : report.lift)

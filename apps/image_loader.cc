@@ -8,8 +8,21 @@
 
 namespace sslcd::apps {
 
+namespace {
+
+/// Empty where there is none that can be read.
+cv::Mat Read(const std::string& path, int flags) {
+  try {
+    return cv::imread(path, flags);
+  } catch (const cv::Exception&) {  // a header that asks for too much
+    return {};
+  }
+}
+
+}  // namespace
+
 bool WithImage(const std::string& path, const std::function<void(const ImageView&)>& use) {
-  const cv::Mat image = cv::imread(path, cv::IMREAD_COLOR);
+  const cv::Mat image = Read(path, cv::IMREAD_COLOR);
   if (image.empty()) {
     Log(LogLevel::kWarning, path + ": no image that can be read; its frame goes without colour");
     return false;
@@ -19,11 +32,7 @@ bool WithImage(const std::string& path, const std::function<void(const ImageView
 }
 
 Image LoadImage(const std::string& path) {
-  cv::Mat image;
-  try {
-    image = cv::imread(path, cv::IMREAD_ANYCOLOR);  // eight bits
-  } catch (const cv::Exception&) {                  // a header that asks for too much
-  }
+  const cv::Mat image = Read(path, cv::IMREAD_ANYCOLOR);  // eight bits
   if (image.empty()) return {};
   Image copy{{}, image.cols, image.rows, image.channels()};
   for (int row = 0; row < image.rows; ++row)

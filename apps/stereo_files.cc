@@ -3,6 +3,7 @@
 
 #include "console.h"
 #include "image_loader.h"
+#include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/stereo/ground_alignment.h"
 
@@ -12,6 +13,14 @@ StereoFiles StereoFilesOf(const Dataset& dataset) {
   StereoFiles files;
   for (const Frame& frame : dataset.frames) files.emplace_back(frame.image_left, frame.image_right);
   return files;
+}
+
+StereoCamera StereoCameraOf(const Dataset& dataset) {
+  try {
+    return MakeStereoCamera(*dataset.camera, *dataset.camera_right);
+  } catch (const Error& error) {
+    throw Error(error.kind(), {dataset.name}, error.what());
+  }
 }
 
 RigCheck CheckRigOf(const StereoFiles& files, const StereoCamera& camera, const StereoOdometryOptions& options) {

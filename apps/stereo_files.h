@@ -16,6 +16,9 @@ namespace sslcd::apps {
 using StereoFiles = std::vector<std::pair<std::string, std::string>>;
 StereoFiles StereoFilesOf(const Dataset& dataset);
 
+/// MakeStereoCamera of a dataset that has both cameras; errors name it.
+StereoCamera StereoCameraOf(const Dataset& dataset);
+
 /// How far off the camera's calibration is, by these images (CheckRig), and says so to people. What is wrong with the
 /// images is told by those who use them. Nothing more is looked at after an interrupt.
 RigCheck CheckRigOf(const StereoFiles& files, const StereoCamera& camera, const StereoOdometryOptions& options);

@@ -51,7 +51,8 @@ struct ImageFrontend::Impl {
   std::optional<ObjectFinder> finder;
 
   std::size_t next_frame = 0;
-  int rows = 0;
+  int rows = 0, followed = 0;  // detections, frames whose pose the odometry has measured
+  std::string lost_because;    // the last one that was not followed
   // One report for each stage: they run at the same time.
   FrontendReport loaded, tracked, found;
 
@@ -89,8 +90,10 @@ struct ImageFrontend::Impl {
     else
       step = odometry->AddMissingFrame();
     item->frame.T_odom_cam = step.T_odom_cam;
+    followed += step.status == OdometryStatus::kTracked;
     if (step.status == OdometryStatus::kLost) {
       ++tracked.lost;
+      lost_because = step.reason;
       if (item->complete())
         item->warnings.push_back(item->frame.image_left + ": odometry lost (" + step.reason + "), its pose is guessed");
     }
@@ -156,7 +159,13 @@ ImageFrontend::~ImageFrontend() = default;
 std::optional<Frame> ImageFrontend::Next() {
   if (!impl_->stages) return std::nullopt;
   std::optional<Item> item = impl_->stages();
-  if (!item) return std::nullopt;
+  if (!item) {
+    impl_->stages = {};
+    if (impl_->odometry && impl_->loaded.frames > 1 && impl_->followed == 0)
+      throw Error(ErrorKind::kNoSolution, "no odometry: not one of " + std::to_string(impl_->loaded.frames) +
+                                              " frames could be followed: " + impl_->lost_because);
+    return std::nullopt;
+  }
   for (const std::string& warning : item->warnings) Log(LogLevel::kWarning, warning);
   return std::move(item->frame);
 }

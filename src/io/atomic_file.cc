@@ -39,25 +39,38 @@ int WriteAll(const std::string& path, const std::string& content, int flags) {
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, const std::string& content) {
+  WriteFilesAtomically({{path, content}});
+}
+
+void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files) {
   std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
-  if (fs::is_directory(status)) Fail(path, EISDIR, "name a file");
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    if (const int code = WriteAll(path, content, 0)) Fail(path, code, "name another file");
-    return;
+  for (const auto& [path, content] : files)
+    if (fs::is_directory(path, ignored)) Fail(path, EISDIR, "name a file");
+  std::vector<std::pair<std::string, std::string>> waiting;  // temporary and final names
+  for (const auto& [path, content] : files) {
+    const fs::file_status status = fs::status(path, ignored);
+    const bool special = fs::exists(status) && !fs::is_regular_file(status);
+    const std::string temporary = path + ".tmp-" + std::to_string(getpid());
+    const int code = special ? WriteAll(path, content, 0) : WriteAll(temporary, content, O_CREAT | O_TRUNC);
+    if (!special) waiting.emplace_back(temporary, path);
+    if (code == 0) continue;
+    for (const auto& [name, final_name] : waiting) unlink(name.c_str());
+    if (special) Fail(path, code, "name another file");
+    Fail(path, code, code == ENOSPC ? "make room or choose another folder" : "choose another folder");
   }
-  const std::string temporary = path + ".tmp-" + std::to_string(getpid());
-  int code = WriteAll(temporary, content, O_CREAT | O_TRUNC);
-  if (code == 0 && std::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
-  if (code == 0) return;
-  unlink(temporary.c_str());
-  Fail(path, code, code == ENOSPC ? "make room or choose another folder" : "choose another folder");
+  for (const auto& [temporary, path] : waiting) {
+    if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
+    const int code = errno;
+    for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // those that are left
+    Fail(path, code, "choose another folder");
+  }
 }
 
 void MakeWritableFolder(const std::string& path) {
-  std::error_code code;
+  std::error_code code, unseen;
   fs::create_directories(path, code);
-  if (!fs::is_directory(path)) Fail(path, code ? code.value() : ENOTDIR, "choose another folder with --out");
+  if (!fs::is_directory(path, unseen))
+    Fail(path, code ? code.value() : unseen ? unseen.value() : ENOTDIR, "choose another folder with --out");
   const std::string probe = path + "/.sslcd-probe-" + std::to_string(getpid());
   if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC)) Fail(path, failed, "choose another folder with --out");
   unlink(probe.c_str());

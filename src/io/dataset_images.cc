@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <vector>
 
 #include "io/files.h"
@@ -12,17 +13,61 @@
 namespace sslcd {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;                                 // by their images: the digits of a name
-constexpr int kKittiTrackingWidth = 1242, kKittiTrackingHeight = 375;  // [px]; a few sequences are some pixels off
+constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
 
-/// Width and height from a PNG's header; 0 when it is none.
-std::array<int, 2> PngSize(const std::string& path) {
+using Size = std::array<int, 2>;              // width, height [px]
+constexpr Size kKittiTracking = {1242, 375};  // a few sequences are some pixels off
+
+std::string Text(const Size& size) { return std::to_string(size[0]) + "x" + std::to_string(size[1]); }
+
+/// From the header of a PNG or JPEG file; 0 when it is none.
+Size SizeOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  unsigned char head[24] = {};
-  if (!file.read(reinterpret_cast<char*>(head), sizeof(head)) || head[1] != 'P' || head[2] != 'N' || head[3] != 'G')
-    return {};
-  const auto size_at = [&head](int i) { return head[i] << 24 | head[i + 1] << 16 | head[i + 2] << 8 | head[i + 3]; };
-  return {size_at(16), size_at(20)};
+  const auto byte = [&file] { return std::max(file.get(), 0); };
+  const auto number = [&](int bytes) {
+    int value = 0;
+    while (bytes-- > 0) value = value << 8 | byte();
+    return value;
+  };
+  const int first = number(2);
+  if (first == 0x8950) {  // PNG: its first chunk begins with the size
+    file.seekg(16);
+    const int width = number(4), height = number(4);
+    return file ? Size{width, height} : Size{};
+  }
+  if (first != 0xFFD8) return {};
+  while (file) {  // JPEG: segments, of which the one that begins the frame has it
+    int marker = byte();
+    while (marker == 0xFF) marker = byte();
+    const int length = number(2);
+    const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (frame) {
+      byte();  // bits
+      const int height = number(2), width = number(2);
+      return file ? Size{width, height} : Size{};
+    }
+    if (length < 2) break;
+    file.seekg(length - 2, std::ios::cur);
+  }
+  return {};
+}
+
+/// What most of the first few images have, since one of them may be broken; 0: none says.
+Size SizeOfImages(const std::vector<Frame>& frames) {
+  constexpr int kFew = 5;
+  std::map<Size, int> votes;
+  int asked = 0;
+  for (const Frame& frame : frames) {
+    if (frame.image_left.empty()) continue;
+    const Size size = SizeOf(frame.image_left);
+    if (size[0] <= 0 || size[1] <= 0) continue;
+    ++votes[size];
+    if (++asked == kFew) break;
+  }
+  Size best{};
+  for (const auto& [size, count] : votes)
+    if (best[0] == 0 || count > votes[best]) best = size;
+  return best;
 }
 
 /// The image of a frame; empty: there is none.
@@ -50,15 +95,25 @@ int FramesOfImages(const std::string& folder) {
   return count;
 }
 
+int ImagesAfter(const DatasetLayout& layout, std::size_t frames) {
+  int count = 0;
+  while (!ImageOf(layout.images, layout.image_digits, static_cast<int>(frames) + count).empty()) ++count;
+  return count;
+}
+
 void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset) {
-  std::array<int, 2> size = {info.image_width, info.image_height};
-  if (layout.format == DatasetFormat::kKittiTracking) size = {kKittiTrackingWidth, kKittiTrackingHeight};
   for (Frame& frame : dataset.frames) {
     frame.image_left = ImageOf(layout.images, layout.image_digits, frame.index);
     frame.image_right = ImageOf(layout.images_right, layout.image_digits, frame.index);
-    if (frame.index > 0 || frame.image_left.empty()) continue;
-    if (const auto in_file = PngSize(frame.image_left); in_file[0] > 0) size = in_file;
   }
+  const Size given = {info.image_width, info.image_height};
+  Size size = SizeOfImages(dataset.frames);
+  if (given[0] > 0 && size[0] > 0 && given != size)
+    throw Error(ErrorKind::kBadInput, {layout.sequence_yaml},
+                "image_size_px is " + Text(given) + ", but the images in " + layout.images + " are " + Text(size) +
+                    ": take it out if calib.txt is theirs");
+  if (size[0] == 0) size = given;
+  if (size[0] == 0 && layout.format == DatasetFormat::kKittiTracking) size = kKittiTracking;
   if (layout.odometry.empty()) {  // a stamp is no frame
     const auto last = std::find_if(dataset.frames.rbegin(), dataset.frames.rend(),
                                    [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "io/dataset_layout.h"
@@ -12,8 +13,12 @@ namespace sslcd {
 /// others later. Throws Error(kBadInput) for a name that is no frame's number.
 int FramesOfImages(const std::string& folder);
 
-/// Names the images of the dataset's frames, and gives its cameras the size of the first one: of a PNG file, else as
-/// `info` has it. Where no odometry says otherwise the sequence ends with the last image; a warning says so.
+/// How many left images follow after so many frames, without a gap.
+int ImagesAfter(const DatasetLayout& layout, std::size_t frames);
+
+/// Names the images of the dataset's frames, and gives its cameras the size that the first few have; where there are
+/// none, that of `info`. Throws Error(kBadInput) if these two differ. Where no odometry says otherwise the sequence
+/// ends with the last image; a warning says so.
 void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset);
 
 }  // namespace sslcd

@@ -130,25 +130,27 @@ std::string MetricsJson(const Metrics& metrics) {
   return text + "\n}\n";
 }
 
+std::vector<std::string> RunFolderPaths(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const char* name :
+       {"trajectory_tum.txt", "trajectory_kitti.txt", "odometry_tum.txt", "odometry_kitti.txt", "map.json", "map.ply",
+        "graph.g2o", "loops.csv", "timing.json", "metrics.json", "config.yaml"})
+    paths.push_back(folder + "/" + name);
+  return paths;
+}
+
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs) {
   MakeWritableFolder(folder);
-  const std::vector<std::pair<std::string, std::string>> files = {
-      {"trajectory_tum.txt", TumText(outputs.trajectory)},
-      {"trajectory_kitti.txt", KittiText(outputs.trajectory)},
-      {"odometry_tum.txt", TumText(outputs.odometry)},
-      {"odometry_kitti.txt", KittiText(outputs.odometry)},
-      {"map.json", MapJson(outputs.map)},
-      {"map.ply", PlyText(outputs.map, outputs.trajectory)},
-      {"graph.g2o", G2oText(outputs.graph)},
-      {"loops.csv", LoopsCsv(outputs.loops)},
-      {"timing.json", TimingJson(outputs.timing)},
-      {"metrics.json", MetricsJson(outputs.metrics)},
-      {"config.yaml", outputs.config_yaml}};
-  std::vector<std::string> paths;
-  for (const auto& [name, content] : files) {
-    paths.push_back(folder + "/" + name);
-    WriteFileAtomically(paths.back(), content);
-  }
+  const std::vector<std::string> paths = RunFolderPaths(folder);
+  const std::string contents[] = {TumText(outputs.trajectory), KittiText(outputs.trajectory),
+                                  TumText(outputs.odometry),   KittiText(outputs.odometry),
+                                  MapJson(outputs.map),        PlyText(outputs.map, outputs.trajectory),
+                                  G2oText(outputs.graph),      LoopsCsv(outputs.loops),
+                                  TimingJson(outputs.timing),  MetricsJson(outputs.metrics),
+                                  outputs.config_yaml};
+  std::vector<std::pair<std::string, std::string>> files;
+  for (std::size_t i = 0; i < paths.size(); ++i) files.emplace_back(paths[i], contents[i]);
+  WriteFilesAtomically(files);
   return paths;
 }
 

@@ -101,14 +101,13 @@ std::string Npy(const Detections& detections, std::vector<float> Detection::*vec
 }  // namespace
 
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files) {
-  const auto write = [&folder](const char* name, const std::string& text) {
-    WriteFileAtomically((folder / name).string(), text);
+  std::vector<std::pair<std::string, std::string>> written;
+  std::vector<std::filesystem::path> removed;  // what is left from before would be of other frames
+  const auto write = [&](const char* name, const std::string& text) {
+    written.emplace_back((folder / name).string(), text);
   };
   const auto write_or_remove = [&](const char* name, const std::string& bytes) {
-    if (!bytes.empty()) return write(name, bytes);
-    std::error_code error;
-    std::filesystem::remove(folder / name, error);
-    if (error) throw Error(ErrorKind::kOutput, (folder / name).string() + ": cannot be removed: " + error.message());
+    bytes.empty() ? removed.push_back(folder / name) : write(name, bytes);
   };
   write_or_remove("calib.txt", files.camera ? Calib(*files.camera) : "");
   write("times.txt", Times(files.odometry.stamps));
@@ -118,11 +117,20 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   write("sequence.yaml", SequenceYaml(files));
   write_or_remove("embeddings.npy", Npy(files.detections, &Detection::embedding, false));
   write_or_remove("colours.npy", Npy(files.detections, &Detection::colour, true));
+  WriteFilesAtomically(written);
+  for (const std::filesystem::path& path : removed) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error) throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
+  }
 }
 
 void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
   MakeWritableFolder(folder.string());
-  if (!overwrite && !std::filesystem::is_empty(folder))
+  std::error_code error;
+  const bool empty = std::filesystem::is_empty(folder, error);
+  if (error) throw Error(ErrorKind::kOutput, folder.string() + ": " + error.message() + "; choose another folder");
+  if (!overwrite && !empty)
     throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
 }
 

@@ -199,6 +199,7 @@ std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& c
     clipped[i] = Clipped(boxes[i].box, images.left);
     if (IsFinite(clipped[i]) && clipped[i].Area() > 0) objects.push_back(clipped[i]);
     const std::optional<LiftStatus> refusal = Refusal(boxes[i], clipped[i], options);
+    lifted[i].detection.label = boxes[i].label;
     if (refusal) lifted[i].status = *refusal;
     if (!refusal) order.push_back(i);
   }

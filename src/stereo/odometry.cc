@@ -24,7 +24,12 @@ constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
 constexpr double kLossPx = 0.15;  // best of .08 to 1, on rendered and on real images
 
-const char* const kNothingToFollow = "nothing to follow: too few corners in the images";
+const char* const kNoCorners = "nothing to follow: too few corners in the images";
+const char* const kNoPairs =
+    "nothing to follow: too few corners of the left image have a disparity (are left and right swapped, not rectified, "
+    "or "
+    "is all far away?)";
+const char* const kNoneBefore = "no frame before could be followed";
 const char* const kMissing = "its images are missing";
 
 /// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the step itself and
@@ -91,8 +96,9 @@ class StereoOdometry::Impl {
       step.keyframe = !keyframes_.empty();
       return step;
     }
-    const OdometryStep step = Bridge(kNothingToFollow);
+    OdometryStep step = Bridge("");
     StartAnew(current);
+    step.reason = keyframes_.empty() ? reason_ : kNoneBefore;
     return step;
   }
 
@@ -101,8 +107,11 @@ class StereoOdometry::Impl {
     keyframes_.clear();
     points_.clear();
     StereoFrame frame{last_.T_odom_left, {}};
-    TakeUpPoints(current, frame);
-    if (static_cast<int>(frame.sightings.size()) < options_.min_tracked) return;
+    const int corners = TakeUpPoints(current, frame);
+    if (static_cast<int>(frame.sightings.size()) < options_.min_tracked) {
+      reason_ = corners < options_.min_tracked ? kNoCorners : kNoPairs;
+      return;
+    }
     keyframes_.push_back(frame);
     reference_images_ = current;
     last_ = frame;
@@ -215,8 +224,8 @@ class StereoOdometry::Impl {
     frame = keyframes_.back();
   }
 
-  /// New points where the frame has none yet, placed by their disparity.
-  void TakeUpPoints(const StereoPyramids& current, StereoFrame& frame) {
+  /// New points where the frame has none yet, placed by their disparity. Returns how many corners there are.
+  int TakeUpPoints(const StereoPyramids& current, StereoFrame& frame) {
     std::vector<cv::Point2f> taken;
     for (const StereoSighting& sighting : frame.sightings)
       taken.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
@@ -229,6 +238,7 @@ class StereoOdometry::Impl {
       points_[next_point_] = frame.T_odom_left * Triangulate(camera_, *pixel);
       frame.sightings.push_back({next_point_++, *pixel});
     }
+    return static_cast<int>(corners.size());
   }
 
   /// Points that no keyframe of the window sees.

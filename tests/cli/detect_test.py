@@ -358,6 +358,43 @@ class DetectTest(CliCase):
         self.assertEqual(warnings('--set', 'loop.views.enabled=false'), 0)
         self.assertEqual(warnings('--set', 'loop.views.gap_m=100'), 0, 'nothing to align')
 
+    def test_no_odometry_is_no_success(self):
+        os.rename(self.data + '/image_2', self.data + '/image')
+        os.rename(self.data + '/image_3', self.data + '/image_2')
+        os.rename(self.data + '/image', self.data + '/image_3')
+        result = call('run', self.data, '--boxes', self.boxes, '--out', self.out)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertIn('swapped', result.stderr)
+
+    def test_unknown_labels_are_named(self):
+        write(self.boxes, '1 Teapot 0.9 100 80 200 120\n')
+        self.assertIn('not lifted: Teapot', self.detected('--boxes', self.boxes).stderr)
+
+    def test_input_is_not_overwritten(self):
+        self.detected('--boxes', self.boxes)
+        for option, name in (('--odometry', 'odometry_tum.txt'), ('--groundtruth', 'trajectory_tum.txt')):
+            shutil.copy(self.out + '/odometry.txt', f'{self.out}/{name}')
+            poses = read(f'{self.out}/{name}')
+            run = call('run', self.out, option, name, '--max-frames', 3, '--out', self.out)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(f'{name}: is read', run.stderr)
+            self.assertEqual(read(f'{self.out}/{name}'), poses)
+        boxes = self.out + '/detections.txt'
+        shutil.copy(self.boxes, boxes)
+        self.assertEqual(self.detect('--boxes', boxes, '--force').returncode, 2)
+        self.assertEqual(read(boxes), read(self.boxes))
+
+    def test_an_image_that_claims_to_be_huge(self):
+        self.detected('--boxes', self.boxes)
+        os.remove(self.out + '/colours.npy')  # so that images are asked for colours
+        shutil.copytree(self.data + '/image_2', self.out + '/image_2')
+        with open(self.out + '/image_2/000000.png', 'r+b') as file:
+            file.seek(16)
+            file.write(b'\x00\x01\x00\x00' * 2)
+        run = call('run', self.out, '--out', self.out + '/run')
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn('000000.png: no image that can be read', run.stderr)
+
     def test_bad_boxes(self):
         rows = read(self.boxes).splitlines()
         for row in ('4 Car 0.9 1 2 3', '4 Car 0.9 1 2 3 x', '-4 Car 0.9 1 2 3 4', '4 Car 1.9 1 2 3 4', '4 Car 0.9 3 2 1 4'):

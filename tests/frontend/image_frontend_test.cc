@@ -145,6 +145,25 @@ TEST_F(ImageFrontendTest, AFrameWithoutImagesIsBridgedAndNamed) {
   EXPECT_THAT(messages_, Contains(HasSubstr("frame 7 has no right image")));
 }
 
+TEST_F(ImageFrontendTest, AnOdometryThatHasFollowedNothingIsNone) {
+  for (const bool swapped : {true, false}) {
+    ImageSequence sequence = Approach(5);
+    for (Frame& frame : sequence.frames)
+      swapped ? std::swap(frame.image_left, frame.image_right) : void(frame.image_right = "broken/0");
+    ImageFrontend frontend(std::move(sequence), {}, {}, {Load}, 2);
+    for (int i = 0; i < 5; ++i) EXPECT_TRUE(frontend.Next());
+    try {
+      frontend.Next();
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kNoSolution);
+      EXPECT_THAT(error.what(), HasSubstr("not one of 5 frames"));
+      EXPECT_THAT(error.what(), HasSubstr(swapped ? "swapped" : "missing"));
+    }
+    EXPECT_FALSE(frontend.Next()) << "said once";
+  }
+}
+
 TEST_F(ImageFrontendTest, APairOfDifferentSizesIsAnErrorWithItsName) {
   ImageSequence sequence = Approach(6);
   sequence.frames[3].image_right = "small/3";

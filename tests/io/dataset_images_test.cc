@@ -168,7 +168,7 @@ TEST_F(Images, MayBeJpegs) {
   ASSERT_EQ(dataset.frames.size(), 4u);
   EXPECT_THAT(dataset.frames[1].image_left, EndsWith("image_2/000001.jpg"));
   EXPECT_THAT(dataset.frames[3].image_right, EndsWith("image_3/000003.jpg"));
-  EXPECT_EQ(dataset.camera->width, 0) << "only a PNG's size is looked at";
+  EXPECT_EQ(dataset.camera->width, 0) << "not known where no image tells";
 }
 
 Dataset LoadFromImages(const TempFolder& folder) {

@@ -86,12 +86,62 @@ TEST_F(SequenceFolder, LoadsAllParts) {
   EXPECT_THAT(dataset.frames[1].image_left, HasSubstr("image_2/000001.png"));
 }
 
-TEST_F(SequenceFolder, ImageSizeComesFromTheFirstImage) {
+/// The beginning of an image file, up to its size.
+std::string Png(int width, int height) {
+  std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\0\0\0\0\0", 24);
+  head[18] = static_cast<char>(width >> 8), head[19] = static_cast<char>(width);
+  head[22] = static_cast<char>(height >> 8), head[23] = static_cast<char>(height);
+  return head;
+}
+
+TEST_F(SequenceFolder, ImageSizeComesFromTheImages) {
   folder_.Write("calib.txt", kCalib);
-  folder_.Write("image_2/000000.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x05\0\0\0\x02\xd0", 24));
+  folder_.Write("image_2/000000.png", Png(1280, 720));
   const Dataset dataset = Load();
   EXPECT_EQ(dataset.camera->width, 1280);
   EXPECT_EQ(dataset.camera->height, 720);
+}
+
+TEST_F(SequenceFolder, ABrokenImageDoesNotSayHowLargeTheOthersAre) {
+  folder_.Write("calib.txt", kCalib);
+  folder_.Write("image_2/000000.png", Png(30000, 30000));
+  for (int i = 1; i < 4; ++i) folder_.Write("image_2/00000" + std::to_string(i) + ".png", Png(640, 480));
+  EXPECT_EQ(Load().camera->width, 640);
+  folder_.Write("image_2/000000.png", "none");
+  EXPECT_EQ(Load().camera->width, 640);
+}
+
+TEST_F(SequenceFolder, JpegsHaveASizeToo) {
+  folder_.Write("calib.txt", kCalib);
+  const std::string app0("\xFF\xE0\0\x04xy", 6), frame("\xFF\xC2\0\x11\x08\x01\x77\x04\xDA", 9);
+  folder_.Write("image_2/000000.jpg", "\xFF\xD8" + app0 + frame);
+  const Dataset dataset = Load();
+  EXPECT_EQ(dataset.camera->width, 1242);
+  EXPECT_EQ(dataset.camera->height, 375);
+  for (const std::string& broken :
+       {std::string("\xFF\xD8", 2), "\xFF\xD8" + app0, std::string("\xFF\xD8\xFF\xE0\0\0", 6)}) {
+    folder_.Write("image_2/000000.jpg", broken);
+    EXPECT_EQ(Load().camera->width, 0);
+  }
+}
+
+TEST_F(SequenceFolder, ASizeThatIsNotTheImagesIsAnError) {
+  folder_.Write("calib.txt", kCalib);
+  folder_.Write("image_2/000000.png", Png(1280, 720));
+  folder_.Write("sequence.yaml", "image_size_px: [640, 360]\n");
+  ExpectError([this] { Load(); }, {"sequence.yaml", "640x360", "1280x720"});
+  folder_.Write("sequence.yaml", "image_size_px: [1280, 720]\n");
+  EXPECT_EQ(Load().camera->width, 1280);
+}
+
+TEST_F(SequenceFolder, ImagesAfterTheLastPoseAreLeftOutAloud) {
+  for (int i = 0; i < 6; ++i) folder_.Write("image_2/00000" + std::to_string(i) + ".png", "");
+  const Dataset dataset = Load();
+  EXPECT_EQ(dataset.frames.size(), 4u);
+  EXPECT_THAT(dataset.warnings, testing::Contains(HasSubstr("2 more images")));
+  request_.max_frames = 2;
+  EXPECT_THAT(Load().warnings, testing::Contains(HasSubstr("2 more images")))
+      << "of the file, not of what is asked for";
 }
 
 TEST_F(SequenceFolder, MaxFramesCutsQuietly) {

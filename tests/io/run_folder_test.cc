@@ -137,6 +137,19 @@ TEST_F(RunFolder, AFullDiskLeavesTheOldFileAlone) {
   EXPECT_EQ(ReadFileBytes(In("file")), "old");
 }
 
+TEST_F(RunFolder, OfSeveralFilesAllAreWrittenOrNone) {
+  fs::create_directory(In("folder"));
+  WriteFileAtomically(In("a"), "old");
+  EXPECT_THROW(WriteFilesAtomically({{In("a"), "new"}, {In("folder"), "new"}}), Error);
+  EXPECT_THROW(WriteFilesAtomically({{In("a"), "new"}, {In("none/b"), "new"}}), Error);
+  EXPECT_EQ(ReadFileBytes(In("a")), "old");
+  WriteFilesAtomically({{In("a"), "new"}, {In("b"), "too"}});
+  EXPECT_EQ(ReadFileBytes(In("a")), "new");
+  EXPECT_EQ(ReadFileBytes(In("b")), "too");
+  for (const auto& entry : fs::directory_iterator(In("")))
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("tmp"))) << "nothing is left behind";
+}
+
 TEST_F(RunFolder, FoldersThatCannotBe) {
   WriteFileAtomically(In("file"), "x");
   try {

@@ -15,6 +15,7 @@
 namespace sslcd {
 namespace {
 
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
@@ -118,6 +119,20 @@ void ExpectBridged(const Mishap& mishap) {
 TEST(StereoOdometry, GoesOnAfterABlackFrame) {
   const cv::Mat black(240, 320, CV_8UC1, cv::Scalar(0));
   ExpectBridged(Mishap({}, [&](StereoOdometry& o) { return o.AddFrame({ViewOf(black), ViewOf(black)}); }));
+}
+
+TEST(StereoOdometry, SaysWhyThereIsNothingToFollow) {
+  const cv::Mat black(240, 320, CV_8UC1, cv::Scalar(0));
+  const Tunnel::Pair pair = Tunnel().Look(Pose());
+  const StereoView sides = pair.view();
+  const auto second = [](const StereoView& images, bool missing) {
+    StereoOdometry odometry(Tunnel::Camera(), {});
+    missing ? odometry.AddMissingFrame() : odometry.AddFrame(images);
+    return std::string(odometry.AddFrame(images).reason);
+  };
+  EXPECT_THAT(second({ViewOf(black), ViewOf(black)}, false), HasSubstr("corners in the images"));
+  EXPECT_THAT(second({sides.right, sides.left}, false), HasSubstr("swapped"));
+  EXPECT_THAT(second(sides, true), HasSubstr("no frame before"));
 }
 
 TEST(StereoOdometry, GoesOnAfterAMissingFrame) {

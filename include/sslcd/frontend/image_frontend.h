@@ -70,7 +70,8 @@ class ImageFrontend {
   ~ImageFrontend();
 
   /// The next complete frame; none: that was the last one. Throws Error, with the frame's image, where both images are
-  /// there but are no pair, or have the wrong number of channels, and where a model fails.
+  /// there but are no pair, or have the wrong number of channels, and where a model fails; after the last frame
+  /// Error(kNoSolution) if odometry was asked for and not one of several frames could be followed.
   std::optional<Frame> Next();
 
   /// Labels of lifted cuboids, whose front and back are not told apart: Symmetry::kNone, of the table or by default,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sslcd {
 
@@ -9,6 +11,9 @@ namespace sslcd {
 /// full disk never leaves half a file under the final name. A target that exists and is no regular file (a device, a
 /// pipe) is written directly. Throws Error(kOutput) with the path and the system's reason.
 void WriteFileAtomically(const std::string& path, const std::string& content);
+
+/// The same for several (path, content): none has its name before all are there, so that a full disk leaves no mixture.
+void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files);
 
 /// Makes the folder (and those above it) and checks that a file can be written there. Throws Error(kOutput).
 void MakeWritableFolder(const std::string& path);

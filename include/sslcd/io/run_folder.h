@@ -41,9 +41,11 @@ std::string PlyText(const MapFile& map, const Trajectory& trajectory);
 std::string TimingJson(const TimingTable& timing);
 std::string MetricsJson(const Metrics& metrics);
 
-/// Writes trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o, loops.csv, timing.json,
-/// metrics.json and config.yaml into a folder that is made if need be, each file whole or not at all. Returns their
-/// paths. Throws Error(kOutput).
+/// trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o, loops.csv, timing.json,
+/// metrics.json and config.yaml in that folder.
+std::vector<std::string> RunFolderPaths(const std::string& folder);
+
+/// Writes these files, all or none, into a folder that is made if need be. Returns their paths. Throws Error(kOutput).
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs);
 
 }  // namespace sslcd
