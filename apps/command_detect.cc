@@ -8,7 +8,6 @@
 #include "overlay.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/io/atomic_file.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
 #include "stereo_files.h"
@@ -96,11 +95,11 @@ int Detect(DetectArguments& a, const Console& console) {
     throw Error(ErrorKind::kUsage,
                 (out / "groundtruth.txt").string() +
                     ": would be of other frames, and the dataset has none to put in its place; move it");
-  if (std::error_code none; fs::equivalent(a.images.boxes, out / "detections.txt", none))
-    throw Error(ErrorKind::kUsage, a.images.boxes + ": is read, and would be written; write elsewhere");
+  for (const auto& [input, name] : {std::pair(a.images.boxes, "detections.txt"), {a.config.file, "config.yaml"}})
+    if (std::error_code none; fs::equivalent(input, out / name, none))
+      throw Error(ErrorKind::kUsage, input + ": is read, and would be written; write elsewhere");
   PrepareSequenceFolder(out, a.force);
   const bool fresh = fs::is_empty(out);
-  if (a.overlays) MakeWritableFolder((out / "overlays").string());
   const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
   const int total = static_cast<int>(dataset.frames.size());
 
@@ -135,13 +134,12 @@ int Detect(DetectArguments& a, const Console& console) {
     throw *failure;
   }
   WarnOfMissingColours(files.detections);
-  WriteSequenceFiles(out, files);
-  overlays.RemoveOthers();
   Configuration resolved = configuration;
   if (a.images.MeasuresByStereo(configuration.vision, dataset, !odometry_alone))
     resolved.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
-  const std::string yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
-  WriteFileAtomically((out / "config.yaml").string(), yaml);
+  files.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
+  WriteSequenceFiles(out, files);
+  overlays.RemoveOthers();
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
               (odometry_alone ? "; map it with detections: sslcd_run run " : "; map it with: sslcd_run run ") + a.out +
               " --config " + (out / "config.yaml").string() + (odometry_alone ? " --detections FILE" : ""));

@@ -77,7 +77,7 @@ Dataset Load(RunArguments& a, const Console& console) {
 void RefuseInput(const RunArguments& a, const Dataset& dataset) {
   std::error_code none;
   for (const std::string& input :
-       {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes})
+       {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes, a.config.file})
     for (const std::string& output : RunFolderPaths(a.out))
       if (std::filesystem::equivalent(input, output, none))
         throw Error(ErrorKind::kUsage, input + ": is read, and would be written; name another folder with --out");

@@ -80,6 +80,7 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
   if (detections) config.CheckPath(vision.embedder);
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && LiftsBoxes(*this, vision), tracked = dataset.odometry_path.empty();
+  const bool none = !dataset.detections_path.empty() && dataset.rows_read == 0;
   const StereoFiles files = StereoFilesOf(dataset);
   std::optional<double> row_error_rad, spot_ahead;
   if (MeasuresByStereo(vision, dataset, detections) && dataset.camera && dataset.camera_right) {
@@ -97,7 +98,7 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error_rad);
-    if (lifted) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
+    if (lifted || none) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
 }
 
@@ -170,7 +171,7 @@ std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::o
   try {
     return frontend.Next();
   } catch (const Error& error) {
-    if (done == 0) throw;
+    if (done == 0 || error.kind() == ErrorKind::kNoSolution) throw;
     failure = error;
     return std::nullopt;
   }

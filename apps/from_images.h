@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,8 +24,9 @@ struct ImageArguments {
   /// The configuration with these in it, from other defaults: cuboids lifted from 2D boxes bring their own noise, and
   /// a loss that suits the headings which are a quarter turn off; so does odometry from images, by how well these are
   /// rectified, and it is good enough for `loop.odometry` to be `ba.odometry`; and where both come from the same images
-  /// there is no scale to estimate, since a wrong baseline stretches both alike. `detections`: they are made, too.
-  /// Where frames are made from stereo, the right camera of `dataset` gets the principal point that CheckRig finds.
+  /// there is no scale to estimate, since a wrong baseline stretches both alike, and aligned images. `detections`: they
+  /// are made, too. Where frames are made from stereo, the right camera of `dataset` gets the principal point that
+  /// CheckRig finds.
   Configuration Load(ConfigArguments config, Dataset& dataset, bool detections) const;
 
   /// Whether odometry or cuboids are measured by disparities, rather than given or found by a 3D detector.
@@ -43,8 +45,8 @@ struct ImageArguments {
                           std::function<void(int done, int total)> progress) const;
 };
 
-/// The next frame. Its error is thrown where it is the first one (`done` is 0), else kept in `failure`, so that the
-/// results of the frames before are not lost: then, as at the end, there is none.
+/// The next frame. Its error is thrown where it is the first one (`done` is 0) or spoils all of them (kNoSolution),
+/// else kept in `failure`, so that the results of the frames before are not lost: then, as at the end, there is none.
 std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done, std::optional<Error>& failure);
 
 /// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is one.

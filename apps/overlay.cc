@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd::apps {
@@ -43,6 +44,7 @@ bool IsName(const std::string& name) {
 }  // namespace
 
 void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& camera) {
+  if (written_.empty()) MakeWritableFolder(folder_.string());
   const std::string path = (folder_ / *written_.insert(NameOf(frame.index)).first).string();
   cv::Mat image;
   if (left.channels == 3)

@@ -12,8 +12,8 @@
 
 namespace sslcd::apps {
 
-/// Left images with what was found in them, one file a frame: FOLDER/000007.jpg. Whatever else lies there is left
-/// alone.
+/// Left images with what was found in them, one file a frame: FOLDER/000007.jpg, made with the first. Whatever else
+/// lies there is left alone.
 class Overlays {
  public:
   explicit Overlays(std::filesystem::path folder) : folder_(std::move(folder)) {}

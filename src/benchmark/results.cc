@@ -78,8 +78,13 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
       if (hooks.stop && hooks.stop()) stopped = true;
       if (stopped) return;
       if (!sequence) sequence = MakeSequence(trials[i]);
-      results[i] = RunTrial(trials[i], *sequence);
-      folder.Put(trials[i], results[i]);
+      try {
+        results[i] = RunTrial(trials[i], *sequence);
+        folder.Put(trials[i], results[i]);
+      } catch (...) {  // others need not end their worlds
+        stopped = true;
+        throw;
+      }
       const std::lock_guard<std::mutex> lock(one_at_a_time);
       ++done;
       if (hooks.progress) hooks.progress(done, static_cast<int>(trials.size()));

@@ -52,7 +52,7 @@ struct ImageFrontend::Impl {
 
   std::size_t next_frame = 0;
   int rows = 0, followed = 0;  // detections, frames whose pose the odometry has measured
-  std::string lost_because;    // the last one that was not followed
+  std::string lost_because;    // the first one that was not followed
   // One report for each stage: they run at the same time.
   FrontendReport loaded, tracked, found;
 
@@ -93,7 +93,7 @@ struct ImageFrontend::Impl {
     followed += step.status == OdometryStatus::kTracked;
     if (step.status == OdometryStatus::kLost) {
       ++tracked.lost;
-      lost_because = step.reason;
+      if (lost_because.empty()) lost_because = step.reason;
       if (item->complete())
         item->warnings.push_back(item->frame.image_left + ": odometry lost (" + step.reason + "), its pose is guessed");
     }

@@ -61,8 +61,9 @@ class Loader {
     AddImages(layout_, info_, out_);
     if (out_.frames.size() < frames) frames_in_file_ = out_.frames.size();
     if (const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_))
-      Warn(layout_.odometry + ": has " + std::to_string(frames_in_file_) + " poses, and " + layout_.images + " " +
-           std::to_string(more) + " more images; they are left out");
+      Warn((layout_.times.empty() ? layout_.odometry : layout_.times) + ": has " + std::to_string(frames_in_file_) +
+           (layout_.times.empty() ? " poses, and " : " stamps, and ") + layout_.images + " " + std::to_string(more) +
+           " more images; they are left out");
     if (!layout_.detections.empty()) AddDetections();
     AddGroundtruth();
     return std::move(out_);

@@ -24,6 +24,21 @@ std::string Json(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ShortestNumber(*value) : "null";
 }
 
+/// Paths and contents.
+std::vector<std::pair<std::string, std::string>> FilesOf(const RunOutputs& outputs, const std::string& folder) {
+  return {{folder + "/trajectory_tum.txt", TumText(outputs.trajectory)},
+          {folder + "/trajectory_kitti.txt", KittiText(outputs.trajectory)},
+          {folder + "/odometry_tum.txt", TumText(outputs.odometry)},
+          {folder + "/odometry_kitti.txt", KittiText(outputs.odometry)},
+          {folder + "/map.json", MapJson(outputs.map)},
+          {folder + "/map.ply", PlyText(outputs.map, outputs.trajectory)},
+          {folder + "/graph.g2o", G2oText(outputs.graph)},
+          {folder + "/loops.csv", LoopsCsv(outputs.loops)},
+          {folder + "/timing.json", TimingJson(outputs.timing)},
+          {folder + "/metrics.json", MetricsJson(outputs.metrics)},
+          {folder + "/config.yaml", outputs.config_yaml}};
+}
+
 }  // namespace
 
 std::string TumText(const Trajectory& trajectory) {
@@ -132,26 +147,14 @@ std::string MetricsJson(const Metrics& metrics) {
 
 std::vector<std::string> RunFolderPaths(const std::string& folder) {
   std::vector<std::string> paths;
-  for (const char* name :
-       {"trajectory_tum.txt", "trajectory_kitti.txt", "odometry_tum.txt", "odometry_kitti.txt", "map.json", "map.ply",
-        "graph.g2o", "loops.csv", "timing.json", "metrics.json", "config.yaml"})
-    paths.push_back(folder + "/" + name);
+  for (const auto& [path, content] : FilesOf(RunOutputs(), folder)) paths.push_back(path);
   return paths;
 }
 
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs) {
   MakeWritableFolder(folder);
-  const std::vector<std::string> paths = RunFolderPaths(folder);
-  const std::string contents[] = {TumText(outputs.trajectory), KittiText(outputs.trajectory),
-                                  TumText(outputs.odometry),   KittiText(outputs.odometry),
-                                  MapJson(outputs.map),        PlyText(outputs.map, outputs.trajectory),
-                                  G2oText(outputs.graph),      LoopsCsv(outputs.loops),
-                                  TimingJson(outputs.timing),  MetricsJson(outputs.metrics),
-                                  outputs.config_yaml};
-  std::vector<std::pair<std::string, std::string>> files;
-  for (std::size_t i = 0; i < paths.size(); ++i) files.emplace_back(paths[i], contents[i]);
-  WriteFilesAtomically(files);
-  return paths;
+  WriteFilesAtomically(FilesOf(outputs, folder));
+  return RunFolderPaths(folder);
 }
 
 }  // namespace sslcd

@@ -107,7 +107,10 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
     written.emplace_back((folder / name).string(), text);
   };
   const auto write_or_remove = [&](const char* name, const std::string& bytes) {
-    bytes.empty() ? removed.push_back(folder / name) : write(name, bytes);
+    if (bytes.empty())
+      removed.push_back(folder / name);
+    else
+      write(name, bytes);
   };
   write_or_remove("calib.txt", files.camera ? Calib(*files.camera) : "");
   write("times.txt", Times(files.odometry.stamps));
@@ -117,6 +120,7 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   write("sequence.yaml", SequenceYaml(files));
   write_or_remove("embeddings.npy", Npy(files.detections, &Detection::embedding, false));
   write_or_remove("colours.npy", Npy(files.detections, &Detection::colour, true));
+  if (!files.config_yaml.empty()) write("config.yaml", files.config_yaml);
   WriteFilesAtomically(written);
   for (const std::filesystem::path& path : removed) {
     std::error_code error;

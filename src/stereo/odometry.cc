@@ -26,9 +26,8 @@ constexpr double kLossPx = 0.15;  // best of .08 to 1, on rendered and on real i
 
 const char* const kNoCorners = "nothing to follow: too few corners in the images";
 const char* const kNoPairs =
-    "nothing to follow: too few corners of the left image have a disparity (are left and right swapped, not rectified, "
-    "or "
-    "is all far away?)";
+    "nothing to follow: too few corners of the left image have a disparity (are left and right swapped, or not "
+    "rectified, or is all far away?)";
 const char* const kNoneBefore = "no frame before could be followed";
 const char* const kMissing = "its images are missing";
 

@@ -362,9 +362,18 @@ class DetectTest(CliCase):
         os.rename(self.data + '/image_2', self.data + '/image')
         os.rename(self.data + '/image_3', self.data + '/image_2')
         os.rename(self.data + '/image', self.data + '/image_3')
-        result = call('run', self.data, '--boxes', self.boxes, '--out', self.out)
-        self.assertEqual(result.returncode, 5, result.stderr)
-        self.assertIn('swapped', result.stderr)
+        self.refused(call('run', self.data, '--boxes', self.boxes, '--out', self.out), 5, 'swapped')
+        self.refused(self.detect('--boxes', self.boxes), 5, 'swapped')
+
+    def test_aligned_images_say_nothing_of_the_scale_of_odometry_from_them(self):
+        write(self.data + '/detections.txt', '')
+        run = call('run', self.data, '--odometry', 'stereo', '--out', self.out)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn('scale_prior: 0.05', read(self.out + '/config.yaml'))
+
+    def test_a_second_try_with_overlays(self):
+        self.refused(self.detect('--boxes', self.boxes + 'none', '--overlays'), 3, 'none')
+        self.detected('--boxes', self.boxes, '--overlays')
 
     def test_unknown_labels_are_named(self):
         write(self.boxes, '1 Teapot 0.9 100 80 200 120\n')
@@ -379,6 +388,9 @@ class DetectTest(CliCase):
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn(f'{name}: is read', run.stderr)
             self.assertEqual(read(f'{self.out}/{name}'), poses)
+        config = self.out + '/config.yaml'
+        self.assertEqual(call('run', self.out, '--config', config, '--out', self.out).returncode, 2)
+        self.assertEqual(self.detect('--boxes', self.boxes, '--config', config, '--force').returncode, 2)
         boxes = self.out + '/detections.txt'
         shutil.copy(self.boxes, boxes)
         self.assertEqual(self.detect('--boxes', boxes, '--force').returncode, 2)

@@ -37,8 +37,10 @@ inline void ForEach(std::size_t count, int threads, const std::function<void(std
     }
   };
   std::vector<std::thread> helpers;
+  const std::size_t most = std::min<std::size_t>(std::max(threads, 1), count);
+  helpers.reserve(most);
   try {
-    for (std::size_t i = 1; i < std::min<std::size_t>(std::max(threads, 1), count); ++i) helpers.emplace_back(take);
+    for (std::size_t i = 1; i < most; ++i) helpers.emplace_back(take);
   } catch (const std::system_error&) {  // no more to be had
   }
   take();

@@ -103,7 +103,7 @@ struct BaSummary {
 };
 
 /// Eq. 7: moves cameras, objects and scale to the minimum. Deterministic for any thread count. Never throws on odd
-/// geometry: a problem without sightings or with non-finite input comes back unchanged with `usable` false.
+/// geometry: a problem without sightings and ties, or with non-finite input comes back unchanged with `usable` false.
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options);
 
 /// The prior that replaces the given cameras and objects (sorted indices) and every residual that touches them,
