@@ -25,9 +25,9 @@ Size SizeOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const auto byte = [&file] { return std::max(file.get(), 0); };
   const auto number = [&](int bytes) {
-    int value = 0;
-    while (bytes-- > 0) value = value << 8 | byte();
-    return value;
+    unsigned value = 0;
+    while (bytes-- > 0) value = value << 8 | static_cast<unsigned>(byte());
+    return static_cast<int>(value);
   };
   const int first = number(2);
   if (first == 0x8950) {  // PNG: its first chunk begins with the size
