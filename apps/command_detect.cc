@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "from_images.h"
 #include "overlay.h"
+#include "overwriting.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/io/config.h"
@@ -95,9 +96,8 @@ int Detect(DetectArguments& a, const Console& console) {
     throw Error(ErrorKind::kUsage,
                 (out / "groundtruth.txt").string() +
                     ": would be of other frames, and the dataset has none to put in its place; move it");
-  for (const auto& [input, name] : {std::pair(a.images.boxes, "detections.txt"), {a.config.file, "config.yaml"}})
-    if (std::error_code none; fs::equivalent(input, out / name, none))
-      throw Error(ErrorKind::kUsage, input + ": is read, and would be written; write elsewhere");
+  RefuseOverwriting({a.images.boxes, a.config.file},
+                    {(out / "detections.txt").string(), (out / "config.yaml").string()});
   PrepareSequenceFolder(out, a.force);
   const bool fresh = fs::is_empty(out);
   const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);

@@ -8,6 +8,7 @@
 #include "evaluation.h"
 #include "from_images.h"
 #include "image_loader.h"
+#include "overwriting.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/eval/kitti_ground_truth.h"
@@ -71,16 +72,6 @@ Dataset Load(RunArguments& a, const Console& console) {
     Log(LogLevel::kWarning,
         "no detections: the map will be empty, and nothing but images that can be aligned corrects the odometry");
   return dataset;
-}
-
-// What is read must not be overwritten by what comes of it.
-void RefuseInput(const RunArguments& a, const Dataset& dataset) {
-  std::error_code none;
-  for (const std::string& input :
-       {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes, a.config.file})
-    for (const std::string& output : RunFolderPaths(a.out))
-      if (std::filesystem::equivalent(input, output, none))
-        throw Error(ErrorKind::kUsage, input + ": is read, and would be written; name another folder with --out");
 }
 
 std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
@@ -189,7 +180,9 @@ int Run(RunArguments& a, const Console& console) {
   a.config.Load();            // wrong ones first,
   MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
-  RefuseInput(a, dataset);
+  RefuseOverwriting(
+      {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes, a.config.file},
+      RunFolderPaths(a.out));
   std::vector<int> identities = IdentitiesOf(a, dataset);
   const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
   const Mapped mapped = MapFrames(a, dataset, configuration, console);

@@ -80,7 +80,7 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
   if (detections) config.CheckPath(vision.embedder);
   // A detector that is not used need not be there: `detect` names its own in the configuration of what it has made.
   const bool lifted = detections && LiftsBoxes(*this, vision), tracked = dataset.odometry_path.empty();
-  const bool none = !dataset.detections_path.empty() && dataset.rows_read == 0;
+  const bool no_objects = !dataset.detections_path.empty() && dataset.rows_read == 0;
   const StereoFiles files = StereoFilesOf(dataset);
   std::optional<double> row_error_rad, spot_ahead;
   if (MeasuresByStereo(vision, dataset, detections) && dataset.camera && dataset.camera_right) {
@@ -98,7 +98,7 @@ Configuration ImageArguments::Load(ConfigArguments config, Dataset& dataset, boo
     if (lifted) c.options.noise = LiftNoise(), c.options.ba.loss_scale = 1, c.options.ba.correlation = 4;
     if (!tracked) return;
     c.options.loop.odometry = c.options.ba.odometry = StereoOdometryNoise(row_error_rad);
-    if (lifted || none) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
+    if (lifted || no_objects) c.options.ba.odometry.scale_prior = c.options.loop.odometry.scale_prior = 0;
   });
 }
 
@@ -136,9 +136,9 @@ std::optional<ImageFrontend> ImageArguments::Make(Dataset& dataset, const Config
 ViewAligner ImageArguments::MakeAligner(const Dataset& dataset, const Configuration& configuration, int threads,
                                         std::function<void(int done, int total)> progress) const {
   const StereoFiles files = StereoFilesOf(dataset);
-  const bool none = std::none_of(files.begin(), files.end(),
-                                 [](const auto& pair) { return !pair.first.empty() && !pair.second.empty(); });
-  if (none || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
+  const bool any_pair = std::any_of(files.begin(), files.end(),
+                                    [](const auto& pair) { return !pair.first.empty() && !pair.second.empty(); });
+  if (!any_pair || !dataset.camera || !dataset.camera_right || !configuration.options.loop.views.enabled) return {};
   StereoCamera camera;
   try {
     camera = StereoCameraOf(dataset);

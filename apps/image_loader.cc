@@ -10,10 +10,11 @@ namespace sslcd::apps {
 
 namespace {
 
-/// Empty where there is none that can be read.
+/// As it is stored, which is how it is calibrated, however a JPEG says it should be turned. Empty where there is none
+/// that can be read.
 cv::Mat Read(const std::string& path, int flags) {
   try {
-    return cv::imread(path, flags);
+    return cv::imread(path, flags | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {  // a header that asks for too much
     return {};
   }

@@ -35,7 +35,7 @@ RigCheck CheckRigOf(const StereoFiles& files, const StereoCamera& camera, const 
     return pair;
   };
   const RigCheck check = CheckRig(camera, files.size(), load, options);
-  if (!check.row_error) return check;
+  if (!check.row_error || Interrupted()) return check;
   const std::string rows = "rows of left and right images differ by " + Number("%.3f", *check.row_error) + " px";
   if (check.disparity_at_infinity != camera.disparity_at_infinity) {
     Log(LogLevel::kWarning, "calibration is off: " + rows + ". As points move, the disparity at infinity is " +

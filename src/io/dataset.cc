@@ -60,10 +60,7 @@ class Loader {
     const std::size_t frames = out_.frames.size();
     AddImages(layout_, info_, out_);
     if (out_.frames.size() < frames) frames_in_file_ = out_.frames.size();
-    if (const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_))
-      Warn((layout_.times.empty() ? layout_.odometry : layout_.times) + ": has " + std::to_string(frames_in_file_) +
-           (layout_.times.empty() ? " poses, and " : " stamps, and ") + layout_.images + " " + std::to_string(more) +
-           " more images; they are left out");
+    WarnOfMoreImages();
     if (!layout_.detections.empty()) AddDetections();
     AddGroundtruth();
     return std::move(out_);
@@ -75,6 +72,7 @@ class Loader {
   void AddDetections();
   void AddAppearance();
   int AddVectors(const std::string& path, std::vector<float> Detection::*vector);  // returns how many are unusable
+  void WarnOfMoreImages();
   void CheckLabels();
   void AddGroundtruth();
   void Warn(const std::string& text) { out_.warnings.push_back(text); }
@@ -152,6 +150,15 @@ void Loader::AddFramesWithoutPoses() {
     out_.frames[i].index = static_cast<int>(i);
     out_.frames[i].stamp = stamps[i];
   }
+}
+
+void Loader::WarnOfMoreImages() {
+  const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_);
+  if (more == 0) return;
+  const std::string count = std::to_string(frames_in_file_);
+  Warn((layout_.times.empty() ? layout_.odometry + ": has " + count + " poses"
+                              : layout_.times + ": has " + count + " stamps") +
+       ", and " + layout_.images + " " + std::to_string(more) + " more images; they are left out");
 }
 
 void Loader::AddDetections() {

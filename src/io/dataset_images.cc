@@ -2,12 +2,11 @@
 #include "io/dataset_images.h"
 
 #include <algorithm>
-#include <array>
-#include <fstream>
 #include <map>
 #include <vector>
 
 #include "io/files.h"
+#include "io/image_size.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -15,56 +14,23 @@ namespace {
 
 constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
 
-using Size = std::array<int, 2>;              // width, height [px]
-constexpr Size kKittiTracking = {1242, 375};  // a few sequences are some pixels off
+constexpr ImageSize kKittiTracking = {1242, 375};  // a few sequences are some pixels off
 
-std::string Text(const Size& size) { return std::to_string(size[0]) + "x" + std::to_string(size[1]); }
-
-/// From the header of a PNG or JPEG file; 0 when it is none.
-Size SizeOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const auto byte = [&file] { return std::max(file.get(), 0); };
-  const auto number = [&](int bytes) {
-    unsigned value = 0;
-    while (bytes-- > 0) value = value << 8 | static_cast<unsigned>(byte());
-    return static_cast<int>(value);
-  };
-  const int first = number(2);
-  if (first == 0x8950) {  // PNG: its first chunk begins with the size
-    file.seekg(16);
-    const int width = number(4), height = number(4);
-    return file ? Size{width, height} : Size{};
-  }
-  if (first != 0xFFD8) return {};
-  while (file) {  // JPEG: segments, of which the one that begins the frame has it
-    int marker = byte();
-    while (marker == 0xFF) marker = byte();
-    const int length = number(2);
-    const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-    if (frame) {
-      byte();  // bits
-      const int height = number(2), width = number(2);
-      return file ? Size{width, height} : Size{};
-    }
-    if (length < 2) break;
-    file.seekg(length - 2, std::ios::cur);
-  }
-  return {};
-}
+std::string Text(const ImageSize& size) { return std::to_string(size[0]) + "x" + std::to_string(size[1]); }
 
 /// What most of the first few images have, since one of them may be broken; 0: none says.
-Size SizeOfImages(const std::vector<Frame>& frames) {
+ImageSize SizeOfImages(const std::vector<Frame>& frames) {
   constexpr int kFew = 5;
-  std::map<Size, int> votes;
+  std::map<ImageSize, int> votes;
   int asked = 0;
   for (const Frame& frame : frames) {
     if (frame.image_left.empty()) continue;
-    const Size size = SizeOf(frame.image_left);
+    const ImageSize size = ReadImageSize(frame.image_left);
     if (size[0] <= 0 || size[1] <= 0) continue;
     ++votes[size];
     if (++asked == kFew) break;
   }
-  Size best{};
+  ImageSize best{};
   for (const auto& [size, count] : votes)
     if (best[0] == 0 || count > votes[best]) best = size;
   return best;
@@ -106,8 +72,8 @@ void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& d
     frame.image_left = ImageOf(layout.images, layout.image_digits, frame.index);
     frame.image_right = ImageOf(layout.images_right, layout.image_digits, frame.index);
   }
-  const Size given = {info.image_width, info.image_height};
-  Size size = SizeOfImages(dataset.frames);
+  const ImageSize given = {info.image_width, info.image_height};
+  ImageSize size = SizeOfImages(dataset.frames);
   if (given[0] > 0 && size[0] > 0 && given != size)
     throw Error(ErrorKind::kBadInput, {layout.sequence_yaml},
                 "image_size_px is " + Text(given) + ", but the images in " + layout.images + " are " + Text(size) +

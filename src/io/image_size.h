@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace sslcd {
+
+/// Width and height [px].
+using ImageSize = std::array<int, 2>;
+
+/// From the header of a PNG or JPEG file; zero where it has none.
+ImageSize ReadImageSize(const std::string& path);
+
+}  // namespace sslcd
