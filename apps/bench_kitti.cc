@@ -26,8 +26,10 @@ std::vector<std::string> Sequences(const fs::path& folder) {
   return names;
 }
 
-std::map<std::string, std::optional<double>> RunOne(const std::string& folder, const std::string& detections,
-                                                    const std::string& sequence, const Options& options) {
+std::map<std::string, std::optional<double>> RunOne(const std::string& folder,
+                                                    const std::string& detections,
+                                                    const std::string& sequence,
+                                                    const Options& options) {
   DatasetRequest request;
   request.path = folder;
   request.format = DatasetFormat::kKittiTracking;
@@ -38,7 +40,8 @@ std::map<std::string, std::optional<double>> RunOne(const std::string& folder, c
   if (fs::is_regular_file(fs::path(folder) / truth)) request.groundtruth = truth.string();
   const Dataset dataset = LoadDataset(request);
   const RunResult run =
-      RunSequence(dataset.frames, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, options);
+      RunSequence(dataset.frames,
+                  {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, options);
   const MapFile map{dataset.up_axis, run.objects};
   EvaluationInput input;
   input.estimate = run.trajectory;
@@ -58,15 +61,16 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
                             const Options& options, const std::function<bool()>& stop) {
   benchmark::Table table{"table1",
                          "3D IoU of standing cars, KITTI tracking",
-                         {"detections", "sequence", "single detections", "map", "coverage", "purity",
-                          "VisualDet3D (paper)", "CubeSLAM (paper)", "Ji et al. (paper)"},
+                         {"detections", "sequence", "single detections", "map", "coverage",
+                          "purity", "VisualDet3D (paper)", "CubeSLAM (paper)", "Ji et al. (paper)"},
                          {}};
   const std::vector<std::string> usual = {"det_stereo_grade_car", "det_pointrcnn_car"};
   for (const std::string& set : detections.empty() ? usual : detections) {
     const fs::path path = fs::path(folder) / set;
     if (!fs::is_directory(path)) {
       if (detections.empty()) continue;
-      throw Error(ErrorKind::kBadInput, {path.string()}, "no such folder of detections; check --detections");
+      throw Error(ErrorKind::kBadInput, {path.string()},
+                  "no such folder of detections; check --detections");
     }
     for (const std::string& sequence : Sequences(path)) {
       if (stop && stop()) return {};
@@ -76,7 +80,8 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
         return value ? benchmark::Cell("%.3f", *value) : std::string();
       };
       std::vector<std::string> row{
-          set, sequence, cell("iou_raw"), cell("iou_map"), cell("coverage"), cell("purity"), "", "", ""};
+          set, sequence, cell("iou_raw"), cell("iou_map"), cell("coverage"), cell("purity"), "",
+          "",  ""};
       for (const benchmark::PaperIou& paper : benchmark::kPaperIou)
         if (paper.sequence == sequence) {
           row[6] = benchmark::Cell("%.3f", paper.visualdet3d);
@@ -87,7 +92,8 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
     }
   }
   if (table.rows.empty())
-    throw Error(ErrorKind::kBadInput, {folder}, "holds none of the folders of detections; give --detections");
+    throw Error(ErrorKind::kBadInput, {folder},
+                "holds none of the folders of detections; give --detections");
   return table;
 }
 

@@ -30,7 +30,8 @@ void Resolve(const fs::path& folder, std::string& path) {
 }
 
 void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
-  for (std::string* path : {&vision.detector, &vision.embedder, &vision.inference.library}) Resolve(folder, *path);
+  for (std::string* path : {&vision.detector, &vision.embedder, &vision.inference.library})
+    Resolve(folder, *path);
 }
 
 }  // namespace
@@ -44,7 +45,8 @@ void ConfigArguments::AddTo(CLI::App& command) {
   command.add_option("--config", file, "YAML file; what it does not name keeps its default");
   command.add_option("--mode", mode, "robust (default), or paper: the equations as printed")
       ->check(CLI::IsMember({"robust", "paper"}));
-  command.add_option("--set", settings, "section.key=value; may be given several times")->allow_extra_args(false);
+  command.add_option("--set", settings, "section.key=value; may be given several times")
+      ->allow_extra_args(false);
 }
 
 Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& adapt) const {
@@ -57,7 +59,8 @@ Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& a
     }
     ApplySettings(settings, Fields(all));
     ResolvePaths(fs::current_path(), all.vision);
-    if (!mode.empty()) all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
+    if (!mode.empty())
+      all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
   };
   apply();
   all = {DefaultOptions(all.options.mode), VisionOptions()};
@@ -70,12 +73,14 @@ void ConfigArguments::CheckPath(const std::string& path) const {
   std::error_code none;
   if (path.empty() || fs::exists(path, none)) return;
   std::string message = "no such file in the current folder";
-  if (!file.empty()) message += ", nor in " + FolderOf(file).string() + " if it is " + file + " that names it";
+  if (!file.empty())
+    message += ", nor in " + FolderOf(file).string() + " if it is " + file + " that names it";
   throw Error(ErrorKind::kBadInput, {path}, message);
 }
 
 Command AddCheckConfigCommand(CLI::App& app, Console& console) {
-  CLI::App* command = app.add_subcommand("check-config", "check a configuration file; all problems at once");
+  CLI::App* command =
+      app.add_subcommand("check-config", "check a configuration file; all problems at once");
   const auto file = std::make_shared<std::string>();
   command->add_option("FILE", *file, "YAML file")->required();
   return [file, &console] {
@@ -87,14 +92,16 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console) {
 }
 
 Command AddDumpConfigCommand(CLI::App& app, Console&) {
-  CLI::App* command = app.add_subcommand("dump-config", "print the configuration that a run would use");
+  CLI::App* command =
+      app.add_subcommand("dump-config", "print the configuration that a run would use");
   const auto arguments = std::make_shared<ConfigArguments>();
   const auto markdown = std::make_shared<bool>(false);
   arguments->AddTo(*command);
   command->add_flag("--markdown", *markdown, "as the tables of docs/configuration.md");
   return [arguments, markdown] {
     Configuration all = arguments->Load();
-    const std::string text = *markdown ? ConfigReference(Fields(all)) : DumpConfig(Fields(all), true);
+    const std::string text =
+        *markdown ? ConfigReference(Fields(all)) : DumpConfig(Fields(all), true);
     std::fputs(text.c_str(), stdout);
     return 0;
   };

@@ -29,20 +29,25 @@ struct DetectArguments {
 };
 
 void AddOptions(CLI::App& command, DetectArguments& a) {
-  command.add_option("DATASET", a.request.path, "folder with image_2, image_3 (or image_0, image_1) and calib.txt")
+  command
+      .add_option("DATASET", a.request.path,
+                  "folder with image_2, image_3 (or image_0, image_1) and calib.txt")
       ->required();
   command.add_option("--format", a.format, "layout of the folder; guessed where not given")
       ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
-  command.add_option("--odometry", a.request.odometry,
-                     "poses to go with the detections; or 'stereo': from the images, as where there is no file; "
-                     "that, without a detector or boxes, makes odometry alone");
+  command.add_option(
+      "--odometry", a.request.odometry,
+      "poses to go with the detections; or 'stereo': from the images, as where there is no file; "
+      "that, without a detector or boxes, makes odometry alone");
   a.images.AddTo(command);
   a.config.AddTo(command);
   command.add_option("--out", a.out, "folder to write: a sequence for sslcd_run run")->required();
   command.add_flag("--force", a.force, "write into a folder that is not empty");
-  command.add_flag("--overlays", a.overlays, "and OUT/overlays: the left images with boxes and cuboids");
-  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_flag("--overlays", a.overlays,
+                   "and OUT/overlays: the left images with boxes and cuboids");
+  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
+      ->check(CLI::PositiveNumber);
   AddThreads(command, a.threads);
 }
 
@@ -51,9 +56,9 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
   for (const auto& frame : detections)
     for (const Detection& detection : frame) ++(detection.colour.empty() ? without : with);
   if (with > 0 && without > 0)
-    Log(LogLevel::kWarning,
-        std::to_string(without) + " of " + std::to_string(with + without) +
-            " detections have no colour (grey images, or boxes outside of the image): no colours.npy");
+    Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
+                                " detections have no colour (grey images, or boxes outside of the "
+                                "image): no colours.npy");
 }
 
 // What is written has the names of what was read.
@@ -64,8 +69,9 @@ void RefuseInput(const fs::path& out, const Dataset& dataset) {
   std::error_code none;
   for (const fs::path& input : inputs)
     if (!input.empty() && fs::equivalent(out, input.parent_path(), none))
-      throw Error(ErrorKind::kUsage,
-                  out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
+      throw Error(
+          ErrorKind::kUsage,
+          out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
 }
 
 // All but the frames.
@@ -80,11 +86,12 @@ SequenceFiles FilesOf(const Dataset& dataset) {
 
 int Detect(DetectArguments& a, const Console& console) {
   const bool has_detector = !a.config.Load().vision.detector.empty();  // wrong ones first
-  const bool odometry_alone =
-      a.request.odometry == "stereo" && !a.images.detects() && a.images.embedder.empty() && !has_detector;
+  const bool odometry_alone = a.request.odometry == "stereo" && !a.images.detects() &&
+                              a.images.embedder.empty() && !has_detector;
   if (odometry_alone && a.overlays)
     throw Error(ErrorKind::kUsage,
-                "--overlays show detections: name a detector (--detector) or boxes (--boxes), or leave it out");
+                "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
+                "leave it out");
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detections_policy = PartPolicy::kIgnored;
   ChooseOdometry(a.request);
@@ -93,9 +100,10 @@ int Detect(DetectArguments& a, const Console& console) {
   const fs::path out = a.out;
   RefuseInput(out, dataset);
   if (a.force && !dataset.groundtruth && fs::exists(out / "groundtruth.txt"))
-    throw Error(ErrorKind::kUsage,
-                (out / "groundtruth.txt").string() +
-                    ": would be of other frames, and the dataset has none to put in its place; move it");
+    throw Error(
+        ErrorKind::kUsage,
+        (out / "groundtruth.txt").string() +
+            ": would be of other frames, and the dataset has none to put in its place; move it");
   RefuseOverwriting({a.images.boxes, a.config.file},
                     {(out / "detections.txt").string(), (out / "config.yaml").string()});
   PrepareSequenceFolder(out, a.force);
@@ -106,10 +114,13 @@ int Detect(DetectArguments& a, const Console& console) {
   const Camera camera = dataset.camera.value_or(Camera());
   Overlays overlays(out / "overlays");
   std::function<void(const Frame&, const ImageView&)> watch;
-  if (a.overlays) watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
-  ImageFrontend frontend = *a.images.Make(dataset, configuration, !odometry_alone, a.threads, watch);
+  if (a.overlays)
+    watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
+  ImageFrontend frontend =
+      *a.images.Make(dataset, configuration, !odometry_alone, a.threads, watch);
   if (dataset.odometry_path.empty())
-    console.Say(odometry_alone ? "odometry: made from the images; no detections" : "odometry: made from the images");
+    console.Say(odometry_alone ? "odometry: made from the images; no detections"
+                               : "odometry: made from the images");
 
   SequenceFiles files = FilesOf(dataset);
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
@@ -129,8 +140,9 @@ int Detect(DetectArguments& a, const Console& console) {
     return 130;
   }
   if (failure && !fresh) {
-    Log(LogLevel::kWarning, "stopped by an error: but for overlays " + a.out +
-                                " holds what it held before; choose a new folder to keep the frames before the error");
+    Log(LogLevel::kWarning,
+        "stopped by an error: but for overlays " + a.out +
+            " holds what it held before; choose a new folder to keep the frames before the error");
     throw *failure;
   }
   WarnOfMissingColours(files.detections);
@@ -141,8 +153,10 @@ int Detect(DetectArguments& a, const Console& console) {
   WriteSequenceFiles(out, files);
   overlays.RemoveOthers();
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
-              (odometry_alone ? "; map it with detections: sslcd_run run " : "; map it with: sslcd_run run ") + a.out +
-              " --config " + (out / "config.yaml").string() + (odometry_alone ? " --detections FILE" : ""));
+              (odometry_alone ? "; map it with detections: sslcd_run run "
+                              : "; map it with: sslcd_run run ") +
+              a.out + " --config " + (out / "config.yaml").string() +
+              (odometry_alone ? " --detections FILE" : ""));
   if (failure) {
     Log(LogLevel::kWarning, "stopped by an error: " + a.out + " holds the frames before it (" +
                                 std::to_string(files.detections.size()) + ")");
@@ -154,7 +168,8 @@ int Detect(DetectArguments& a, const Console& console) {
 }  // namespace
 
 Command AddDetectCommand(CLI::App& app, Console& console) {
-  CLI::App* command = app.add_subcommand("detect", "make detections, embeddings and odometry from stereo images");
+  CLI::App* command =
+      app.add_subcommand("detect", "make detections, embeddings and odometry from stereo images");
   const auto arguments = std::make_shared<DetectArguments>();
   AddOptions(*command, *arguments);
   command->add_flag("-q,--quiet", console.quiet, "print errors only");

@@ -45,7 +45,8 @@ int Eval(const EvalArguments& a, const Console& console) {
     return 0;
   }
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
+  for (const auto& [name, value] : metrics)
+    rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   console.Say(AlignedTable(rows));
   return 0;
 }
@@ -56,11 +57,14 @@ Command AddEvalCommand(CLI::App& app, Console& console) {
   CLI::App* command = app.add_subcommand("eval", "compare a finished run with ground truth");
   const auto arguments = std::make_shared<EvalArguments>();
   command->add_option("RUN", arguments->run, "folder written by 'sslcd_run run'")->required();
-  command->add_option("--groundtruth", arguments->groundtruth, "true poses: TUM, KITTI rows or VINS csv")->required();
-  CLI::Option* labels =
-      command->add_option("--labels", arguments->labels, "KITTI tracking label_02 file: judges the map too");
-  CLI::Option* detections =
-      command->add_option("--detections", arguments->detections, "the detections that the run was made from");
+  command
+      ->add_option("--groundtruth", arguments->groundtruth,
+                   "true poses: TUM, KITTI rows or VINS csv")
+      ->required();
+  CLI::Option* labels = command->add_option("--labels", arguments->labels,
+                                            "KITTI tracking label_02 file: judges the map too");
+  CLI::Option* detections = command->add_option("--detections", arguments->detections,
+                                                "the detections that the run was made from");
   labels->needs(detections);
   detections->needs(labels);
   command->add_flag("--json", arguments->json, "print JSON");

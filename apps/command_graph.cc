@@ -17,8 +17,9 @@
 namespace sslcd::apps {
 namespace {
 
-const std::map<std::string, Vec3> kUpAxes = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},   {"z", {0, 0, 1}},
-                                             {"-x", {-1, 0, 0}}, {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
+const std::map<std::string, Vec3> kUpAxes = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
+                                             {"z", {0, 0, 1}},   {"-x", {-1, 0, 0}},
+                                             {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
 
 struct GraphArguments {
   std::string in, out, dof = "auto", up = "z", start = "auto";
@@ -53,8 +54,10 @@ RobustPoseGraphSummary Solve(PoseGraph& graph, const PoseGraphOptions& options, 
   return summary;
 }
 
-Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bool robust, double seconds) {
-  const auto loops = std::count_if(given.edges.begin(), given.edges.end(), [](const auto& edge) { return edge.loop; });
+Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bool robust,
+               double seconds) {
+  const auto loops = std::count_if(given.edges.begin(), given.edges.end(),
+                                   [](const auto& edge) { return edge.loop; });
   Metrics metrics = {{"vertices", given.vertices.size()},
                      {"edges", given.edges.size()},
                      {"loops", loops},
@@ -66,9 +69,9 @@ Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bo
                      {"chordal_start", summary.graph.chordal},
                      {"seconds", seconds}};
   if (robust) {
-    metrics.insert(
-        metrics.end(),
-        {{"loops_kept", summary.loops_kept}, {"loops_refused", summary.loops_refused}, {"rounds", summary.rounds}});
+    metrics.insert(metrics.end(), {{"loops_kept", summary.loops_kept},
+                                   {"loops_refused", summary.loops_refused},
+                                   {"rounds", summary.rounds}});
   }
   return metrics;
 }
@@ -76,19 +79,24 @@ Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bo
 int Graph(const GraphArguments& a, const Console& console) {
   G2oFile file = ReadG2o(a.in);
   if (file.graph.edges.empty()) {
-    throw Error(ErrorKind::kBadInput, a.in + ": no EDGE_SE3:QUAT or EDGE_SE2 rows: there is nothing to optimise");
+    throw Error(ErrorKind::kBadInput,
+                a.in + ": no EDGE_SE3:QUAT or EDGE_SE2 rows: there is nothing to optimise");
   }
   if (file.rows_ignored > 0)
-    Log(LogLevel::kWarning, a.in + ": " + std::to_string(file.rows_ignored) + " rows of other kinds were left out");
+    Log(LogLevel::kWarning,
+        a.in + ": " + std::to_string(file.rows_ignored) + " rows of other kinds were left out");
   const PoseGraph given = file.graph;
   const auto start = std::chrono::steady_clock::now();
   const RobustPoseGraphSummary summary = Solve(file.graph, a.Options(file.planar), a.robust);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!summary.graph.usable) throw Error(ErrorKind::kNoSolution, a.in + ": " + summary.graph.message);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!summary.graph.usable)
+    throw Error(ErrorKind::kNoSolution, a.in + ": " + summary.graph.message);
   if (!summary.graph.converged) Log(LogLevel::kWarning, "stopped early: " + summary.graph.message);
   if (summary.graph.components > 1) {
-    Log(LogLevel::kWarning, std::to_string(summary.graph.components) +
-                                " parts that no edge joins: each keeps its first vertex, unless another one is fixed");
+    Log(LogLevel::kWarning,
+        std::to_string(summary.graph.components) +
+            " parts that no edge joins: each keeps its first vertex, unless another one is fixed");
   }
   WriteFileAtomically(a.out, G2oText(file.graph));
 
@@ -112,9 +120,13 @@ Command AddGraphCommand(CLI::App& app, Console& console) {
   command->add_option("IN", arguments->in, "file with SE3:QUAT or SE2 rows")->required();
   command->add_option("--out", arguments->out, "file to write, SE3:QUAT")->required();
   command->add_flag("--robust", arguments->robust,
-                    "doubt the loops: edges between consecutive ids (i -> i + 1) are odometry and trusted, all others "
-                    "are loops; refused ones are left out of the file written, and chi2 counts the kept ones only");
-  command->add_option("--dof", arguments->dof, "of a pose: 3 (horizontal and yaw), 4 (translation and yaw) or 6")
+                    "doubt the loops: edges between consecutive ids (i -> i + 1) are odometry and "
+                    "trusted, all others "
+                    "are loops; refused ones are left out of the file written, and chi2 counts the "
+                    "kept ones only");
+  command
+      ->add_option("--dof", arguments->dof,
+                   "of a pose: 3 (horizontal and yaw), 4 (translation and yaw) or 6")
       ->check(CLI::IsMember({"auto", "3", "4", "6"}))
       ->default_str("auto: 3 for SE2 files, otherwise 6");
   std::vector<std::string> axes;
@@ -122,7 +134,9 @@ Command AddGraphCommand(CLI::App& app, Console& console) {
   command->add_option("--up", arguments->up, "the world's vertical, for 3 and 4 DoF")
       ->check(CLI::IsMember(axes))
       ->default_str("z");
-  command->add_option("--start", arguments->start, "poses to start from: as given, chordal, or the better ones")
+  command
+      ->add_option("--start", arguments->start,
+                   "poses to start from: as given, chordal, or the better ones")
       ->check(CLI::IsMember({"auto", "given", "chordal"}));
   AddThreads(*command, arguments->threads);
   command->add_flag("--json", arguments->json, "print JSON and nothing else");

@@ -61,12 +61,13 @@ Answer TimedMatch(const LayoutPair& pair, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   Answer answer = options.mode == Options::Mode::kPaper ? MatchPaper(pair, options.loop.paper)
                                                         : MatchRobust(pair, options.loop.match);
-  answer.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  answer.ms =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return answer;
 }
 
-std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options, int threads,
-                             const Console& console) {
+std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options,
+                             int threads, const Console& console) {
   std::vector<Answer> answers(pairs.size());
   ForEach(
       pairs.size(), threads, [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], options); },
@@ -79,10 +80,11 @@ std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>&
   std::string text = "pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,ms\n";
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Answer& a = answers[i];
-    text += std::to_string(pairs[i].id) + "," + ToString(a.decision) + "," + Number("%.6f", a.pose.yaw);
+    text +=
+        std::to_string(pairs[i].id) + "," + ToString(a.decision) + "," + Number("%.6f", a.pose.yaw);
     for (int axis = 0; axis < 3; ++axis) text += "," + Number("%.4f", a.pose.t[axis]);
-    text += "," + Number("%.3f", a.score) + "," + Number("%.3f", a.second_score) + "," + std::to_string(a.matches) +
-            "," + Number("%.3f", a.ms) + "\n";
+    text += "," + Number("%.3f", a.score) + "," + Number("%.3f", a.second_score) + "," +
+            std::to_string(a.matches) + "," + Number("%.3f", a.ms) + "\n";
   }
   return text;
 }
@@ -107,9 +109,11 @@ int Match(const MatchArguments& a, const Console& console) {
 }  // namespace
 
 Command AddMatchCommand(CLI::App& app, Console& console) {
-  CLI::App* command = app.add_subcommand("match", "find local maps in global ones, without any prior pose");
+  CLI::App* command =
+      app.add_subcommand("match", "find local maps in global ones, without any prior pose");
   const auto arguments = std::make_shared<MatchArguments>();
-  command->add_option("PAIRS", arguments->pairs, "file of map pairs, see docs/formats.md")->required();
+  command->add_option("PAIRS", arguments->pairs, "file of map pairs, see docs/formats.md")
+      ->required();
   command->add_option("--out", arguments->out, "CSV file to write; default: standard output");
   arguments->config.AddTo(*command);
   AddThreads(*command, arguments->threads);

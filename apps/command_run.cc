@@ -36,16 +36,20 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--format", a.format, "layout of the folder; guessed where not given")
       ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
-  command.add_option("--detections", a.request.detections, "file or folder, relative to DATASET or the current folder");
+  command.add_option("--detections", a.request.detections,
+                     "file or folder, relative to DATASET or the current folder");
   command.add_option("--odometry", a.request.odometry,
                      "poses, likewise; or 'stereo': from the images, as where there is no file");
   a.images.AddTo(command);
-  command.add_option("--groundtruth", a.request.groundtruth, "poses, likewise; for the metrics only");
+  command.add_option("--groundtruth", a.request.groundtruth,
+                     "poses, likewise; for the metrics only");
   command.add_option("--score", a.score, "what the score column holds; guessed where not given")
       ->check(CLI::IsMember({"auto", "probability", "logit"}));
   a.config.AddTo(command);
-  command.add_option("--out", a.out, "folder to write; default runs/latest")->default_str("runs/latest");
-  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")->check(CLI::PositiveNumber);
+  command.add_option("--out", a.out, "folder to write; default runs/latest")
+      ->default_str("runs/latest");
+  command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
+      ->check(CLI::PositiveNumber);
   AddThreads(command, a.threads);
   command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
 }
@@ -53,9 +57,11 @@ void AddOptions(CLI::App& command, RunArguments& a) {
 Dataset Load(RunArguments& a, const Console& console) {
   ChooseOdometry(a.request);
   if (!a.images.embedder.empty() && !a.images.detects())
-    throw Error(ErrorKind::kUsage, "--embedder goes with detections made from images: add --detector or --boxes");
+    throw Error(ErrorKind::kUsage,
+                "--embedder goes with detections made from images: add --detector or --boxes");
   if (a.images.detects() && !a.request.detections.empty())
-    throw Error(ErrorKind::kUsage, "--detections names detections, --detector and --boxes make others: choose one");
+    throw Error(ErrorKind::kUsage,
+                "--detections names detections, --detector and --boxes make others: choose one");
   if (a.images.detects()) a.request.detections_policy = PartPolicy::kIgnored;
   a.request.format = *ParseDatasetFormat(a.format);
   a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
@@ -63,67 +69,86 @@ Dataset Load(RunArguments& a, const Console& console) {
                                                                  : ScoreKind::kLogit;
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  std::string line = dataset.name + ": " + ToString(dataset.format) + (a.format == "auto" ? " (guessed), " : ", ") +
-                     std::to_string(dataset.frames.size()) + " frames, " + std::to_string(dataset.rows_read) +
-                     " detections";
-  if (dataset.rows_dropped > 0) line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
+  std::string line = dataset.name + ": " + ToString(dataset.format) +
+                     (a.format == "auto" ? " (guessed), " : ", ") +
+                     std::to_string(dataset.frames.size()) + " frames, " +
+                     std::to_string(dataset.rows_read) + " detections";
+  if (dataset.rows_dropped > 0)
+    line += ", " + std::to_string(dataset.rows_dropped) + " of them dropped as invalid";
   console.Say(line);
   if (dataset.rows_read == 0 && !a.images.detects())
     Log(LogLevel::kWarning,
-        "no detections: the map will be empty, and nothing but images that can be aligned corrects the odometry");
+        "no detections: the map will be empty, and nothing but images that can be aligned corrects "
+        "the odometry");
   return dataset;
 }
 
 std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
-  const std::filesystem::path path = std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
+  const std::filesystem::path path =
+      std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
   const bool tracking = dataset.format == DatasetFormat::kKittiTracking;
   return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
 }
 
-// The true identity of each detection row, where a sequence folder has them and there are true poses to go with them.
+// The true identity of each detection row, where a sequence folder has them and there are true
+// poses to go with them.
 std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
-  const std::filesystem::path detections(dataset.detections_path), path = detections.parent_path() / "landmark_ids.txt";
+  const std::filesystem::path detections(dataset.detections_path),
+      path = detections.parent_path() / "landmark_ids.txt";
   const bool others = !a.request.detections.empty() && detections.filename() != "detections.txt";
-  if (!dataset.groundtruth || detections.empty() || others || !std::filesystem::is_regular_file(path)) return {};
+  if (!dataset.groundtruth || detections.empty() || others ||
+      !std::filesystem::is_regular_file(path))
+    return {};
   std::vector<int> identities = ReadLandmarkIds(path.string());
   if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
-  Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) + " rows, but there are " +
-                              std::to_string(dataset.rows_read) + " detections: loops are not judged");
+  Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) +
+                              " rows, but there are " + std::to_string(dataset.rows_read) +
+                              " detections: loops are not judged");
   return {};
 }
 
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   int landmarks = 0;
-  for (const MapObject& object : result.objects) landmarks += object.state == LandmarkState::kConfirmed;
-  const auto accepted = std::count_if(result.loops.begin(), result.loops.end(),
-                                      [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
-  std::vector<std::vector<std::string>> rows = {{"frames", std::to_string(result.frames.size())},
-                                                {"landmarks", std::to_string(landmarks)},
-                                                {"loops accepted", std::to_string(accepted)},
-                                                {"loops refused", std::to_string(result.loops.size() - accepted)},
-                                                {"views tied", std::to_string(result.views_tied)},
-                                                {"odometry scale", Number("%.4f", result.scale)}};
-  for (const auto& [name, value] : metrics) rows.push_back({name, value ? Number("%.4f", *value) : "-"});
+  for (const MapObject& object : result.objects)
+    landmarks += object.state == LandmarkState::kConfirmed;
+  const auto accepted = std::count_if(
+      result.loops.begin(), result.loops.end(),
+      [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
+  std::vector<std::vector<std::string>> rows = {
+      {"frames", std::to_string(result.frames.size())},
+      {"landmarks", std::to_string(landmarks)},
+      {"loops accepted", std::to_string(accepted)},
+      {"loops refused", std::to_string(result.loops.size() - accepted)},
+      {"views tied", std::to_string(result.views_tied)},
+      {"odometry scale", Number("%.4f", result.scale)}};
+  for (const auto& [name, value] : metrics)
+    rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
 }
 
 struct Mapped {
   RunResult result;
-  std::vector<Frame> frames;     // as they went in: from the dataset, or as the frontend has completed them
+  // as they went in: from the dataset, or as the frontend has completed them
+  std::vector<Frame> frames;
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
 };
 
-Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration, const Console& console) {
+Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration,
+                 const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
   const ViewAligner aligner = a.images.MakeAligner(
-      dataset, configuration, a.threads, [&console](int done, int count) { console.Progress("view", done, count); });
-  std::optional<ImageFrontend> frontend = a.images.Make(dataset, configuration, a.images.detects(), a.threads);
+      dataset, configuration, a.threads,
+      [&console](int done, int count) { console.Progress("view", done, count); });
+  std::optional<ImageFrontend> frontend =
+      a.images.Make(dataset, configuration, a.images.detects(), a.threads);
   if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
-  const MapperContext context{GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
+  const MapperContext context{
+      GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
-  if (!a.images.detects()) hooks.with_image = WithImage;  // else they have their colours, where the images have any
+  // else they have their colours, where the images have any
+  if (!a.images.detects()) hooks.with_image = WithImage;
   CatchInterrupt();
   Mapped mapped;
   if (!frontend) {
@@ -155,12 +180,13 @@ RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configurat
   outputs.graph = result.graph;
   outputs.loops = result.loops;
   outputs.timing = result.timing;
-  outputs.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
+  outputs.config_yaml =
+      DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
   return outputs;
 }
 
-Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> identities, const Mapped& mapped,
-              const RunOutputs& outputs) {
+Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> identities,
+              const Mapped& mapped, const RunOutputs& outputs) {
   if (mapped.result.frames.empty()) return {};
   EvaluationInput evaluation;
   evaluation.estimate = mapped.result.trajectory;
@@ -180,9 +206,9 @@ int Run(RunArguments& a, const Console& console) {
   a.config.Load();            // wrong ones first,
   MakeWritableFolder(a.out);  // and rather now than after the run
   Dataset dataset = Load(a, console);
-  RefuseOverwriting(
-      {dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path, a.images.boxes, a.config.file},
-      RunFolderPaths(a.out));
+  RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
+                     a.images.boxes, a.config.file},
+                    RunFolderPaths(a.out));
   std::vector<int> identities = IdentitiesOf(a, dataset);
   const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
   const Mapped mapped = MapFrames(a, dataset, configuration, console);
@@ -198,7 +224,8 @@ int Run(RunArguments& a, const Console& console) {
     Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
     throw *mapped.failure;
   }
-  if (mapped.result.stopped) Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
+  if (mapped.result.stopped)
+    Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
   return mapped.result.stopped ? 130 : 0;
 }
 

@@ -23,7 +23,8 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);
 Command AddVersionCommand(CLI::App& app);
 
-/// Everything a configuration file may hold: the library's options and, in `vision`, how frames come from images.
+/// Everything a configuration file may hold: the library's options and, in `vision`, how frames
+/// come from images.
 struct Configuration {
   Options options;
   VisionOptions vision;
@@ -36,11 +37,12 @@ struct ConfigArguments {
   std::vector<std::string> settings;
 
   void AddTo(CLI::App& command);
-  /// Defaults of the mode, as `adapt` changes them, then the file, then the settings. Paths in the file are relative to
-  /// it, or else to the current folder, as those of settings are; what is found becomes absolute, so that it can be
-  /// written anywhere. Throws Error(kBadConfig).
+  /// Defaults of the mode, as `adapt` changes them, then the file, then the settings. Paths in the
+  /// file are relative to it, or else to the current folder, as those of settings are; what is
+  /// found becomes absolute, so that it can be written anywhere. Throws Error(kBadConfig).
   Configuration Load(const std::function<void(Configuration&)>& adapt = {}) const;
-  /// Throws Error(kBadInput) with the places looked at where a path of the configuration leads nowhere.
+  /// Throws Error(kBadInput) with the places looked at where a path of the configuration leads
+  /// nowhere.
   void CheckPath(const std::string& path) const;
 };
 

@@ -15,7 +15,8 @@
 namespace sslcd::apps {
 namespace {
 
-std::atomic<bool> g_interrupted{false};  // lock-free, so a handler may set it and any thread read it
+// lock-free, so a handler may set it and any thread read it
+std::atomic<bool> g_interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void OnInterrupt(int) {
@@ -28,7 +29,9 @@ extern "C" void OnInterrupt(int) {
 void Console::InstallLog() const {
   const auto logger = spdlog::stderr_color_mt("sslcd");
   logger->set_pattern("%^%l:%$ %v");
-  logger->set_level(quiet ? spdlog::level::err : verbose ? spdlog::level::debug : spdlog::level::warn);
+  logger->set_level(quiet     ? spdlog::level::err
+                    : verbose ? spdlog::level::debug
+                              : spdlog::level::warn);
   SetLogSink([logger](LogLevel level, const std::string& message) {
     switch (level) {
       case LogLevel::kDebug: logger->debug(message); break;
@@ -40,7 +43,8 @@ void Console::InstallLog() const {
 }
 
 void Console::Progress(const std::string& what, int done, int total) const {
-  if (done % 10 == 0 || done == total) Status(what + " " + std::to_string(done) + "/" + std::to_string(total));
+  if (done % 10 == 0 || done == total)
+    Status(what + " " + std::to_string(done) + "/" + std::to_string(total));
 }
 
 void Console::Status(const std::string& line) const {
@@ -87,8 +91,8 @@ std::string Number(const char* format, double value) {
 std::string TimingText(const TimingTable& timing) {
   std::vector<std::vector<std::string>> rows = {{"stage", "calls", "p50 ms", "p95 ms", "max ms"}};
   for (const auto& [stage, t] : timing.Summary())
-    rows.push_back(
-        {stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95), Number("%.2f", t.max)});
+    rows.push_back({stage, std::to_string(t.count), Number("%.2f", t.p50), Number("%.2f", t.p95),
+                    Number("%.2f", t.max)});
   return AlignedTable(rows);
 }
 

@@ -27,7 +27,8 @@ MatchedPoses Pair(const Trajectory& estimate, const EvaluationInput& input) {
 
 void AddTrajectoryErrors(const EvaluationInput& input, Metrics& metrics) {
   const MatchedPoses matched = Pair(input.estimate, input);
-  for (const Alignment alignment : {Alignment::kSe3, Alignment::kSim3, Alignment::k4Dof, Alignment::kNone}) {
+  for (const Alignment alignment :
+       {Alignment::kSe3, Alignment::kSim3, Alignment::k4Dof, Alignment::kNone}) {
     const ErrorStats error = ComputeAte(matched.est, matched.ref, alignment).error;
     const std::string name = std::string("ate_") + ToString(alignment);
     metrics.emplace_back(name + "_rmse_m", error.rmse);
@@ -42,8 +43,10 @@ void AddTrajectoryErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("rpe_1_frame_rmse_rad", rpe.rotation_rad.rmse);
   if (!input.odometry) return;
   const MatchedPoses odometry = Pair(*input.odometry, input);
-  metrics.emplace_back("odometry_ate_se3_rmse_m", ComputeAte(odometry.est, odometry.ref, Alignment::kSe3).error.rmse);
-  metrics.emplace_back("odometry_ate_sim3_rmse_m", ComputeAte(odometry.est, odometry.ref, Alignment::kSim3).error.rmse);
+  metrics.emplace_back("odometry_ate_se3_rmse_m",
+                       ComputeAte(odometry.est, odometry.ref, Alignment::kSe3).error.rmse);
+  metrics.emplace_back("odometry_ate_sim3_rmse_m",
+                       ComputeAte(odometry.est, odometry.ref, Alignment::kSim3).error.rmse);
 }
 
 // Poses by frame number; frames that were not processed get the pose before them.
@@ -103,7 +106,8 @@ void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("loops", m.loops);
   metrics.emplace_back("loops_wrong", m.wrong_loops);
   for (int bin = 0; bin < kViewpointBins; ++bin)
-    metrics.emplace_back(std::string("loops_true_") + kViewpointBinNames[bin] + "_deg", m.true_by_viewpoint[bin]);
+    metrics.emplace_back(std::string("loops_true_") + kViewpointBinNames[bin] + "_deg",
+                         m.true_by_viewpoint[bin]);
   metrics.emplace_back("loop_error_median_m", m.loop_error_median_m);
   metrics.emplace_back("loop_error_median_rad", m.loop_error_median_rad);
   metrics.emplace_back("revisited_stretches", m.revisited_stretches);
@@ -119,7 +123,8 @@ Metrics Evaluate(const EvaluationInput& input) {
   Metrics metrics;
   if (input.groundtruth) AddTrajectoryErrors(input, metrics);
   const bool reference = input.groundtruth.has_value() || input.odometry.has_value();
-  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr && reference)
+  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr &&
+      reference)
     AddMapErrors(input, metrics);
   if (!input.identities.empty() && input.groundtruth && input.odometry && input.map != nullptr &&
       input.detections != nullptr) {

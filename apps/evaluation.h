@@ -27,8 +27,8 @@ struct EvaluationInput {
   std::vector<LoopClosure> loops;
 };
 
-/// Trajectory error (all alignments), relative error, the map's accuracy and identities where labels are there, and
-/// loops, revisits and identities where true identities are.
+/// Trajectory error (all alignments), relative error, the map's accuracy and identities where
+/// labels are there, and loops, revisits and identities where true identities are.
 Metrics Evaluate(const EvaluationInput& input);
 
 }  // namespace sslcd::apps

@@ -10,8 +10,8 @@ namespace sslcd::apps {
 
 namespace {
 
-/// As it is stored, which is how it is calibrated, however a JPEG says it should be turned. Empty where there is none
-/// that can be read.
+/// As it is stored, which is how it is calibrated, however a JPEG says it should be turned. Empty
+/// where there is none that can be read.
 cv::Mat Read(const std::string& path, int flags) {
   try {
     return cv::imread(path, flags | cv::IMREAD_IGNORE_ORIENTATION);
@@ -37,7 +37,8 @@ Image LoadImage(const std::string& path) {
   if (image.empty()) return {};
   Image copy{{}, image.cols, image.rows, image.channels()};
   for (int row = 0; row < image.rows; ++row)
-    copy.pixels.insert(copy.pixels.end(), image.ptr(row), image.ptr(row) + image.cols * image.elemSize());
+    copy.pixels.insert(copy.pixels.end(), image.ptr(row),
+                       image.ptr(row) + image.cols * image.elemSize());
   return copy;
 }
 

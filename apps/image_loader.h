@@ -8,7 +8,8 @@
 
 namespace sslcd::apps {
 
-/// RunHooks::with_image: reads an image file and hands it on; false, with a warning, where that fails.
+/// RunHooks::with_image: reads an image file and hands it on; false, with a warning, where that
+/// fails.
 bool WithImage(const std::string& path, const std::function<void(const ImageView&)>& use);
 
 /// FrontendHooks::load: an image file, in colour or grey as it is; empty where that fails.

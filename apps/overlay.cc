@@ -15,15 +15,18 @@ namespace sslcd::apps {
 namespace {
 
 // Corner k of a cuboid: bit 0 front, bit 1 left, bit 2 top.
-void DrawCuboid(cv::Mat& image, const Detection& detection, const Camera& camera, const cv::Scalar& colour) {
+void DrawCuboid(cv::Mat& image, const Detection& detection, const Camera& camera,
+                const cv::Scalar& colour) {
   constexpr double kNear = 0.5;  // [m]
   cv::Point corners[8];
   for (int k = 0; k < 8; ++k) {
     const Vec3 half = 0.5 * detection.dims;
-    const Vec3 corner((k & 1 ? 1 : -1) * half.x(), (k & 2 ? 1 : -1) * half.y(), (k & 4 ? 1 : -1) * half.z());
+    const Vec3 corner((k & 1 ? 1 : -1) * half.x(), (k & 2 ? 1 : -1) * half.y(),
+                      (k & 4 ? 1 : -1) * half.z());
     const Vec3 p = detection.T_cam_object * corner + camera.offset;
     if (p.z() < kNear) return;
-    corners[k] = {cvRound(camera.fx * p.x() / p.z() + camera.cx), cvRound(camera.fy * p.y() / p.z() + camera.cy)};
+    corners[k] = {cvRound(camera.fx * p.x() / p.z() + camera.cx),
+                  cvRound(camera.fy * p.y() / p.z() + camera.cy)};
   }
   for (int k = 0; k < 8; ++k)
     for (const int bit : {1, 2, 4})
@@ -56,9 +59,11 @@ void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& ca
     DrawCuboid(image, detection, camera, cuboid_colour);
     if (!detection.box) continue;
     const cv::Point top_left(cvRound(detection.box->left), cvRound(detection.box->top));
-    cv::rectangle(image, top_left, {cvRound(detection.box->right), cvRound(detection.box->bottom)}, box_colour);
-    cv::putText(image, detection.label + Number(" %.2f", detection.score), top_left + cv::Point(2, -3),
-                cv::FONT_HERSHEY_SIMPLEX, 0.4, box_colour, 1, cv::LINE_AA);
+    cv::rectangle(image, top_left, {cvRound(detection.box->right), cvRound(detection.box->bottom)},
+                  box_colour);
+    cv::putText(image, detection.label + Number(" %.2f", detection.score),
+                top_left + cv::Point(2, -3), cv::FONT_HERSHEY_SIMPLEX, 0.4, box_colour, 1,
+                cv::LINE_AA);
   }
   bool written = false;
   try {
@@ -74,13 +79,16 @@ void Overlays::RemoveOthers() const {
   std::vector<fs::path> others;
   for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
-    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(it->path())) others.push_back(it->path());
+    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(it->path()))
+      others.push_back(it->path());
   }
   for (const fs::path& path : others) {
     fs::remove(path, error);
-    if (error) throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
+    if (error)
+      throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
   }
-  if (!others.empty()) fs::remove(folder_, error);  // which fails, and should, where anything is left
+  // which fails, and should, where anything is left
+  if (!others.empty()) fs::remove(folder_, error);
 }
 
 }  // namespace sslcd::apps

@@ -7,12 +7,14 @@
 
 namespace sslcd::apps {
 
-void RefuseOverwriting(const std::vector<std::string>& read, const std::vector<std::string>& written) {
+void RefuseOverwriting(const std::vector<std::string>& read,
+                       const std::vector<std::string>& written) {
   std::error_code none;
   for (const std::string& input : read)
     for (const std::string& output : written)
       if (std::filesystem::equivalent(input, output, none))
-        throw Error(ErrorKind::kUsage, input + ": is read, and would be overwritten; name another folder with --out");
+        throw Error(ErrorKind::kUsage,
+                    input + ": is read, and would be overwritten; name another folder with --out");
 }
 
 }  // namespace sslcd::apps

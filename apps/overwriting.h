@@ -6,8 +6,9 @@
 
 namespace sslcd::apps {
 
-/// Throws Error(kUsage) if one of the files that are read is one of those that are to be written, under whatever name.
-/// Empty names, and files that are not there, are none.
-void RefuseOverwriting(const std::vector<std::string>& read, const std::vector<std::string>& written);
+/// Throws Error(kUsage) if one of the files that are read is one of those that are to be written,
+/// under whatever name. Empty names, and files that are not there, are none.
+void RefuseOverwriting(const std::vector<std::string>& read,
+                       const std::vector<std::string>& written);
 
 }  // namespace sslcd::apps

@@ -24,22 +24,25 @@ int ExitCode(sslcd::ErrorKind kind) {
 int main(int argc, char** argv) {
   using namespace sslcd::apps;
   CLI::App app(
-      "Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of objects and a better "
+      "Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of "
+      "objects and a better "
       "trajectory out.");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad configuration, "
+      "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad "
+      "configuration, "
       "5 no solution, 130 interrupted.");
   Console console;
-  const std::map<std::string, Command> commands = {{"run", AddRunCommand(app, console)},
-                                                   {"detect", AddDetectCommand(app, console)},
-                                                   {"eval", AddEvalCommand(app, console)},
-                                                   {"match", AddMatchCommand(app, console)},
-                                                   {"graph", AddGraphCommand(app, console)},
-                                                   {"bench", AddBenchCommand(app, console)},
-                                                   {"check-config", AddCheckConfigCommand(app, console)},
-                                                   {"dump-config", AddDumpConfigCommand(app, console)},
-                                                   {"version", AddVersionCommand(app)}};
+  const std::map<std::string, Command> commands = {
+      {"run", AddRunCommand(app, console)},
+      {"detect", AddDetectCommand(app, console)},
+      {"eval", AddEvalCommand(app, console)},
+      {"match", AddMatchCommand(app, console)},
+      {"graph", AddGraphCommand(app, console)},
+      {"bench", AddBenchCommand(app, console)},
+      {"check-config", AddCheckConfigCommand(app, console)},
+      {"dump-config", AddDumpConfigCommand(app, console)},
+      {"version", AddVersionCommand(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Writes a synthetic sequence folder: HALV-sim, or a street or a parking lot seen by a drifting, noisy system.
+// Writes a synthetic sequence folder: HALV-sim, or a street or a parking lot seen by a drifting,
+// noisy system.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -40,7 +41,8 @@ struct Arguments {
 CLI::App* AddWriter(CLI::App& app, const char* name, const char* meaning, Arguments& arguments) {
   CLI::App* command = app.add_subcommand(name, meaning);
   command->add_option("--out", arguments.out, "folder to write")->required();
-  command->add_option("--seed", arguments.seed, "another seed, another world")->capture_default_str();
+  command->add_option("--seed", arguments.seed, "another seed, another world")
+      ->capture_default_str();
   command->add_flag("--force", arguments.force, "write into a folder that is not empty");
   return command;
 }
@@ -51,11 +53,11 @@ void AddTables(CLI::App* command, Tables&... tables) {
   (DescribeFields(adder, tables), ...);
 }
 
-void Write(const sim::World& world, const Trajectory& odometry, const sim::SimulatedDetections& detections,
-           const Arguments& arguments) {
+void Write(const sim::World& world, const Trajectory& odometry,
+           const sim::SimulatedDetections& detections, const Arguments& arguments) {
   sim::WriteSequence(world, odometry, detections, arguments.out, arguments.force);
-  std::printf("%s: %zu frames, %zu objects, %zu detections\n", arguments.out.c_str(), world.truth.size(),
-              world.objects.size(), detections.identity.size());
+  std::printf("%s: %zu frames, %zu objects, %zu detections\n", arguments.out.c_str(),
+              world.truth.size(), world.objects.size(), detections.identity.size());
 }
 
 void WriteSimple(const sim::World& world, const Arguments& arguments) {
@@ -78,11 +80,13 @@ void WriteHalv(const Arguments& arguments) {
   if (arguments.images.threads < 1) throw Error(ErrorKind::kUsage, "--threads must be 1 or more");
   if (arguments.render) renderer.emplace(sequence.scene, arguments.seed, arguments.render_options);
   Write(sequence.scene.world, sequence.odometry, sequence.detections, arguments);
-  std::printf("the passes meet at %.0f degrees, the odometry errs %.2f times as much as --wander-scale etc. say\n",
-              sequence.scene.viewpoint_rad * 180 / M_PI, sequence.drift_factor);
+  std::printf(
+      "the passes meet at %.0f degrees, the odometry errs %.2f times as much as --wander-scale "
+      "etc. say\n",
+      sequence.scene.viewpoint_rad * 180 / M_PI, sequence.drift_factor);
   if (sequence.scene.left_out > 0)
-    std::printf("%d vehicles of %s left out: in the way, or twice in one place\n", sequence.scene.left_out,
-                arguments.halv.scene.layout.c_str());
+    std::printf("%d vehicles of %s left out: in the way, or twice in one place\n",
+                sequence.scene.left_out, arguments.halv.scene.layout.c_str());
   if (renderer) render::WriteImages(*renderer, arguments.out, WithProgress(arguments.images));
 }
 
@@ -108,13 +112,19 @@ int Run(int argc, char** argv) {
   app.require_subcommand(1);
   Arguments arguments;
   sim::HalvOptions& halv = arguments.halv;
-  CLI::App* halv_command = AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
-  AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance, arguments.render_options);
-  CLI::Option* render =
-      halv_command->add_flag("--render", arguments.render, "stereo images too: image_2, image_3; needs Embree");
-  halv_command->add_flag("--render-truth", arguments.images.truth, "and images of depth and identity")->needs(render);
-  halv_command->add_option("--threads", arguments.images.threads, "that render")->capture_default_str();
-  CLI::App* calibrate = app.add_subcommand("calibrate", "what HALV-sim should be and what it is, as a table");
+  CLI::App* halv_command =
+      AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
+  AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance,
+            arguments.render_options);
+  CLI::Option* render = halv_command->add_flag("--render", arguments.render,
+                                               "stereo images too: image_2, image_3; needs Embree");
+  halv_command
+      ->add_flag("--render-truth", arguments.images.truth, "and images of depth and identity")
+      ->needs(render);
+  halv_command->add_option("--threads", arguments.images.threads, "that render")
+      ->capture_default_str();
+  CLI::App* calibrate =
+      app.add_subcommand("calibrate", "what HALV-sim should be and what it is, as a table");
   calibrate->add_option("--seeds", arguments.seeds, "how many of each case")->capture_default_str();
   AddTables(calibrate, halv.drift, halv.detector, halv.appearance);
   CLI::App* street = AddWriter(app, "street", "a street with parked and driving cars", arguments);

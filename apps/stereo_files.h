@@ -19,12 +19,14 @@ StereoFiles StereoFilesOf(const Dataset& dataset);
 /// MakeStereoCamera of a dataset that has both cameras; errors name it.
 StereoCamera StereoCameraOf(const Dataset& dataset);
 
-/// How far off the camera's calibration is, by these images (CheckRig), and says so to people. What is wrong with the
-/// images is told by those who use them. Nothing more is looked at after an interrupt.
-RigCheck CheckRigOf(const StereoFiles& files, const StereoCamera& camera, const StereoOdometryOptions& options);
+/// How far off the camera's calibration is, by these images (CheckRig), and says so to people. What
+/// is wrong with the images is told by those who use them. Nothing more is looked at after an
+/// interrupt.
+RigCheck CheckRigOf(const StereoFiles& files, const StereoCamera& camera,
+                    const StereoOdometryOptions& options);
 
-/// Where two cameras should look for AlignGround (SpotAhead, by the first left image). None: no image can be read, or
-/// it shows no near ground.
+/// Where two cameras should look for AlignGround (SpotAhead, by the first left image). None: no
+/// image can be read, or it shows no near ground.
 std::optional<double> SpotAheadOf(const StereoFiles& files, const Camera& camera, double height_m);
 
 }  // namespace sslcd::apps

@@ -9,8 +9,8 @@ namespace sslcd::apps {
 /// What the machine has.
 int HardwareThreads();
 
-/// Adds --threads, from `least` on. What it says bounds OpenCV's own pool, too: that is the program's to decide, not
-/// the library's.
+/// Adds --threads, from `least` on. What it says bounds OpenCV's own pool, too: that is the
+/// program's to decide, not the library's.
 void AddThreads(CLI::App& command, int& threads, int least = 1,
                 const std::string& meaning = "upper limit; the answer does not depend on it");
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data association of one frame, with more and more far-away landmarks in the map: its cost must not grow with the map.
+// Data association of one frame, with more and more far-away landmarks in the map: its cost must
+// not grow with the map.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -29,7 +30,8 @@ void DataAssociation(benchmark::State& state) {
   sim::StreetOptions street;
   street.frames = 400;
   const sim::World world = sim::MakeStreet(7, street);
-  const auto frames = sim::MakeFrames(sim::SimulateOdometry(world.truth, {}, 7), sim::SimulateDetections(world, {}, 7));
+  const auto frames = sim::MakeFrames(sim::SimulateOdometry(world.truth, {}, 7),
+                                      sim::SimulateDetections(world, {}, 7));
   std::vector<double> times_ms;
   for (auto _ : state) {
     ObjectMap map(world.gravity, world.labels, {}, {}, {});
@@ -38,7 +40,8 @@ void DataAssociation(benchmark::State& state) {
     for (const Frame& frame : frames) {
       const auto start = std::chrono::steady_clock::now();
       map.AddFrame(frame.index, frame.stamp, frame.T_odom_cam, frame.detections, &world.camera);
-      const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double elapsed_s =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       total_s += elapsed_s;
       times_ms.push_back(1e3 * elapsed_s);
     }
@@ -48,7 +51,13 @@ void DataAssociation(benchmark::State& state) {
   state.counters["p50_ms"] = times_ms[times_ms.size() / 2];
   state.counters["p95_ms"] = times_ms[times_ms.size() * 95 / 100];
 }
-BENCHMARK(DataAssociation)->Arg(0)->Arg(1000)->Arg(10000)->Arg(100000)->UseManualTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(DataAssociation)
+    ->Arg(0)
+    ->Arg(1000)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace sslcd

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // AlignGround: how far off, how often. usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...
-// Folders as for odometry_bench. The pairs are those of LoopViewOptions and SpotAhead: every 2 m of path, a frame and
-// the earlier one, so much path before (--path, 30 m at least), that looks at the same ground. The guess is the truth,
-// off by --off (0.2 m) horizontally and 0.5 degrees in heading (standard deviations). The disparity at infinity is the
-// one that CheckRig finds. Prints one row for each folder; errors in the second camera's axes; squared errors by their
-// covariances, median and mean per degree of freedom (.89 and 1 are right).
+// Folders as for odometry_bench. The pairs are those of LoopViewOptions and SpotAhead: every 2 m of
+// path, a frame and the earlier one, so much path before (--path, 30 m at least), that looks at the
+// same ground. The guess is the truth, off by --off (0.2 m) horizontally and 0.5 degrees in heading
+// (standard deviations). The disparity at infinity is the one that CheckRig finds. Prints one row
+// for each folder; errors in the second camera's axes; squared errors by their covariances, median
+// and mean per degree of freedom (.89 and 1 are right).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -51,7 +52,9 @@ void Measure(const std::string& folder, const std::string& poses, const Setup& s
   int tried = 0, far_off = 0;
   double last = -views.every_m;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0) path.push_back(path[i - 1] + (input.truth[i].translation() - input.truth[i - 1].translation()).norm());
+    if (i > 0)
+      path.push_back(path[i - 1] +
+                     (input.truth[i].translation() - input.truth[i - 1].translation()).norm());
     if (path[i] < last + views.every_m) continue;
     double nearest = views.apart_m;
     std::size_t old = i;
@@ -63,21 +66,25 @@ void Measure(const std::string& folder, const std::string& poses, const Setup& s
     last = path[i];
     ++tried;
     cv::Mat images[4];
-    const std::string* const files[] = {&input.left[old], &input.right[old], &input.left[i], &input.right[i]};
+    const std::string* const files[] = {&input.left[old], &input.right[old], &input.left[i],
+                                        &input.right[i]};
     for (int k = 0; k < 4; ++k) images[k] = cv::imread(*files[k], cv::IMREAD_UNCHANGED);
     const Pose T_old_new = input.truth[old].inverse() * input.truth[i];
-    const auto found = AlignGround({ViewOf(images[0]), ViewOf(images[1])}, {ViewOf(images[2]), ViewOf(images[3])},
-                                   camera, Disturbed(T_old_new, setup.off_m, random), ground, GroundAlignmentOptions());
+    const auto found = AlignGround(
+        {ViewOf(images[0]), ViewOf(images[1])}, {ViewOf(images[2]), ViewOf(images[3])}, camera,
+        Disturbed(T_old_new, setup.off_m, random), ground, GroundAlignmentOptions());
     if (!found) continue;
     const Pose error = T_old_new.inverse() * found->T_a_b;
     right.push_back(error.translation().x());
     down.push_back(error.translation().y());
     ahead.push_back(error.translation().z());
     turn.push_back(error.so3().Log().norm() * 180 / M_PI);
-    normalised.push_back(error.Log().dot(Pose::Matrix6(found->covariance.inverse()) * error.Log()) / 6);
+    normalised.push_back(error.Log().dot(Pose::Matrix6(found->covariance.inverse()) * error.Log()) /
+                         6);
     far_off += error.translation().norm() > 0.2;
   }
-  std::printf("%-40s pairs %d  aligned %zu  off by 0.2 m or more %d", folder.c_str(), tried, turn.size(), far_off);
+  std::printf("%-40s pairs %d  aligned %zu  off by 0.2 m or more %d", folder.c_str(), tried,
+              turn.size(), far_off);
   const auto print = [](const char* name, std::vector<double> errors) {
     const double bias = Median(errors);
     for (double& error : errors) error = std::abs(error);
@@ -86,7 +93,8 @@ void Measure(const std::string& folder, const std::string& poses, const Setup& s
   if (!turn.empty()) {
     print("right", right), print("down", down), print("ahead", ahead);
     std::printf("  turn %.3f deg  over covariance %.2f %.2f", Median(turn), Median(normalised),
-                std::accumulate(normalised.begin(), normalised.end(), 0.) / static_cast<double>(normalised.size()));
+                std::accumulate(normalised.begin(), normalised.end(), 0.) /
+                    static_cast<double>(normalised.size()));
   }
   std::printf("\n");
 }
@@ -107,7 +115,8 @@ int main(int argc, char** argv) try {
   for (int i = first; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t colon = argument.find(':');
-    sslcd::Measure(argument.substr(0, colon), colon == std::string::npos ? "" : argument.substr(colon + 1), setup);
+    sslcd::Measure(argument.substr(0, colon),
+                   colon == std::string::npos ? "" : argument.substr(colon + 1), setup);
   }
   return 0;
 } catch (const std::exception& error) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]
-// SEQUENCE: `sslcd_sim halv --case CASE --seed SEED --render --render-truth`; BOXES: scripts/instance_boxes.py or a
-// detector's; every EVERYth frame. Each box is that object's whose visible part it covers best; the truth is the world
-// itself.
+// Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY
+// [ROWS.csv]] SEQUENCE: `sslcd_sim halv --case CASE --seed SEED --render --render-truth`; BOXES:
+// scripts/instance_boxes.py or a detector's; every EVERYth frame. Each box is that object's whose
+// visible part it covers best; the truth is the world itself.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -47,7 +47,8 @@ std::map<int, Box2d> VisibleBoxes(const cv::Mat& instances) {
       if (row[x] == 0) continue;
       const double u = x, v = y;
       Box2d& box = boxes.try_emplace(row[x] - 1, Box2d{u, v, u, v}).first->second;
-      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u), std::max(box.bottom, v)};
+      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u),
+             std::max(box.bottom, v)};
     }
   }
   return boxes;
@@ -76,23 +77,29 @@ Judged Judge(const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
 }
 
 constexpr const char* kRowNames =
-    "frame,identity,status,range,view,ahead,left,radial,lateral,vertical,yaw,length,width,height,sigma_radial,"
+    "frame,identity,status,range,view,ahead,left,radial,lateral,vertical,yaw,length,width,height,"
+    "sigma_radial,"
     "sigma_lateral,sigma_yaw,box_left,box_top,box_right,box_bottom";
 
-/// One box, for scripts. view: where the camera stands in the object's true frame, from its front to its left [rad];
-/// ahead, left: the error of the centre in that frame.
-void WriteRow(std::FILE* rows, int frame, int identity, const LiftedBox& lifted, const Pose& truth, const Vec3& dims) {
-  const bool known = lifted.status == LiftStatus::kLifted || lifted.status == LiftStatus::kAmbiguous;
+/// One box, for scripts. view: where the camera stands in the object's true frame, from its front
+/// to its left [rad]; ahead, left: the error of the centre in that frame.
+void WriteRow(std::FILE* rows, int frame, int identity, const LiftedBox& lifted, const Pose& truth,
+              const Vec3& dims) {
+  const bool known =
+      lifted.status == LiftStatus::kLifted || lifted.status == LiftStatus::kAmbiguous;
   const Judged judged = known ? Judge(lifted, truth, dims) : Judged{};
   const Vec3 camera = truth.inverse() * Vec3::Zero();
-  const Vec3 off = known ? Vec3(truth.inverse() * lifted.detection.T_cam_object.translation()) : Vec3(Vec3::Zero());
+  const Vec3 off = known ? Vec3(truth.inverse() * lifted.detection.T_cam_object.translation())
+                         : Vec3(Vec3::Zero());
   const Box2d box = lifted.detection.box.value_or(Box2d());
   std::fprintf(rows,
-               "%d,%d,%d,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.1f,%.1f,%.1f,%.1f\n",
+               "%d,%d,%d,%.2f,%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%.3f,%.3f,%.3f,%.3f,%.3f,%.4f,%."
+               "1f,%.1f,%.1f,%.1f\n",
                frame, identity, static_cast<int>(lifted.status), truth.translation().norm(),
-               std::atan2(camera.y(), camera.x()), off.x(), off.y(), judged.radial, judged.lateral, judged.vertical,
-               judged.yaw, judged.length, judged.width, judged.height, judged.sigmas.radial, judged.sigmas.lateral,
-               judged.sigmas.yaw, box.left, box.top, box.right, box.bottom);
+               std::atan2(camera.y(), camera.x()), off.x(), off.y(), judged.radial, judged.lateral,
+               judged.vertical, judged.yaw, judged.length, judged.width, judged.height,
+               judged.sigmas.radial, judged.sigmas.lateral, judged.sigmas.yaw, box.left, box.top,
+               box.right, box.bottom);
 }
 
 template <class Of>
@@ -105,27 +112,35 @@ double Quantile(const std::vector<Judged>& judged, double share, Of of) {
 }
 
 void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
-  const auto median = [&](auto of) { return Quantile(judged, 0.5, [&](const Judged& j) { return std::abs(of(j)); }); };
-  const auto typical = [&](auto of) { return 1.48 * median(of); };  // a standard deviation, of what is no outlier
+  const auto median = [&](auto of) {
+    return Quantile(judged, 0.5, [&](const Judged& j) { return std::abs(of(j)); });
+  };
+  // a standard deviation, of what is no outlier
+  const auto typical = [&](auto of) { return 1.48 * median(of); };
   double iou = 0;
   for (const Judged& j : judged) iou += j.iou / static_cast<double>(judged.size());
-  std::printf("| %s | %d | %.2f | %.3f | %+.2f %.2f %.2f %.2f | %.1f %.1f | %.2f %.2f %.2f | %.2f %.2f %.2f %.2f |\n",
-              name, boxes, judged.size() / std::max(1., double(boxes)), iou,
-              Quantile(judged, 0.5, [](const Judged& j) { return j.radial; }),
-              median([](const Judged& j) { return j.radial; }), median([](const Judged& j) { return j.lateral; }),
-              median([](const Judged& j) { return j.vertical; }),
-              median([](const Judged& j) { return j.yaw * 180 / M_PI; }),
-              Quantile(judged, 0.9, [](const Judged& j) { return std::abs(j.yaw) * 180 / M_PI; }),
-              median([](const Judged& j) { return j.length; }), median([](const Judged& j) { return j.width; }),
-              median([](const Judged& j) { return j.height; }),
-              typical([](const Judged& j) { return j.radial / j.sigmas.radial; }),
-              typical([](const Judged& j) { return j.lateral / j.sigmas.lateral; }),
-              typical([](const Judged& j) { return j.vertical / j.sigmas.vertical; }),
-              typical([](const Judged& j) { return j.yaw / j.sigmas.yaw; }));
+  std::printf(
+      "| %s | %d | %.2f | %.3f | %+.2f %.2f %.2f %.2f | %.1f %.1f | %.2f %.2f %.2f | %.2f %.2f "
+      "%.2f %.2f |\n",
+      name, boxes, judged.size() / std::max(1., double(boxes)), iou,
+      Quantile(judged, 0.5, [](const Judged& j) { return j.radial; }),
+      median([](const Judged& j) { return j.radial; }),
+      median([](const Judged& j) { return j.lateral; }),
+      median([](const Judged& j) { return j.vertical; }),
+      median([](const Judged& j) { return j.yaw * 180 / M_PI; }),
+      Quantile(judged, 0.9, [](const Judged& j) { return std::abs(j.yaw) * 180 / M_PI; }),
+      median([](const Judged& j) { return j.length; }),
+      median([](const Judged& j) { return j.width; }),
+      median([](const Judged& j) { return j.height; }),
+      typical([](const Judged& j) { return j.radial / j.sigmas.radial; }),
+      typical([](const Judged& j) { return j.lateral / j.sigmas.lateral; }),
+      typical([](const Judged& j) { return j.vertical / j.sigmas.vertical; }),
+      typical([](const Judged& j) { return j.yaw / j.sigmas.yaw; }));
 }
 
 int Run(int argc, char** argv) {
-  if (argc < 5) throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]");
+  if (argc < 5)
+    throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]");
   const std::string folder = argv[1];
   const auto boxes = ReadBoxes(argv[2]);
   sim::HalvScene scene;
@@ -152,7 +167,8 @@ int Run(int argc, char** argv) {
     const cv::Mat right = Read(folder, "image_3", frame, cv::IMREAD_COLOR);
     const auto visible = VisibleBoxes(Read(folder, "instance_2", frame, cv::IMREAD_UNCHANGED));
     const std::clock_t start = std::clock();
-    const std::vector<LiftedBox> lifted = LiftBoxes({ViewOf(left), ViewOf(right)}, camera, list, options);
+    const std::vector<LiftedBox> lifted =
+        LiftBoxes({ViewOf(left), ViewOf(right)}, camera, list, options);
     ms += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;  // of processor
     ++frames;
     const Pose T_cam_world = world.truth.poses[frame].inverse();
@@ -162,7 +178,8 @@ int Run(int argc, char** argv) {
       const sim::WorldObject& object = world.objects[identity];
       const Pose truth = T_cam_world * object.PoseAt(frame);
       const double range = truth.translation().norm();
-      const std::size_t bin = std::upper_bound(edges.begin(), edges.end(), range) - edges.begin() - 1;
+      const std::size_t bin =
+          std::upper_bound(edges.begin(), edges.end(), range) - edges.begin() - 1;
       if (bin >= bins.size()) continue;
       ++statuses[ToString(lifted[i].status)];
       ++counts[bin];
@@ -178,9 +195,11 @@ int Run(int argc, char** argv) {
   }
   if (rows) std::fclose(rows);
   std::printf(
-      "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, 90 %% [deg] | "
+      "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, "
+      "90 %% [deg] | "
       "length, width, "
-      "height [m] | errors over sigmas: along, across, up, yaw |\n|---|---|---|---|---|---|---|---|\n");
+      "height [m] | errors over sigmas: along, across, up, yaw "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < bins.size(); ++i) {
     char name[32];
     std::snprintf(name, sizeof name, "%.0f-%.0f", edges[i], edges[i + 1]);
@@ -189,8 +208,8 @@ int Run(int argc, char** argv) {
   Print("0-25", near, near_boxes);
   Print("all", all, all_boxes);
   for (const auto& [status, count] : statuses) std::printf("%s: %d\n", status.c_str(), count);
-  std::printf("%d frames, %.1f boxes and %.1f ms each\n", frames, all_boxes / std::max(1., double(frames)),
-              ms / std::max(1, frames));
+  std::printf("%d frames, %.1f boxes and %.1f ms each\n", frames,
+              all_boxes / std::max(1., double(frames)), ms / std::max(1, frames));
   return 0;
 }
 

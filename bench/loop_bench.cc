@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop detection against the size of the map: how long its index takes to build, how long a search as in a run takes
-// (SearchPoses) and one that decides by itself (MatchLayouts, mirror image and all), and how often the answer is right.
-// Then whole attempts of a run whose map has that many objects: the layouts, what has changed in them, the index that
-// follows, the search. usage: loop_bench [OBJECTS...]
-// Maps of constant density, three labels; local maps of 15 mapped objects and 3 others, noise 0.3 m per axis, one
-// object of five missed, any heading. Prints one row for each map.
+// Loop detection against the size of the map: how long its index takes to build, how long a search
+// as in a run takes (SearchPoses) and one that decides by itself (MatchLayouts, mirror image and
+// all), and how often the answer is right. Then whole attempts of a run whose map has that many
+// objects: the layouts, what has changed in them, the index that follows, the search. usage:
+// loop_bench [OBJECTS...] Maps of constant density, three labels; local maps of 15 mapped objects
+// and 3 others, noise 0.3 m per axis, one object of five missed, any heading. Prints one row for
+// each map.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +25,9 @@ namespace {
 constexpr int kQueries = 200;
 
 // Of CPU: what other programs take does not count.
-double MsSince(std::clock_t start) { return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC; }
+double MsSince(std::clock_t start) {
+  return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
 
 LayoutObject ObjectAt(double x, double y, sim::Random& random) {
   LayoutObject object;
@@ -34,8 +37,8 @@ LayoutObject ObjectAt(double x, double y, sim::Random& random) {
   return object;
 }
 
-// Objects per square metre: 0.0076, which puts 15 of them within 25 m. `streets`: on both kerbs of streets that are
-// 100 m apart, an object every 13 m or so of a kerb; else anywhere.
+// Objects per square metre: 0.0076, which puts 15 of them within 25 m. `streets`: on both kerbs of
+// streets that are 100 m apart, an object every 13 m or so of a kerb; else anywhere.
 std::vector<LayoutObject> Map(int count, bool streets, sim::Random& random) {
   const double side = std::sqrt(count / 0.0076);
   std::vector<LayoutObject> map;
@@ -51,9 +54,11 @@ std::vector<LayoutObject> Map(int count, bool streets, sim::Random& random) {
 }
 
 // The objects nearest to one of the map, as another pass has them.
-std::vector<LayoutObject> LocalMap(const std::vector<LayoutObject>& map, const YawShift& pose, sim::Random& random) {
+std::vector<LayoutObject> LocalMap(const std::vector<LayoutObject>& map, const YawShift& pose,
+                                   sim::Random& random) {
   constexpr int kSeen = 15, kMissed = 4, kClutter = 3;
-  const Vec3 centre = map[static_cast<std::size_t>(random.Uniform(0, static_cast<double>(map.size())))].position;
+  const Vec3 centre =
+      map[static_cast<std::size_t>(random.Uniform(0, static_cast<double>(map.size())))].position;
   std::vector<std::pair<double, int>> near;
   for (std::size_t i = 0; i < map.size(); ++i)
     near.push_back({(map[i].position - centre).head<2>().norm(), static_cast<int>(i)});
@@ -61,11 +66,12 @@ std::vector<LayoutObject> LocalMap(const std::vector<LayoutObject>& map, const Y
   std::vector<LayoutObject> local;
   for (int i = 0; i < kSeen + kMissed; ++i) local.push_back(map[near[i].second]);
   for (int i = 0; i < kMissed; ++i)
-    local.erase(local.begin() + static_cast<std::ptrdiff_t>(random.Uniform(0, static_cast<double>(local.size()))));
+    local.erase(local.begin() +
+                static_cast<std::ptrdiff_t>(random.Uniform(0, static_cast<double>(local.size()))));
   const double radius = near[kSeen + kMissed - 1].first;
   for (int i = 0; i < kClutter; ++i)
-    local.push_back(
-        ObjectAt(centre.x() + random.Uniform(-radius, radius), centre.y() + random.Uniform(-radius, radius), random));
+    local.push_back(ObjectAt(centre.x() + random.Uniform(-radius, radius),
+                             centre.y() + random.Uniform(-radius, radius), random));
   const YawShift turn{-pose.yaw, Vec3::Zero()};
   for (LayoutObject& object : local)
     object.position = Apply(turn, object.position - pose.t) +
@@ -93,7 +99,8 @@ void Measure(int count, bool streets) {
   const LayoutIndex index(map, options.max_pair_m, options.reach_m);
   int right = 0, accepted = 0, wrong = 0;
   for (int query = 0; query < kQueries; ++query) {
-    YawShift pose{random.Uniform(-M_PI, M_PI), Vec3(random.Uniform(-500, 500), random.Uniform(-500, 500), 2)};
+    YawShift pose{random.Uniform(-M_PI, M_PI),
+                  Vec3(random.Uniform(-500, 500), random.Uniform(-500, 500), 2)};
     const std::vector<LayoutObject> local = LocalMap(map, pose, random);
     auto start = std::clock();
     SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
@@ -102,28 +109,33 @@ void Measure(int count, bool streets) {
     const LayoutAnswer answer = MatchLayouts(local, index, options);
     match_ms.push_back(MsSince(start));
     const Vec3 middle = local[0].position;
-    const bool good =
-        !answer.hypotheses.empty() && (Apply(answer.hypotheses[0].pose, middle) - Apply(pose, middle)).norm() < 2;
+    const bool good = !answer.hypotheses.empty() &&
+                      (Apply(answer.hypotheses[0].pose, middle) - Apply(pose, middle)).norm() < 2;
     right += good;
     if (answer.decision != LoopDecision::kAccepted) continue;
     accepted += good;
     wrong += !good;
   }
   std::printf(
-      "%-7s %7d  build %8.2f ms  search p50 %6.2f  p95 %6.2f ms  match p50 %6.2f  p95 %6.2f ms  of %d: best right %d  "
+      "%-7s %7d  build %8.2f ms  search p50 %6.2f  p95 %6.2f ms  match p50 %6.2f  p95 %6.2f ms  of "
+      "%d: best right %d  "
       "accepted right %d  wrong %d\n",
       streets ? "streets" : "strewn", count, Quantile(build_ms, 0.5), Quantile(search_ms, 0.5),
-      Quantile(search_ms, 0.95), Quantile(match_ms, 0.5), Quantile(match_ms, 0.95), kQueries, right, accepted, wrong);
+      Quantile(search_ms, 0.95), Quantile(match_ms, 0.5), Quantile(match_ms, 0.95), kQueries, right,
+      accepted, wrong);
   std::fflush(stdout);
 }
 
-/// A run through a map, row by row: ten new objects and two old ones every 5 m, each seen by two frames.
+/// A run through a map, row by row: ten new objects and two old ones every 5 m, each seen by two
+/// frames.
 class Run {
  public:
-  Run(std::vector<LayoutObject> objects, sim::Random& random) : random_(random), objects_(std::move(objects)) {
+  Run(std::vector<LayoutObject> objects, sim::Random& random)
+      : random_(random), objects_(std::move(objects)) {
     constexpr double kRow = 30.;  // [m]
     std::sort(objects_.begin(), objects_.end(), [](const LayoutObject& a, const LayoutObject& b) {
-      const double row_a = std::floor(a.position.y() / kRow), row_b = std::floor(b.position.y() / kRow);
+      const double row_a = std::floor(a.position.y() / kRow),
+                   row_b = std::floor(b.position.y() / kRow);
       return row_a != row_b ? row_a < row_b : a.position.x() < b.position.x();
     });
   }
@@ -136,7 +148,8 @@ class Run {
     constexpr int kNew = 10, kOld = 2;
     std::vector<LandmarkId> seen;
     for (int i = 0; i < kOld && next_ > 500; ++i)
-      seen.push_back(ids_[static_cast<std::size_t>(random_.Uniform(0, static_cast<double>(next_ - 400)))]);
+      seen.push_back(
+          ids_[static_cast<std::size_t>(random_.Uniform(0, static_cast<double>(next_ - 400)))]);
     for (int i = 0; i < kNew && next_ < objects_.size(); ++i, ++next_) {
       MapLandmark landmark;
       landmark.label = std::to_string(objects_[next_].label);
@@ -178,7 +191,8 @@ void MeasureAttempts(int count, bool streets) {
   sim::Random random(8, static_cast<std::uint64_t>(count));
   Run run(Map(count + 10 * kAttempts, streets, random), random);
   for (int driven = 0; driven < count; driven += 10) run.Drive();
-  LayoutIndex index(run.passes().ChangesBefore(run.travelled() - kOld, 2).objects, options.max_pair_m, options.reach_m);
+  LayoutIndex index(run.passes().ChangesBefore(run.travelled() - kOld, 2).objects,
+                    options.max_pair_m, options.reach_m);
   std::vector<double> layouts_ms, follow_ms, search_ms, whole_ms;
   double changed = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -196,10 +210,12 @@ void MeasureAttempts(int count, bool streets) {
     changed += static_cast<double>(changes.objects.size()) / kAttempts;
   }
   std::printf(
-      "%-7s %7d  attempt: %4.1f objects change  layouts p50 %6.2f  index p50 %6.2f  p95 %6.2f  search p50 %6.2f  "
+      "%-7s %7d  attempt: %4.1f objects change  layouts p50 %6.2f  index p50 %6.2f  p95 %6.2f  "
+      "search p50 %6.2f  "
       "whole p50 %6.2f  p95 %6.2f ms\n",
-      streets ? "streets" : "strewn", count, changed, Quantile(layouts_ms, 0.5), Quantile(follow_ms, 0.5),
-      Quantile(follow_ms, 0.95), Quantile(search_ms, 0.5), Quantile(whole_ms, 0.5), Quantile(whole_ms, 0.95));
+      streets ? "streets" : "strewn", count, changed, Quantile(layouts_ms, 0.5),
+      Quantile(follow_ms, 0.5), Quantile(follow_ms, 0.95), Quantile(search_ms, 0.5),
+      Quantile(whole_ms, 0.5), Quantile(whole_ms, 0.95));
   std::fflush(stdout);
 }
 
@@ -211,5 +227,6 @@ int main(int argc, char** argv) {
   if (argc > 1) counts.clear();
   for (int i = 1; i < argc; ++i) counts.push_back(std::max(30, std::atoi(argv[i])));
   for (const bool streets : {false, true})
-    for (const int count : counts) sslcd::Measure(count, streets), sslcd::MeasureAttempts(count, streets);
+    for (const int count : counts)
+      sslcd::Measure(count, streets), sslcd::MeasureAttempts(count, streets);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bundle adjustment that follows a loop closure: a round course driven twice, 500 keyframes, 200 objects, each seen
-// in both laps, 10 sightings a keyframe. Started where a pose graph would leave it: every keyframe some centimetres
-// off.
+// The bundle adjustment that follows a loop closure: a round course driven twice, 500 keyframes,
+// 200 objects, each seen in both laps, 10 sightings a keyframe. Started where a pose graph would
+// leave it: every keyframe some centimetres off.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,12 +20,14 @@ BaProblem TwoLaps(int keyframes, int objects, int sightings_per_keyframe) {
   std::normal_distribution<double> gauss;
   BaProblem problem;
   const double step_m = 2, turn = 4 * M_PI / keyframes, radius = step_m / turn;
-  for (int i = 0; i < keyframes; ++i) problem.cameras.push_back({i, Pose::RotY(turn * i) * Pose::Trans(-radius, 0, 0)});
+  for (int i = 0; i < keyframes; ++i)
+    problem.cameras.push_back({i, Pose::RotY(turn * i) * Pose::Trans(-radius, 0, 0)});
   for (int k = 0; k < objects; ++k) {
     const double bearing = 2 * M_PI * k / objects, r = radius + (k % 2 ? 6. : -6.);
-    problem.objects.push_back({k,
-                               k % 4 ? Symmetry::kNone : Symmetry::kFull,
-                               {Vec3(-r * std::cos(bearing), 0.5, r * std::sin(bearing)), bearing}});
+    problem.objects.push_back(
+        {k,
+         k % 4 ? Symmetry::kNone : Symmetry::kFull,
+         {Vec3(-r * std::cos(bearing), 0.5, r * std::sin(bearing)), bearing}});
   }
   for (int i = 0; i < keyframes; ++i) {
     const Pose T_cam_world = problem.cameras[i].T_world_cam.inverse();
@@ -44,7 +46,8 @@ BaProblem TwoLaps(int keyframes, int objects, int sightings_per_keyframe) {
     for (const auto& [range, k] : ahead) {
       Pose seen = T_cam_world * ToPose(problem.objects[k].pose, problem.gravity);
       const DetectionSigmas sigmas = SigmasAt(range, problem.noise, problem.noise_scale);
-      const Vec3 error(sigmas.radial * gauss(random), sigmas.lateral * gauss(random), sigmas.vertical * gauss(random));
+      const Vec3 error(sigmas.radial * gauss(random), sigmas.lateral * gauss(random),
+                       sigmas.vertical * gauss(random));
       seen.translation() += RayFrame(seen.translation()).transpose() * error;
       seen.so3() = seen.so3() * lie::SO3<double>::RotZ(sigmas.yaw * gauss(random));
       problem.sightings.push_back({i, k, seen});
@@ -69,7 +72,8 @@ void AfterALoopClosure(benchmark::State& state) {
     }
     const auto start = std::chrono::steady_clock::now();
     const BaSummary summary = SolveBa(problem, {});
-    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     state.SetIterationTime(elapsed_s);
     times_ms.push_back(1e3 * elapsed_s);
     iterations += summary.iterations;

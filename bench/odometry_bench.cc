@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo odometry: how far off, how fast. usage: odometry_bench FOLDER[:POSES] ...
-// A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else POSES is needed).
-// Prints one row for each. Errors as KITTI's (eval/segment_error.h), over sub-paths of all lengths of 10, 20, ... 100
-// m, 200, ... 800 m that begin at any frame, with the disparity at infinity that CheckRig finds; the ATE after SE(3)
-// alignment, and by how much the path is too long; the steps' squared errors by their covariances (median and mean per
-// degree of freedom: .89 and 1 are right); times are those of AddFrame, reading the images left out: by the
+// A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else
+// POSES is needed). Prints one row for each. Errors as KITTI's (eval/segment_error.h), over
+// sub-paths of all lengths of 10, 20, ... 100 m, 200, ... 800 m that begin at any frame, with the
+// disparity at infinity that CheckRig finds; the ATE after SE(3) alignment, and by how much the
+// path is too long; the steps' squared errors by their covariances (median and mean per degree of
+// freedom: .89 and 1 are right); times are those of AddFrame, reading the images left out: by the
 // clock, and of all processors together.
 #include <sys/resource.h>
 
@@ -32,7 +33,8 @@ double CpuSeconds() {
 void Measure(const std::string& folder, const std::string& poses) {
   const StereoFolder input = OpenStereoFolder(folder, poses);
   StereoCamera camera = input.camera;
-  camera.disparity_at_infinity = CheckRig(input.camera, input.left.size(), Loader(input), {}).disparity_at_infinity;
+  camera.disparity_at_infinity =
+      CheckRig(input.camera, input.left.size(), Loader(input), {}).disparity_at_infinity;
   StereoOdometry odometry(camera, {});
   std::vector<Pose> est, ref = input.truth;
   int lost = 0, keyframes = 0;
@@ -51,7 +53,8 @@ void Measure(const std::string& folder, const std::string& poses) {
     keyframes += step.keyframe;
     points += step.points;
     if (i == 0 || i >= ref.size()) continue;
-    const Vec6 error = ((est[i - 1].inverse() * est[i]).inverse() * (ref[i - 1].inverse() * ref[i])).Log();
+    const Vec6 error =
+        ((est[i - 1].inverse() * est[i]).inverse() * (ref[i - 1].inverse() * ref[i])).Log();
     normalised.push_back(error.dot(step.covariance.ldlt().solve(error)) / 6);
   }
   const std::size_t frames = est.size();
@@ -64,12 +67,15 @@ void Measure(const std::string& folder, const std::string& poses) {
   const double ate = ComputeAte(est, ref).error.rmse;
   const double scale = Align(est, ref, Alignment::kSim3).scale;
   std::printf(
-      "%-40s at infinity %+.3f px  frames %zu  lost %d  keyframes %d  points %.0f  translation %.3f %%  rotation %.5f "
+      "%-40s at infinity %+.3f px  frames %zu  lost %d  keyframes %d  points %.0f  translation "
+      "%.3f %%  rotation %.5f "
       "deg/m  "
       "ATE %.4f m  scale %+.4f %%  steps over covariance %.2f %.2f  wall %.1f ms  cpu %.1f ms\n",
-      folder.c_str(), camera.disparity_at_infinity, frames, lost, keyframes, points / frames, 100 * error.translation,
-      error.rotation_rad_per_m * 180 / M_PI, ate, 100 * (1 / scale - 1), normalised.empty() ? NAN : Median(normalised),
-      std::accumulate(normalised.begin(), normalised.end(), 0.) / static_cast<double>(normalised.size()),
+      folder.c_str(), camera.disparity_at_infinity, frames, lost, keyframes, points / frames,
+      100 * error.translation, error.rotation_rad_per_m * 180 / M_PI, ate, 100 * (1 / scale - 1),
+      normalised.empty() ? NAN : Median(normalised),
+      std::accumulate(normalised.begin(), normalised.end(), 0.) /
+          static_cast<double>(normalised.size()),
       1e3 * wall / frames, 1e3 * cpu / frames);
 }
 
@@ -81,7 +87,8 @@ int main(int argc, char** argv) try {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t colon = argument.find(':');
-    sslcd::Measure(argument.substr(0, colon), colon == std::string::npos ? "" : argument.substr(colon + 1));
+    sslcd::Measure(argument.substr(0, colon),
+                   colon == std::string::npos ? "" : argument.substr(colon + 1));
   }
   return 0;
 } catch (const std::exception& error) {

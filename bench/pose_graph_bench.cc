@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pose graphs: known minima, and loops of which many are false. usage: pose_graph_bench DATA_FOLDER [OUT_FOLDER]
-// Prints one row for each graph; with OUT_FOLDER the synthetic graphs are written there for others to solve
-// (pose_graph_gtsam.py runs this program and GTSAM on the same files).
+// Pose graphs: known minima, and loops of which many are false. usage: pose_graph_bench DATA_FOLDER
+// [OUT_FOLDER] Prints one row for each graph; with OUT_FOLDER the synthetic graphs are written
+// there for others to solve (pose_graph_gtsam.py runs this program and GTSAM on the same files).
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -24,7 +24,8 @@ double BestSeconds(const std::function<void()>& run) {
   for (int i = 0; i < kRepetitions; ++i) {
     const auto start = std::chrono::steady_clock::now();
     run();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    best = std::min(
+        best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return best;
 }
@@ -35,8 +36,8 @@ void Minimum(const std::string& name, const PoseGraph& given) {
     PoseGraph graph = given;
     summary = SolvePoseGraph(graph, {});
   });
-  std::printf("%-16s chi2 %.6g -> %.6g  iterations %d  seconds %.3f\n", name.c_str(), summary.initial_chi2,
-              summary.final_chi2, summary.iterations, seconds);
+  std::printf("%-16s chi2 %.6g -> %.6g  iterations %d  seconds %.3f\n", name.c_str(),
+              summary.initial_chi2, summary.final_chi2, summary.iterations, seconds);
 }
 
 void Robust(const std::string& name, const PoseGraph& given, const std::vector<Pose>& truth,
@@ -45,9 +46,11 @@ void Robust(const std::string& name, const PoseGraph& given, const std::vector<P
   SolvePoseGraph(plain, options.graph);
   RobustPoseGraphSummary summary;
   const double seconds = BestSeconds([&] { summary = SolveRobust(robust = given, options); });
-  std::printf("%-16s ATE odometry %.2f  plain %.2f  robust %.3f m  kept %d  refused %d  rounds %d  seconds %.3f\n",
-              name.c_str(), AteRmse(given, truth), AteRmse(plain, truth), AteRmse(robust, truth), summary.loops_kept,
-              summary.loops_refused, summary.rounds, seconds);
+  std::printf(
+      "%-16s ATE odometry %.2f  plain %.2f  robust %.3f m  kept %d  refused %d  rounds %d  seconds "
+      "%.3f\n",
+      name.c_str(), AteRmse(given, truth), AteRmse(plain, truth), AteRmse(robust, truth),
+      summary.loops_kept, summary.loops_refused, summary.rounds, seconds);
 }
 
 void Kitti(const std::string& folder, const std::string& sequence) {
@@ -58,7 +61,8 @@ void Kitti(const std::string& folder, const std::string& sequence) {
   const std::vector<Pose> truth = PosesOf(ReadG2o(prefix + "_GT.g2o").graph);
   PoseGraph only_true = ReadG2o(prefix + "_odom_GT_LC.g2o").graph;
   SolvePoseGraph(only_true, options.graph);
-  std::printf("%-16s ATE with the true loops only %.3f m\n", ("kitti " + sequence).c_str(), AteRmse(only_true, truth));
+  std::printf("%-16s ATE with the true loops only %.3f m\n", ("kitti " + sequence).c_str(),
+              AteRmse(only_true, truth));
   for (const std::string alpha : {"0.50", "0.15", "0.00"})
     Robust("  alpha " + alpha, ReadG2o(prefix + "_alpha_" + alpha + ".g2o").graph, truth, options);
 }

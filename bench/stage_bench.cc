@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each stage of a run takes: 500 keyframes, two and a half laps of 400 m round a block with 200 cars and
-// trees, sent frame by frame through a Mapper. Also how good the map is that the host has then, before anything is
-// refined at the end. usage: stage_bench [REPEATS [SEED]]; the fastest of the repeats is printed.
+// How long each stage of a run takes: 500 keyframes, two and a half laps of 400 m round a block
+// with 200 cars and trees, sent frame by frame through a Mapper. Also how good the map is that the
+// host has then, before anything is refined at the end. usage: stage_bench [REPEATS [SEED]]; the
+// fastest of the repeats is printed.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -17,8 +18,9 @@
 namespace sslcd {
 namespace {
 
-constexpr int kKeyframes = 500, kObjects = 275;  // about 200 of them stand in sight and end up in the map
-constexpr double kStep = 2.;                     // from keyframe to keyframe [m]
+// about 200 of them stand in sight and end up in the map
+constexpr int kKeyframes = 500, kObjects = 275;
+constexpr double kStep = 2.;  // from keyframe to keyframe [m]
 
 sim::World Block(std::uint64_t seed) {
   constexpr double kRadius = 8;
@@ -39,7 +41,8 @@ sim::World Block(std::uint64_t seed) {
     if (random.Chance(0.5))
       world.objects.push_back({i, "Tree", Vec3(0.5, 0.5, 3), {path.ObjectAt(s, right, 0.1, 0)}});
     else
-      world.objects.push_back({i, "Car", Vec3(4.2, 1.7, 1.5), {path.ObjectAt(s, right, 0.9, random.Uniform(-.2, .2))}});
+      world.objects.push_back(
+          {i, "Car", Vec3(4.2, 1.7, 1.5), {path.ObjectAt(s, right, 0.9, random.Uniform(-.2, .2))}});
   }
   for (int i = 0; i < kKeyframes; ++i) {
     world.truth.stamps.push_back(0.3 * i);
@@ -50,8 +53,8 @@ sim::World Block(std::uint64_t seed) {
 
 void PrintStages(const TimingTable& timing) {
   for (const auto& [stage, times] : timing.Summary())
-    std::printf("  %-22s %5d calls  p50 %7.2f  p95 %7.2f  max %7.2f ms\n", stage.c_str(), times.count, times.p50,
-                times.p95, times.max);
+    std::printf("  %-22s %5d calls  p50 %7.2f  p95 %7.2f  max %7.2f ms\n", stage.c_str(),
+                times.count, times.p50, times.p95, times.max);
 }
 
 void Measure(int repeats, std::uint64_t seed) {
@@ -65,11 +68,14 @@ void Measure(int repeats, std::uint64_t seed) {
   const Trajectory odometry = sim::SimulateOdometry(world.truth, drift, seed);
   const std::vector<Frame> frames = sim::MakeFrames(odometry, detections);
   const auto print_quality = [&](const Mapper& mapper, const char* when) {
-    const SequenceMetrics m =
-        ComputeSequenceMetrics({mapper.CameraTrajectory().poses, odometry.poses, world.truth.poses, frames,
-                                detections.identity, mapper.LoopClosures(), mapper.Objects()});
-    std::printf("%s: ATE %.3f m (odometry %.2f), %d loops, %d wrong, recall %.2f, %d landmarks of %d objects\n", when,
-                m.ate, m.ate_odometry, m.loops, m.wrong_loops, m.recall, m.landmarks, m.true_landmarks);
+    const SequenceMetrics m = ComputeSequenceMetrics(
+        {mapper.CameraTrajectory().poses, odometry.poses, world.truth.poses, frames,
+         detections.identity, mapper.LoopClosures(), mapper.Objects()});
+    std::printf(
+        "%s: ATE %.3f m (odometry %.2f), %d loops, %d wrong, recall %.2f, %d landmarks of %d "
+        "objects\n",
+        when, m.ate, m.ate_odometry, m.loops, m.wrong_loops, m.recall, m.landmarks,
+        m.true_landmarks);
   };
 
   TimingTable fastest;
@@ -84,7 +90,8 @@ void Measure(int repeats, std::uint64_t seed) {
       print_quality(mapper, "before Refine");
     }
     mapper.Refine();
-    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (i == 0) print_quality(mapper, "after Refine");
     if (elapsed_s > least_s) continue;
     least_s = elapsed_s;

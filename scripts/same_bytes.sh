@@ -42,14 +42,15 @@ run_all() {  # run_all SSLCD_RUN OUT
 if [[ ! -e $reference/done ]]; then
   echo "building the reference, $commit"
   rm -rf "$reference"
-  mkdir -p "$reference/source"
-  git archive "$commit" | tar -x -C "$reference/source"
-  cmake -S "$reference/source" -B "$reference/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSSLCD_BUILD_TESTS=OFF \
-    >"$reference/build.log"
-  cmake --build "$reference/build" -j "$(nproc)" --target sslcd_run sslcd_sim >>"$reference/build.log"
-  "$reference/build/apps/sslcd_sim" halv --case 1 --seed 7 --out "$reference/halv" >/dev/null
-  run_all "$reference/build/apps/sslcd_run" "$reference/runs"
-  rm -rf "$reference/build" "$reference/source"
+  source=$reference/source
+  mkdir -p "$source"
+  git archive "$commit" | tar -x -C "$source"
+  (cd "$source" && cmake --preset release -DSSLCD_BUILD_TESTS=OFF &&
+    cmake --build build/release -j "$(nproc)" --target sslcd_run sslcd_sim) >"$reference/build.log"
+  apps=$source/build/release/apps
+  "$apps/sslcd_sim" halv --case 1 --seed 7 --out "$reference/halv" >/dev/null
+  run_all "$apps/sslcd_run" "$reference/runs"
+  rm -rf "$source"
   touch "$reference/done"
 fi
 

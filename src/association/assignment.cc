@@ -9,8 +9,8 @@ namespace sslcd {
 std::vector<int> MaximumAssignment(const Eigen::MatrixXd& scores) {
   const int rows = static_cast<int>(scores.rows());
   const int real_columns = static_cast<int>(scores.cols());
-  // Every row gets a dummy column of its own at score 0: "stays alone" is then always possible, and never worse than a
-  // forbidden pair.
+  // Every row gets a dummy column of its own at score 0: "stays alone" is then always possible, and
+  // never worse than a forbidden pair.
   const int columns = real_columns + rows;
   const auto cost = [&](int row, int column) {
     if (column < real_columns) {
@@ -20,7 +20,8 @@ std::vector<int> MaximumAssignment(const Eigen::MatrixXd& scores) {
     return column - real_columns == row ? 0. : 1.;
   };
 
-  // Shortest augmenting paths with potentials; index 0 of the arrays is a sentinel, rows and columns count from 1.
+  // Shortest augmenting paths with potentials; index 0 of the arrays is a sentinel, rows and
+  // columns count from 1.
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<double> row_potential(rows + 1, 0.), column_potential(columns + 1, 0.);
   std::vector<int> row_of(columns + 1, 0), previous(columns + 1, 0);
@@ -36,7 +37,8 @@ std::vector<int> MaximumAssignment(const Eigen::MatrixXd& scores) {
       int next = 0;
       for (int j = 1; j <= columns; ++j) {
         if (done[j]) continue;
-        const double reduced = cost(current - 1, j - 1) - row_potential[current] - column_potential[j];
+        const double reduced =
+            cost(current - 1, j - 1) - row_potential[current] - column_potential[j];
         if (reduced < distance[j]) {
           distance[j] = reduced;
           previous[j] = column;

@@ -14,15 +14,20 @@ namespace {
 SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate& candidate) {
   SimilarityCues cues;
   const Detection& detection = *query.detection;
-  // A landmark that projects to nothing is out of view: its overlap with a detected box is zero, not unknown.
-  if (detection.box) cues.iou = candidate.projected_box ? Iou(*detection.box, *candidate.projected_box) : 0.;
-  if (candidate.colour) cues.histogram = candidate.colour->Compare(detection.colour, query.viewpoint_rad);
-  if (candidate.embedding) cues.embedding = candidate.embedding->Compare(detection.embedding, query.viewpoint_rad);
+  // A landmark that projects to nothing is out of view: its overlap with a detected box is zero,
+  // not unknown.
+  if (detection.box)
+    cues.iou = candidate.projected_box ? Iou(*detection.box, *candidate.projected_box) : 0.;
+  if (candidate.colour)
+    cues.histogram = candidate.colour->Compare(detection.colour, query.viewpoint_rad);
+  if (candidate.embedding)
+    cues.embedding = candidate.embedding->Compare(detection.embedding, query.viewpoint_rad);
   return cues;
 }
 
-// exp(-d^2/4) of the horizontal Mahalanobis distance under the best belief; 0 outside the gates. A less plausible
-// belief counts half, so that a parked landmark is never outbid by what its driving twin might have done.
+// exp(-d^2/4) of the horizontal Mahalanobis distance under the best belief; 0 outside the gates. A
+// less plausible belief counts half, so that a parked landmark is never outbid by what its driving
+// twin might have done.
 double Geometry(const AssociationQuery& query, const AssociationCandidate& candidate,
                 const AssociationOptions& options) {
   if (std::abs(query.height - candidate.height) > options.gate_vertical_m) return 0;
@@ -42,12 +47,16 @@ double Geometry(const AssociationQuery& query, const AssociationCandidate& candi
 
 void DescribeFields(FieldVisitor& visitor, AssociationOptions& options) {
   visitor.Enum("method", options.method, {"robust", "paper"}, "robust, or Eqs. 2-6 as printed");
-  visitor.Real("lambda", options.lambda, 0, 1, "Eq. 3: balance between box overlap, colour and embedding");
+  visitor.Real("lambda", options.lambda, 0, 1,
+               "Eq. 3: balance between box overlap, colour and embedding");
   visitor.Real("min_score", options.min_score, 0, 1, "pairs with a lower score are never matched");
-  visitor.Real("geometry_weight", options.geometry_weight, 0, 1, "robust: share of the 3D distance in the score");
-  visitor.Real("gate_sigmas", options.gate_sigmas, 0.1, 100, "robust: horizontal Mahalanobis distance allowed");
+  visitor.Real("geometry_weight", options.geometry_weight, 0, 1,
+               "robust: share of the 3D distance in the score");
+  visitor.Real("gate_sigmas", options.gate_sigmas, 0.1, 100,
+               "robust: horizontal Mahalanobis distance allowed");
   visitor.Real("gate_m", options.gate_m, 0.01, 1000, "robust: horizontal distance allowed");
-  visitor.Real("gate_vertical_m", options.gate_vertical_m, 0.01, 1000, "robust: vertical distance allowed");
+  visitor.Real("gate_vertical_m", options.gate_vertical_m, 0.01, 1000,
+               "robust: vertical distance allowed");
 }
 
 Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
@@ -57,13 +66,17 @@ Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
   for (std::size_t i = 0; i < queries.size(); ++i) {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       if (queries[i].detection->label != candidates[k].label) continue;  // Eq. 2
-      const auto appearance = [&] { return AssociationScore(Compare(queries[i], candidates[k]), options.lambda); };
+      const auto appearance = [&] {
+        return AssociationScore(Compare(queries[i], candidates[k]), options.lambda);
+      };
       double score = 0;
       if (options.method == AssociationOptions::Method::kPaper) {
         score = appearance().value_or(0.);
-      } else if (const double geometry = Geometry(queries[i], candidates[k], options); geometry > 0) {
+      } else if (const double geometry = Geometry(queries[i], candidates[k], options);
+                 geometry > 0) {
         const auto s_d = appearance();
-        score = s_d ? options.geometry_weight * geometry + (1 - options.geometry_weight) * *s_d : geometry;
+        score = s_d ? options.geometry_weight * geometry + (1 - options.geometry_weight) * *s_d
+                    : geometry;
       }
       if (score >= options.min_score) W(i, k) = score;
     }
@@ -72,7 +85,8 @@ Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
 }
 
 std::vector<int> Associate(const std::vector<AssociationQuery>& queries,
-                           const std::vector<AssociationCandidate>& candidates, const AssociationOptions& options) {
+                           const std::vector<AssociationCandidate>& candidates,
+                           const AssociationOptions& options) {
   return MaximumAssignment(AssociationMatrix(queries, candidates, options));
 }
 

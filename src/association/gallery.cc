@@ -33,7 +33,8 @@ const Gallery::Bin* Gallery::NearestFilled(int bin) const {
   return nullptr;
 }
 
-std::optional<double> Gallery::Compare(const std::vector<float>& vector, double viewpoint_rad) const {
+std::optional<double> Gallery::Compare(const std::vector<float>& vector,
+                                       double viewpoint_rad) const {
   if (vector.empty() || bins_.empty()) return std::nullopt;
   const Bin* bin = NearestFilled(BinOf(viewpoint_rad));
   if (bin == nullptr || bin->sum.size() != vector.size()) return std::nullopt;

@@ -31,7 +31,8 @@ BinaryDescriptor Majority(const std::vector<const BinaryDescriptor*>& members) {
 }
 
 // Far from each other: each next centre is the member furthest from those before it.
-std::vector<BinaryDescriptor> Seeds(const std::vector<const BinaryDescriptor*>& members, int count) {
+std::vector<BinaryDescriptor> Seeds(const std::vector<const BinaryDescriptor*>& members,
+                                    int count) {
   std::vector<BinaryDescriptor> seeds{*members[0]};
   std::vector<int> distance(members.size(), std::numeric_limits<int>::max());
   while (static_cast<int>(seeds.size()) < count) {
@@ -61,7 +62,8 @@ double Similarity(const WordVector& v, const WordVector& w) {
   return common;
 }
 
-Vocabulary::Vocabulary(const std::vector<std::vector<BinaryDescriptor>>& images, int branching, int levels) {
+Vocabulary::Vocabulary(const std::vector<std::vector<BinaryDescriptor>>& images, int branching,
+                       int levels) {
   std::vector<const BinaryDescriptor*> all;
   for (const auto& image : images)
     for (const BinaryDescriptor& descriptor : image) all.push_back(&descriptor);
@@ -77,7 +79,8 @@ Vocabulary::Vocabulary(const std::vector<std::vector<BinaryDescriptor>>& images,
     weight_[word] = std::log(static_cast<double>(images.size()) / std::max(1, images_with[word]));
 }
 
-void Vocabulary::Split(int node, const std::vector<const BinaryDescriptor*>& members, int branching, int levels) {
+void Vocabulary::Split(int node, const std::vector<const BinaryDescriptor*>& members, int branching,
+                       int levels) {
   constexpr int kRounds = 5;
   if (levels == 0 || static_cast<int>(members.size()) <= branching) {
     nodes_[node].word = static_cast<int>(weight_.size());
@@ -88,7 +91,8 @@ void Vocabulary::Split(int node, const std::vector<const BinaryDescriptor*>& mem
   std::vector<std::vector<const BinaryDescriptor*>> parts;
   for (int round = 0; round < kRounds; ++round) {
     parts.assign(centres.size(), {});
-    for (const BinaryDescriptor* member : members) parts[Nearest(*member, centres)].push_back(member);
+    for (const BinaryDescriptor* member : members)
+      parts[Nearest(*member, centres)].push_back(member);
     for (std::size_t i = 0; i < centres.size(); ++i)
       if (!parts[i].empty()) centres[i] = Majority(parts[i]);
   }

@@ -17,13 +17,15 @@ int HammingDistance(const BinaryDescriptor& a, const BinaryDescriptor& b);
 /// Words of an image with their tf-idf weights, which add up to one.
 using WordVector = std::map<int, double>;
 
-/// 1 - |v - w|_1 / 2: 0 for images without a common word, 1 for equal ones (Galvez-Lopez and Tardos, Eq. 2).
+/// 1 - |v - w|_1 / 2: 0 for images without a common word, 1 for equal ones (Galvez-Lopez and
+/// Tardos, Eq. 2).
 double Similarity(const WordVector& v, const WordVector& w);
 
 /// A tree of words: k-means with majority votes of bits, level by level. Deterministic.
 class Vocabulary {
  public:
-  /// Descriptors of several images. Leaves are the words; inverse document frequencies are those of these images.
+  /// Descriptors of several images. Leaves are the words; inverse document frequencies are those of
+  /// these images.
   Vocabulary(const std::vector<std::vector<BinaryDescriptor>>& images, int branching, int levels);
 
   WordVector Words(const std::vector<BinaryDescriptor>& image) const;
@@ -35,7 +37,8 @@ class Vocabulary {
     std::vector<int> children;
     int word = -1;
   };
-  void Split(int node, const std::vector<const BinaryDescriptor*>& members, int branching, int levels);
+  void Split(int node, const std::vector<const BinaryDescriptor*>& members, int branching,
+             int levels);
   int WordOf(const BinaryDescriptor& descriptor) const;
 
   std::vector<Node> nodes_;

@@ -14,8 +14,8 @@ using Objects = std::vector<LayoutObject>;
 
 constexpr int kRounds = 5;  // of least squares; in most cases the matches settle after two
 
-ObjectPairs Agreeing(const Objects& local, const Objects& global, const ObjectPairs& pairs, const YawShift& pose,
-                     double inlier_m) {
+ObjectPairs Agreeing(const Objects& local, const Objects& global, const ObjectPairs& pairs,
+                     const YawShift& pose, double inlier_m) {
   std::vector<std::tuple<double, int, int>> near;
   for (const auto& [l, g] : pairs) {
     const double distance = (Apply(pose, local[l].position) - global[g].position).norm();
@@ -60,20 +60,25 @@ ObjectPairs BestPairs(const Eigen::MatrixXd& similarity, double least, int candi
 
 void DescribeFields(FieldVisitor& visitor, ConsensusOptions& options) {
   visitor.Integer("samples", options.samples, 1, 1000000, "poses that RANSAC tries");
-  visitor.Real("inlier_m", options.inlier_m, 1e-3, 1000, "how far apart matches that agree with a pose may be");
-  visitor.Integer("least_inliers", options.least_inliers, 2, 1000, "a pose has at least this many matches");
+  visitor.Real("inlier_m", options.inlier_m, 1e-3, 1000,
+               "how far apart matches that agree with a pose may be");
+  visitor.Integer("least_inliers", options.least_inliers, 2, 1000,
+                  "a pose has at least this many matches");
 }
 
-std::optional<Answer> LargestConsensus(const Objects& local, const Objects& global, const ObjectPairs& pairs,
-                                       const ConsensusOptions& options, std::mt19937_64& random) {
+std::optional<Answer> LargestConsensus(const Objects& local, const Objects& global,
+                                       const ObjectPairs& pairs, const ConsensusOptions& options,
+                                       std::mt19937_64& random) {
   Answer best;
   for (int sample = 0; sample < options.samples && pairs.size() >= 2; ++sample) {
     const auto& [l, g] = pairs[random() % pairs.size()];
     const auto& [other_l, other_g] = pairs[random() % pairs.size()];
     const double local_m = (local[l].position - local[other_l].position).head<2>().norm();
     const double global_m = (global[g].position - global[other_g].position).head<2>().norm();
-    // Two that are close to each other do not tell the heading, and a pose does not change distances.
-    if (!(std::min(local_m, global_m) > options.inlier_m) || !(std::abs(local_m - global_m) <= 2 * options.inlier_m))
+    // Two that are close to each other do not tell the heading, and a pose does not change
+    // distances.
+    if (!(std::min(local_m, global_m) > options.inlier_m) ||
+        !(std::abs(local_m - global_m) <= 2 * options.inlier_m))
       continue;
     const YawShift pose = PoseOf(local, global, {{l, g}, {other_l, other_g}});
     ObjectPairs agreeing = Agreeing(local, global, pairs, pose, options.inlier_m);

@@ -15,11 +15,13 @@ namespace {
 cv::Mat Read(const std::string& path) {
   cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
   if (image.empty())
-    throw Error(ErrorKind::kBadInput, {path}, "no image that can be read; the appearance baseline needs all of them");
+    throw Error(ErrorKind::kBadInput, {path},
+                "no image that can be read; the appearance baseline needs all of them");
   return image;
 }
 
-// By how much each feature of the left image lies further left in the right one; none: not seen there for sure.
+// By how much each feature of the left image lies further left in the right one; none: not seen
+// there for sure.
 std::vector<std::optional<double>> Disparities(const cv::Mat& left, const cv::Mat& right,
                                                const std::vector<cv::Point2f>& pixels) {
   constexpr float kBackPx = 0.5f, kRowPx = 1.f, kLeastPx = 0.5f;
@@ -31,7 +33,8 @@ std::vector<std::optional<double>> Disparities(const cv::Mat& left, const cv::Ma
   cv::calcOpticalFlowPyrLK(right, left, there, back, found_back, cv::noArray());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const cv::Point2f shift = pixels[i] - there[i], loss = pixels[i] - back[i];
-    const bool sure = found[i] && found_back[i] && std::hypot(loss.x, loss.y) < kBackPx && std::abs(shift.y) < kRowPx;
+    const bool sure = found[i] && found_back[i] && std::hypot(loss.x, loss.y) < kBackPx &&
+                      std::abs(shift.y) < kRowPx;
     if (sure && shift.x > kLeastPx) disparities[i] = shift.x;
   }
   return disparities;
@@ -39,12 +42,13 @@ std::vector<std::optional<double>> Disparities(const cv::Mat& left, const cv::Ma
 
 }  // namespace
 
-ImageFeatures ExtractFeatures(const std::string& left, const std::string& right, const StereoCamera& stereo,
-                              const AppearanceOptions& options) {
+ImageFeatures ExtractFeatures(const std::string& left, const std::string& right,
+                              const StereoCamera& stereo, const AppearanceOptions& options) {
   const Camera& camera = stereo.left;
   const cv::Mat in_left = Read(left), in_right = Read(right);
   if (in_left.size() != in_right.size())
-    throw Error(ErrorKind::kBadInput, {right}, "has not the size of " + left + "; both must be rectified alike");
+    throw Error(ErrorKind::kBadInput, {right},
+                "has not the size of " + left + "; both must be rectified alike");
   const auto orb = cv::ORB::create(options.features);
   std::vector<cv::KeyPoint> found;
   orb->detect(in_left, found);
@@ -60,7 +64,8 @@ ImageFeatures ExtractFeatures(const std::string& left, const std::string& right,
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const cv::Point2f& p = pixels[i];
     features.pixels.push_back({p.x, p.y});
-    std::memcpy(features.descriptors[i].data(), descriptors.ptr(static_cast<int>(i)), sizeof(BinaryDescriptor));
+    std::memcpy(features.descriptors[i].data(), descriptors.ptr(static_cast<int>(i)),
+                sizeof(BinaryDescriptor));
     std::optional<Vec3>& point = features.points.emplace_back();
     if (!disparities[i]) continue;
     const double disparity = *disparities[i] - stereo.disparity_at_infinity;

@@ -20,8 +20,10 @@ cv::Mat AsMat(const std::vector<BinaryDescriptor>& descriptors) {
           const_cast<BinaryDescriptor*>(descriptors.data())};
 }
 
-// Old features with a point, and those of the query: each the other's nearest, and nearer than the second nearest.
-std::vector<Pair> Match(const ImageFeatures& query, const ImageFeatures& old, const AppearanceOptions& options) {
+// Old features with a point, and those of the query: each the other's nearest, and nearer than the
+// second nearest.
+std::vector<Pair> Match(const ImageFeatures& query, const ImageFeatures& old,
+                        const AppearanceOptions& options) {
   if (query.descriptors.empty() || old.descriptors.empty()) return {};
   const cv::BFMatcher matcher(cv::NORM_HAMMING);
   std::vector<std::vector<cv::DMatch>> of_old;
@@ -32,8 +34,10 @@ std::vector<Pair> Match(const ImageFeatures& query, const ImageFeatures& old, co
   for (const std::vector<cv::DMatch>& nearest : of_old) {
     const cv::DMatch& first = nearest[0];
     const bool unlike_others =
-        nearest.size() < 2 || first.distance < static_cast<float>(options.ratio) * nearest[1].distance;
-    if (old.points[first.queryIdx] && unlike_others && first.distance <= static_cast<float>(options.max_distance) &&
+        nearest.size() < 2 ||
+        first.distance < static_cast<float>(options.ratio) * nearest[1].distance;
+    if (old.points[first.queryIdx] && unlike_others &&
+        first.distance <= static_cast<float>(options.max_distance) &&
         of_query[first.trainIdx].trainIdx == first.queryIdx)
       pairs.push_back({first.queryIdx, first.trainIdx, static_cast<int>(first.distance)});
   }
@@ -56,13 +60,15 @@ class Resection {
     Take(pairs);
     if (points_.size() < kLeast) return false;
     std::vector<int> inliers;
-    if (!cv::solvePnPRansac(points_, pixels_, K_, cv::noArray(), rotation_, translation_, false, kSamples,
-                            static_cast<float>(options_.reprojection_px), 0.999, inliers, cv::SOLVEPNP_AP3P))
+    if (!cv::solvePnPRansac(points_, pixels_, K_, cv::noArray(), rotation_, translation_, false,
+                            kSamples, static_cast<float>(options_.reprojection_px), 0.999, inliers,
+                            cv::SOLVEPNP_AP3P))
       return false;
     return Refine();
   }
 
-  // Old points where the pose has them in the query's image: the most similar feature around, each taken once.
+  // Old points where the pose has them in the query's image: the most similar feature around, each
+  // taken once.
   std::vector<Pair> Search() const {
     const Pose T_query_old = T_old_query().inverse();
     std::map<int, Pair> of_query;
@@ -95,7 +101,8 @@ class Resection {
 
   Pose T_old_query() const {
     const Vec3 axis(rotation_.at<double>(0), rotation_.at<double>(1), rotation_.at<double>(2));
-    const Vec3 t(translation_.at<double>(0), translation_.at<double>(1), translation_.at<double>(2));
+    const Vec3 t(translation_.at<double>(0), translation_.at<double>(1),
+                 translation_.at<double>(2));
     return Pose(lie::SO3<double>::Exp(axis), t).inverse();
   }
   int inliers() const { return static_cast<int>(Agreeing().size()); }
@@ -119,7 +126,8 @@ class Resection {
     std::vector<cv::Point2d> projected;
     cv::projectPoints(points_, rotation_, translation_, K_, cv::noArray(), projected);
     for (std::size_t i = 0; i < projected.size(); ++i)
-      if (cv::norm(projected[i] - pixels_[i]) < options_.reprojection_px) agreeing.push_back(static_cast<int>(i));
+      if (cv::norm(projected[i] - pixels_[i]) < options_.reprojection_px)
+        agreeing.push_back(static_cast<int>(i));
     return agreeing;
   }
 
@@ -145,8 +153,8 @@ class Resection {
 
 }  // namespace
 
-std::optional<ImagePose> PoseFromImages(const ImageFeatures& query, const ImageFeatures& old, const Camera& camera,
-                                        const AppearanceOptions& options) {
+std::optional<ImagePose> PoseFromImages(const ImageFeatures& query, const ImageFeatures& old,
+                                        const Camera& camera, const AppearanceOptions& options) {
   constexpr int kSearches = 2;
   Resection resection(query, old, camera, options);
   if (!resection.Find(Match(query, old, options))) return std::nullopt;

@@ -26,11 +26,13 @@ double SumCommon(const LabelWalks& a, const LabelWalks& b, Combine combine) {
 
 double Product(double a, double b) { return a * b; }
 
-void ExtendWalks(const LabelGraph& graph, int vertex, int steps, std::vector<int>& labels, LabelWalks& walks) {
+void ExtendWalks(const LabelGraph& graph, int vertex, int steps, std::vector<int>& labels,
+                 LabelWalks& walks) {
   labels.push_back(graph.labels[vertex]);
   if (steps == 0) ++walks[labels];
   if (steps > 0)
-    for (const int next : graph.neighbours[vertex]) ExtendWalks(graph, next, steps - 1, labels, walks);
+    for (const int next : graph.neighbours[vertex])
+      ExtendWalks(graph, next, steps - 1, labels, walks);
   labels.pop_back();
 }
 
@@ -74,7 +76,8 @@ std::vector<LabelWalks> RandomWalks(const LabelGraph& graph, const RandomWalkOpt
 std::vector<LabelWalks> AllWalks(const LabelGraph& graph, int steps) {
   std::vector<LabelWalks> walks(graph.labels.size());
   std::vector<int> labels;
-  for (std::size_t v = 0; v < walks.size(); ++v) ExtendWalks(graph, static_cast<int>(v), steps, labels, walks[v]);
+  for (std::size_t v = 0; v < walks.size(); ++v)
+    ExtendWalks(graph, static_cast<int>(v), steps, labels, walks[v]);
   return walks;
 }
 

@@ -10,17 +10,19 @@ void DescribeFields(FieldVisitor& visitor, LinOptions& options) {
   visitor.Real("edge_m", options.edge_m, 0, 1e6, "objects this close are neighbours");
   visitor.Nested("walks", options.walks, "the descriptor that finds candidates");
   visitor.Real("least_walk_similarity", options.least_walk_similarity, 0, 1, "of a candidate");
-  visitor.Integer("candidates", options.candidates, 1, 1000, "global objects compared with each local one");
+  visitor.Integer("candidates", options.candidates, 1, 1000,
+                  "global objects compared with each local one");
   visitor.Real("edge_tolerance_m", options.edge_tolerance_m, 0, 1e6,
                "edges whose lengths differ by this much are different; 0: lengths do not count");
-  visitor.Real("least_similarity", options.least_similarity, 0, 1, "of the neighbourhoods of a match");
+  visitor.Real("least_similarity", options.least_similarity, 0, 1,
+               "of the neighbourhoods of a match");
   visitor.Nested("consensus", options.consensus, "alignment");
   visitor.Real("accept_score", options.accept_score, 0, 1, "a loop has at least this score");
   visitor.Integer("seed", options.seed, 0, 1000000000, "of the walks and of RANSAC");
 }
 
-std::optional<Answer> MatchLin(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
-                               const LinOptions& options) {
+std::optional<Answer> MatchLin(const std::vector<LayoutObject>& local,
+                               const std::vector<LayoutObject>& global, const LinOptions& options) {
   const LabelGraph local_graph = MakeLabelGraph(local, options.edge_m);
   const LabelGraph global_graph = MakeLabelGraph(global, options.edge_m);
   std::mt19937_64 random(options.seed);
@@ -29,12 +31,15 @@ std::optional<Answer> MatchLin(const std::vector<LayoutObject>& local, const std
   Eigen::MatrixXd by_walks = Eigen::MatrixXd::Zero(local.size(), global.size());
   for (std::size_t l = 0; l < local.size(); ++l)
     for (std::size_t g = 0; g < global.size(); ++g)
-      if (local[l].label == global[g].label) by_walks(l, g) = CommonShare(local_walks[l], global_walks[g]);
+      if (local[l].label == global[g].label)
+        by_walks(l, g) = CommonShare(local_walks[l], global_walks[g]);
 
   Eigen::MatrixXd by_edits = Eigen::MatrixXd::Zero(local.size(), global.size());
-  for (const auto& [l, g] : BestPairs(by_walks, options.least_walk_similarity, options.candidates)) {
+  for (const auto& [l, g] :
+       BestPairs(by_walks, options.least_walk_similarity, options.candidates)) {
     const double similarity =
-        StarSimilarity(SpokesOf(local, local_graph, l), SpokesOf(global, global_graph, g), options.edge_tolerance_m);
+        StarSimilarity(SpokesOf(local, local_graph, l), SpokesOf(global, global_graph, g),
+                       options.edge_tolerance_m);
     if (similarity >= options.least_similarity) by_edits(l, g) = similarity;
   }
   ObjectPairs pairs;
@@ -50,7 +55,9 @@ std::optional<Answer> MatchLin(const std::vector<LayoutObject>& local, const std
 }
 
 PlaceMatcher LinMatcher(const LinOptions& options) {
-  return AsPlaceMatcher([options](const auto& local, const auto& global) { return MatchLin(local, global, options); });
+  return AsPlaceMatcher([options](const auto& local, const auto& global) {
+    return MatchLin(local, global, options);
+  });
 }
 
 }  // namespace sslcd::baselines

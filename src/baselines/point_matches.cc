@@ -21,13 +21,15 @@ Scores ReadPointMatches(const std::string& file) {
   TextRows rows(file);
   while (rows.Next()) {
     if (rows.size() != 3)
-      rows.Fail("expected 3 columns, query_frame match_frame confidence, but there are " + std::to_string(rows.size()));
+      rows.Fail("expected 3 columns, query_frame match_frame confidence, but there are " +
+                std::to_string(rows.size()));
     const int query = rows.Integer(0), match = rows.Integer(1);
     const double confidence = rows.Number(2);
     if (match < 0 || match >= query)
-      rows.Fail("frame " + std::to_string(match) + " is matched with frame " + std::to_string(query) +
-                ": a match is an earlier frame, and frames count from 0");
-    if (!(confidence >= 0 && confidence <= 1)) rows.Fail("a confidence lies in [0, 1]; divide by the largest one");
+      rows.Fail("frame " + std::to_string(match) + " is matched with frame " +
+                std::to_string(query) + ": a match is an earlier frame, and frames count from 0");
+    if (!(confidence >= 0 && confidence <= 1))
+      rows.Fail("a confidence lies in [0, 1]; divide by the largest one");
     Sum& sum = scores[query][match];
     ++sum.matches;
     sum.confidence += confidence;
@@ -38,7 +40,8 @@ Scores ReadPointMatches(const std::string& file) {
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, PointMatchOptions& options) {
-  visitor.Integer("least_matches", options.least_matches, 1, 100000, "point matches that two images need");
+  visitor.Integer("least_matches", options.least_matches, 1, 100000,
+                  "point matches that two images need");
   visitor.Real("accept_score", options.accept_score, 0, 1, "a loop has at least this score");
 }
 

@@ -32,7 +32,9 @@ std::set<int> CasesOf(const std::vector<MethodResults>& methods) {
   return cases;
 }
 
-bool InBin(double viewpoint_rad, int bin) { return bin == kAllBins || ViewpointBin(viewpoint_rad) == bin; }
+bool InBin(double viewpoint_rad, int bin) {
+  return bin == kAllBins || ViewpointBin(viewpoint_rad) == bin;
+}
 
 std::string BinName(int bin) { return bin == kAllBins ? "all" : kViewpointBinNames[bin]; }
 
@@ -83,7 +85,9 @@ std::string IntervalCell(int part, int whole) {
 constexpr int kStep = 15, kSteps = 180 / kStep;  // of ViewpointTable [deg]
 using ViewpointCounts = std::array<Counts, kSteps>;
 
-std::string StepName(int bin) { return std::to_string(bin * kStep) + "-" + std::to_string((bin + 1) * kStep); }
+std::string StepName(int bin) {
+  return std::to_string(bin * kStep) + "-" + std::to_string((bin + 1) * kStep);
+}
 
 ViewpointCounts CountViewpoints(const std::vector<TrialResult>& results) {
   ViewpointCounts counts;
@@ -111,11 +115,14 @@ PrecisionRecall CurveOf(const MethodResults& method, int bin) {
 }  // namespace
 
 Table AteTable(const std::vector<MethodResults>& methods) {
-  Table table{
-      "table2", "ATE after Sim(3) [m]: mean over seeds of RMSE, standard deviation and largest error", {"method"}, {}};
+  Table table{"table2",
+              "ATE after Sim(3) [m]: mean over seeds of RMSE, standard deviation and largest error",
+              {"method"},
+              {}};
   const std::set<int> cases = CasesOf(methods);
   for (const int c : cases)
-    for (const char* what : {" RMSE", " STD", " max"}) table.header.push_back(std::to_string(c) + what);
+    for (const char* what : {" RMSE", " STD", " max"})
+      table.header.push_back(std::to_string(c) + what);
   table.header.insert(table.header.end(), {"mean RMSE", "largest RMSE", "largest error"});
   // By case: the figures of each run.
   const auto add = [&](const std::string& title,
@@ -133,10 +140,12 @@ Table AteTable(const std::vector<MethodResults>& methods) {
       for (const auto& column : columns) row.push_back(Cell("%.3f", Mean(column)));
       means.push_back(Mean(columns[0]));
     }
-    row.insert(row.end(), {Cell("%.3f", Mean(means)), Cell("%.3f", largest_rmse), Cell("%.3f", largest_error)});
+    row.insert(row.end(), {Cell("%.3f", Mean(means)), Cell("%.3f", largest_rmse),
+                           Cell("%.3f", largest_error)});
     table.rows.push_back(std::move(row));
   };
-  const auto add_measured = [&](const std::string& title, const MethodResults& method, ErrorStats TrialResult::*ate) {
+  const auto add_measured = [&](const std::string& title, const MethodResults& method,
+                                ErrorStats TrialResult::*ate) {
     add(title, [&](int c) {
       std::vector<std::array<double, 3>> runs;
       for (std::size_t i = 0; i < method.results.size(); ++i) {
@@ -146,8 +155,10 @@ Table AteTable(const std::vector<MethodResults>& methods) {
       return runs;
     });
   };
-  for (const MethodResults& method : methods) add_measured(method.method.title, method, &TrialResult::ate);
-  if (!methods.empty()) add_measured("the odometry as it comes", methods[0], &TrialResult::ate_odometry);
+  for (const MethodResults& method : methods)
+    add_measured(method.method.title, method, &TrialResult::ate);
+  if (!methods.empty())
+    add_measured("the odometry as it comes", methods[0], &TrialResult::ate_odometry);
   for (const PaperAteRow& paper : kPaperAte)
     add(std::string(paper.method) + " (the paper's figures, on HALV)",
         [&](int c) { return std::vector<std::array<double, 3>>{paper.cases[c - 1]}; });
@@ -157,16 +168,16 @@ Table AteTable(const std::vector<MethodResults>& methods) {
 Table AttemptsTable(const MethodResults& method, const std::string& key, const std::string& title) {
   Table table{key,
               title,
-              {"viewpoint [deg]", "keyframes to recognise", "recognised", "recall", "95 %", "loops", "off by > 5 m",
-               "off by > 1 m", "median error [m]", "median error [deg]"},
+              {"viewpoint [deg]", "keyframes to recognise", "recognised", "recall", "95 %", "loops",
+               "off by > 5 m", "off by > 1 m", "median error [m]", "median error [deg]"},
               {}};
   for (int bin = 0; bin <= kAllBins; ++bin) {
     const Counts c = CountBin(method.results, bin);
     const bool any = !c.errors_m.empty();
     table.rows.push_back({BinName(bin), std::to_string(c.revisits), std::to_string(c.recognised),
                           Share(c.recognised, c.revisits), IntervalCell(c.recognised, c.revisits),
-                          std::to_string(c.loops), std::to_string(c.wrong), std::to_string(c.off_1m),
-                          any ? Cell("%.3f", Median(c.errors_m)) : "",
+                          std::to_string(c.loops), std::to_string(c.wrong),
+                          std::to_string(c.off_1m), any ? Cell("%.3f", Median(c.errors_m)) : "",
                           any ? Cell("%.2f", Median(c.errors_rad) * kDegrees) : ""});
   }
   return table;
@@ -175,7 +186,8 @@ Table AttemptsTable(const MethodResults& method, const std::string& key, const s
 Table LoopTable(const std::vector<MethodResults>& methods) {
   Table table{"loops",
               "Every loop that was accepted",
-              {"method", "place", "case", "seed", "path_m", "score", "viewpoint_deg", "error_m", "error_deg"},
+              {"method", "place", "case", "seed", "path_m", "score", "viewpoint_deg", "error_m",
+               "error_deg"},
               {}};
   for (const MethodResults& method : methods)
     for (std::size_t i = 0; i < method.results.size(); ++i)
@@ -183,15 +195,18 @@ Table LoopTable(const std::vector<MethodResults>& methods) {
         if (!loop.accepted) continue;
         const Trial& trial = method.trials[i];
         table.rows.push_back({method.method.key, trial.place.key, std::to_string(trial.case_number),
-                              std::to_string(trial.seed), Cell("%.1f", loop.at_m), Cell("%.3f", loop.score),
-                              Cell("%.1f", loop.viewpoint_rad * kDegrees), Cell("%.3f", loop.error_m),
-                              Cell("%.2f", loop.error_rad * kDegrees)});
+                              std::to_string(trial.seed), Cell("%.1f", loop.at_m),
+                              Cell("%.3f", loop.score), Cell("%.1f", loop.viewpoint_rad * kDegrees),
+                              Cell("%.3f", loop.error_m), Cell("%.2f", loop.error_rad * kDegrees)});
       }
   return table;
 }
 
 Table PrecisionRecallTable(const std::vector<MethodResults>& methods) {
-  Table table{"pr", "Average precision by viewpoint change [deg], and recall without a wrong answer", {"method"}, {}};
+  Table table{"pr",
+              "Average precision by viewpoint change [deg], and recall without a wrong answer",
+              {"method"},
+              {}};
   for (int bin = 0; bin <= kAllBins; ++bin) table.header.push_back("AP " + BinName(bin));
   table.header.insert(table.header.end(), {"keyframes", "recall at precision 1", "95 %"});
   for (const MethodResults& method : methods) {
@@ -213,17 +228,18 @@ Table PrecisionRecallTable(const std::vector<MethodResults>& methods) {
 Table PrecisionRecallCurves(const std::vector<MethodResults>& methods) {
   Table table{"pr_curves",
               "Precision and recall of what scores at least the threshold",
-              {"method", "viewpoint_deg", "threshold", "answered", "correct", "precision", "precision_low",
-               "precision_high", "recall", "recall_low", "recall_high"},
+              {"method", "viewpoint_deg", "threshold", "answered", "correct", "precision",
+               "precision_low", "precision_high", "recall", "recall_low", "recall_high"},
               {}};
   for (const MethodResults& method : methods)
     for (int bin = 0; bin <= kAllBins; ++bin)
       for (const PrecisionRecallPoint& point : CurveOf(method, bin).curve)
-        table.rows.push_back({method.method.key, BinName(bin), Cell("%.4f", point.threshold),
-                              std::to_string(point.answered), std::to_string(point.correct),
-                              Cell("%.4f", point.precision), Cell("%.4f", point.precision_interval.low),
-                              Cell("%.4f", point.precision_interval.high), Cell("%.4f", point.recall),
-                              Cell("%.4f", point.recall_interval.low), Cell("%.4f", point.recall_interval.high)});
+        table.rows.push_back(
+            {method.method.key, BinName(bin), Cell("%.4f", point.threshold),
+             std::to_string(point.answered), std::to_string(point.correct),
+             Cell("%.4f", point.precision), Cell("%.4f", point.precision_interval.low),
+             Cell("%.4f", point.precision_interval.high), Cell("%.4f", point.recall),
+             Cell("%.4f", point.recall_interval.low), Cell("%.4f", point.recall_interval.high)});
   return table;
 }
 
@@ -242,7 +258,8 @@ Table ViewpointTable(const std::vector<MethodResults>& methods, const std::strin
     std::vector<std::string> row{StepName(bin), std::to_string(counts[0][bin].revisits)};
     for (const ViewpointCounts& of_method : counts) {
       const Counts& c = of_method[bin];
-      row.push_back(Share(c.recognised, c.revisits) + " (" + IntervalCell(c.recognised, c.revisits) + ")");
+      row.push_back(Share(c.recognised, c.revisits) + " (" +
+                    IntervalCell(c.recognised, c.revisits) + ")");
     }
     table.rows.push_back(std::move(row));
   }
@@ -250,26 +267,30 @@ Table ViewpointTable(const std::vector<MethodResults>& methods, const std::strin
 }
 
 Table ViewpointCurves(const std::vector<MethodResults>& methods, const std::string& key) {
-  Table table{key + "_curves",
-              "Keyframes recognised over the change of viewpoint",
-              {"method", "viewpoint_deg", "keyframes", "recognised", "recall", "recall_low", "recall_high"},
-              {}};
+  Table table{
+      key + "_curves",
+      "Keyframes recognised over the change of viewpoint",
+      {"method", "viewpoint_deg", "keyframes", "recognised", "recall", "recall_low", "recall_high"},
+      {}};
   for (const MethodResults& method : methods) {
     const ViewpointCounts counts = CountViewpoints(method.results);
     for (int bin = 0; bin < kSteps; ++bin) {
       const Counts& c = counts[bin];
       if (c.revisits == 0) continue;
       const Interval interval = WilsonInterval(c.recognised, c.revisits);
-      table.rows.push_back({method.method.key, StepName(bin), std::to_string(c.revisits), std::to_string(c.recognised),
-                            Share(c.recognised, c.revisits), Cell("%.3f", interval.low), Cell("%.3f", interval.high)});
+      table.rows.push_back({method.method.key, StepName(bin), std::to_string(c.revisits),
+                            std::to_string(c.recognised), Share(c.recognised, c.revisits),
+                            Cell("%.3f", interval.low), Cell("%.3f", interval.high)});
     }
   }
   return table;
 }
 
 Table StageTable(const std::vector<TrialResult>& results) {
-  Table table{
-      "table3", "Times of the stages [ms]", {"stage", "calls a run", "p50", "p95", "max", "the paper (i7-9700)"}, {}};
+  Table table{"table3",
+              "Times of the stages [ms]",
+              {"stage", "calls a run", "p50", "p95", "max", "the paper (i7-9700)"},
+              {}};
   std::set<std::string> stages;
   for (const TrialResult& result : results)
     for (const auto& [stage, times] : result.times) stages.insert(stage);
@@ -283,9 +304,10 @@ Table StageTable(const std::vector<TrialResult>& results) {
       p95.push_back(times->second.p95);
       largest.push_back(times->second.max);
     }
-    const auto paper =
-        std::find_if(kPaperTimes.begin(), kPaperTimes.end(), [&](const auto& p) { return p.stage == stage; });
-    table.rows.push_back({stage, Cell("%.0f", Mean(count)), Cell("%.3f", Median(p50)), Cell("%.2f", Median(p95)),
+    const auto paper = std::find_if(kPaperTimes.begin(), kPaperTimes.end(),
+                                    [&](const auto& p) { return p.stage == stage; });
+    table.rows.push_back({stage, Cell("%.0f", Mean(count)), Cell("%.3f", Median(p50)),
+                          Cell("%.2f", Median(p95)),
                           Cell("%.1f", *std::max_element(largest.begin(), largest.end())),
                           paper == kPaperTimes.end() ? "" : Cell("%.1f", paper->ms)});
   }
@@ -296,7 +318,8 @@ Table AblationTable(const std::vector<MethodResults>& methods) {
   Table table{"ablation", "What each part is good for", {"variant"}, {}};
   const std::set<int> cases = CasesOf(methods);
   for (const int c : cases) table.header.push_back("ATE case " + std::to_string(c) + " [m]");
-  table.header.insert(table.header.end(), {"mean [m]", "largest [m]", "recall", "loops", "off by > 5 m"});
+  table.header.insert(table.header.end(),
+                      {"mean [m]", "largest [m]", "recall", "loops", "off by > 5 m"});
   for (const MethodResults& method : methods) {
     std::vector<std::string> row{method.method.title};
     std::vector<double> means;
@@ -310,8 +333,9 @@ Table AblationTable(const std::vector<MethodResults>& methods) {
     }
     for (const TrialResult& result : method.results) largest = std::max(largest, result.ate.rmse);
     const Counts counts = CountBin(method.results, kAllBins);
-    row.insert(row.end(), {Cell("%.3f", Mean(means)), Cell("%.3f", largest), Share(counts.recognised, counts.revisits),
-                           std::to_string(counts.loops), std::to_string(counts.wrong)});
+    row.insert(row.end(), {Cell("%.3f", Mean(means)), Cell("%.3f", largest),
+                           Share(counts.recognised, counts.revisits), std::to_string(counts.loops),
+                           std::to_string(counts.wrong)});
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -42,7 +42,8 @@ std::function<PlaceMatcher(const std::string&)> Always(Matcher matcher) {
   return [matcher](const std::string&) { return PlaceMatcher(matcher); };
 }
 
-Method Changed(const std::string& key, const std::string& title, const std::vector<std::string>& settings) {
+Method Changed(const std::string& key, const std::string& title,
+               const std::vector<std::string>& settings) {
   Method method{key, title, {}};
   ApplySettings(settings, [&](FieldVisitor& visitor) { DescribeFields(visitor, method.options); });
   return method;
@@ -65,7 +66,10 @@ std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
       {"paper_stages", "the paper's matching", {}, Always(PaperStages)},
       {"lin", "Lin et al. 2021", {}, Always(LinMatcher(baselines.lin))},
       {"x_view", "X-View", {}, Always(XViewMatcher(baselines.x_view))},
-      {"histogram", "semantic histograms", {}, Always(SemanticHistogramMatcher(baselines.semantic_histogram))},
+      {"histogram",
+       "semantic histograms",
+       {},
+       Always(SemanticHistogramMatcher(baselines.semantic_histogram))},
   };
 }
 
@@ -93,27 +97,33 @@ std::vector<Method> Ablations() {
       {"sslcd", "**sslcd**", {}},
       Changed("no_appearance", "loops by layout alone, no colour, no embedding",
               {"loop.match.likelihood.appearance.limit=0"}),
-      Changed("no_tracks", "each attempt by itself, no agreement over time", {"loop.tracks.agree_m=0"}),
+      Changed("no_tracks", "each attempt by itself, no agreement over time",
+              {"loop.tracks.agree_m=0"}),
       Changed("no_prior", "odometry says nothing about a loop", {"loop.prior.surprise=1"}),
       Changed("no_hindsight", "no second look at the end", {"loop.layout.hindsight_m=0"}),
-      Changed("no_odometry_learning", "odometry no better or worse than told", {"loop.learn_odometry=false"}),
+      Changed("no_odometry_learning", "odometry no better or worse than told",
+              {"loop.learn_odometry=false"}),
       Changed("no_lag", "loops tie the newest camera", {"loop.lag_m=0"}),
       Changed("trusting", "no loop is ever refused or taken back by the others",
-              {"loop.graph.inlier_probability=0.999999", "loop.graph.drift_factor=1000", "loop.belief.probation_m=1000",
-               "loop.belief.probation_rad=4"}),
-      Changed("paper_association", "association as printed (Eqs. 2 to 6)", {"association.method=paper"}),
+              {"loop.graph.inlier_probability=0.999999", "loop.graph.drift_factor=1000",
+               "loop.belief.probation_m=1000", "loop.belief.probation_rad=4"}),
+      Changed("paper_association", "association as printed (Eqs. 2 to 6)",
+              {"association.method=paper"}),
       Changed("paper_adjustment", "bundle adjustment as printed (Eq. 8)", {"ba.residual=paper"}),
       Changed("no_adjustment", "no bundle adjustment after a loop", {"loop.adjust_keyframes=0"}),
       Changed("no_window", "no sliding window", {"window.enabled=false"}),
-      Changed("no_refinement", "no refinement at the end, and so no second look", {"refine.enabled=false"}),
+      Changed("no_refinement", "no refinement at the end, and so no second look",
+              {"refine.enabled=false"}),
   };
 }
 
-std::vector<Method> Select(const std::vector<Method>& methods, const std::vector<std::string>& keys) {
+std::vector<Method> Select(const std::vector<Method>& methods,
+                           const std::vector<std::string>& keys) {
   if (keys.empty()) return methods;
   std::vector<Method> selected;
   for (const std::string& key : keys) {
-    const auto found = std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.key == key; });
+    const auto found =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.key == key; });
     if (found == methods.end()) {
       std::string known;
       for (const Method& method : methods) known += (known.empty() ? "" : ", ") + method.key;

@@ -25,23 +25,28 @@ std::optional<std::string> ReadIfThere(const std::string& path) {
 
 }  // namespace
 
-ResultFolder::ResultFolder(std::string path, const std::string& commit, const std::string& baselines_yaml)
+ResultFolder::ResultFolder(std::string path, const std::string& commit,
+                           const std::string& baselines_yaml)
     : path_(std::move(path)) {
   const std::string way_out = "; give another --out, or delete the folder to start again";
   MakeWritableFolder(path_);
   MakeWritableFolder(path_ + "/trials");
   const auto known = ReadIfThere(path_ + "/commit.txt");
   if (known && *known != commit + "\n")
-    throw Error(ErrorKind::kUsage, path_ + " holds results of commit " + known->substr(0, known->find('\n')) +
+    throw Error(ErrorKind::kUsage, path_ + " holds results of commit " +
+                                       known->substr(0, known->find('\n')) +
                                        ", but this program is " + commit + way_out);
   const auto baselines = ReadIfThere(path_ + "/baselines.yaml");
   if (baselines && *baselines != baselines_yaml)
-    throw Error(ErrorKind::kUsage, path_ + " holds results with other parameters of the baselines" + way_out);
+    throw Error(ErrorKind::kUsage,
+                path_ + " holds results with other parameters of the baselines" + way_out);
   WriteFileAtomically(path_ + "/commit.txt", commit + "\n");
   WriteFileAtomically(path_ + "/baselines.yaml", baselines_yaml);
 }
 
-std::string ResultFolder::FileOf(const Trial& trial) const { return path_ + "/trials/" + trial.Name() + ".json"; }
+std::string ResultFolder::FileOf(const Trial& trial) const {
+  return path_ + "/trials/" + trial.Name() + ".json";
+}
 
 std::optional<TrialResult> ResultFolder::Find(const Trial& trial) const {
   const auto text = ReadIfThere(FileOf(trial));
@@ -53,8 +58,9 @@ void ResultFolder::Put(const Trial& trial, const TrialResult& result) const {
   WriteFileAtomically(FileOf(trial), ToJson(result));
 }
 
-std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials, const ResultFolder& folder,
-                                                  int threads, const TrialHooks& hooks) {
+std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials,
+                                                  const ResultFolder& folder, int threads,
+                                                  const TrialHooks& hooks) {
   std::vector<TrialResult> results(trials.size());
   std::vector<std::vector<std::size_t>> missing;  // by world, which is made once
   std::map<std::string, std::size_t> worlds;

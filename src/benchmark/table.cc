@@ -21,7 +21,8 @@ std::string CsvRow(const std::vector<std::string>& cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     std::string cell = cells[i];
     if (cell.find_first_of(",\"\n") != std::string::npos) {
-      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2)) cell.insert(at, "\"");
+      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2))
+        cell.insert(at, "\"");
       cell = "\"" + cell + "\"";
     }
     row += (i > 0 ? "," : "") + cell;
@@ -62,7 +63,8 @@ std::string ToJson(const Table& table) {
   return list.dump(1) + "\n";
 }
 
-std::string ReplaceTables(std::string document, const std::string& name, const std::vector<Table>& tables) {
+std::string ReplaceTables(std::string document, const std::string& name,
+                          const std::vector<Table>& tables) {
   for (const Table& table : tables) {
     const std::string begin = "<!-- bench " + table.key + " -->\n", end = "<!-- /bench -->";
     const std::size_t from = document.find(begin);

@@ -27,7 +27,9 @@ std::string Trial::World() const {
   return place.key + "-c" + std::to_string(case_number) + "-s" + std::to_string(seed);
 }
 
-std::string Trial::Name() const { return World() + "-" + method.key + (only_asked ? "-asked" : ""); }
+std::string Trial::Name() const {
+  return World() + "-" + method.key + (only_asked ? "-asked" : "");
+}
 
 sim::HalvSequence MakeSequence(const Trial& trial) {
   sim::HalvOptions options;
@@ -42,7 +44,8 @@ TrialResult RunTrial(const Trial& trial, const sim::HalvSequence& sequence) {
   MapperContext context{world.gravity, world.labels, world.camera};
   std::set<int> accepted;
   if (trial.method.matcher) context.place_matcher = trial.method.matcher(trial.World());
-  if (trial.only_asked) context.place_matcher = OnlyAsked(std::move(context.place_matcher), accepted);
+  if (trial.only_asked)
+    context.place_matcher = OnlyAsked(std::move(context.place_matcher), accepted);
 
   const auto start = std::chrono::steady_clock::now();
   RunResult run = RunSequence(frames, context, trial.method.options);
@@ -59,7 +62,9 @@ TrialResult RunTrial(const Trial& trial, const sim::HalvSequence& sequence) {
   result.revisits = FindRevisits(truth, frames, sequence.detections.identity);
   if (trial.place.way_back_only) {
     std::vector<Revisit>& all = result.revisits;
-    const auto out = [&](const Revisit& revisit) { return revisit.frame < sequence.scene.return_frame; };
+    const auto out = [&](const Revisit& revisit) {
+      return revisit.frame < sequence.scene.return_frame;
+    };
     all.erase(std::remove_if(all.begin(), all.end(), out), all.end());
   }
   result.loops = JudgeLoops(run.loops, truth);

@@ -15,18 +15,19 @@ namespace {
 // Whole degrees, for they become part of a folder's name.
 std::optional<int> Degrees(const std::string& text) {
   const std::optional<double> number = ParseNumber(text);
-  if (!number || *number != std::floor(*number) || *number < 0 || *number > 180) return std::nullopt;
+  if (!number || *number != std::floor(*number) || *number < 0 || *number > 180)
+    return std::nullopt;
   return static_cast<int>(*number);
 }
 
 std::string RenderCommand(const std::string& folder, const Trial& trial) {
   const auto degrees = [](double value) { return std::to_string(std::lround(value)); };
   const sim::HalvScene& scene = trial.place.scene;
-  std::string command =
-      "sslcd_sim halv --case " + std::to_string(trial.case_number) + " --seed " + std::to_string(trial.seed);
+  std::string command = "sslcd_sim halv --case " + std::to_string(trial.case_number) + " --seed " +
+                        std::to_string(trial.seed);
   if (scene.viewpoint_low_deg >= 0)
-    command += " --viewpoint-low-deg " + degrees(scene.viewpoint_low_deg) + " --viewpoint-high-deg " +
-               degrees(scene.viewpoint_high_deg);
+    command += " --viewpoint-low-deg " + degrees(scene.viewpoint_low_deg) +
+               " --viewpoint-high-deg " + degrees(scene.viewpoint_high_deg);
   return command + " --render --out " + folder;
 }
 
@@ -37,9 +38,10 @@ Place PlaceAtViewpoint(const std::string& range) {
   const auto low = Degrees(range.substr(0, dash));
   const auto high = dash == std::string::npos ? std::nullopt : Degrees(range.substr(dash + 1));
   if (!low || !high || *low >= *high)
-    throw Error(ErrorKind::kUsage, "--viewpoints '" + range +
-                                       "' is no range of angles: write LOW-HIGH in whole degrees, from 0 to 180, "
-                                       "e.g. 45-60");
+    throw Error(ErrorKind::kUsage,
+                "--viewpoints '" + range +
+                    "' is no range of angles: write LOW-HIGH in whole degrees, from 0 to 180, "
+                    "e.g. 45-60");
   Place place;
   place.key = "lot-v" + std::to_string(*low) + "-" + std::to_string(*high);
   place.cases = {4};
@@ -51,7 +53,8 @@ Place PlaceAtViewpoint(const std::string& range) {
 
 std::vector<std::string> ViewpointRanges() {
   std::vector<std::string> ranges;
-  for (int low = 0; low < 180; low += 15) ranges.push_back(std::to_string(low) + "-" + std::to_string(low + 15));
+  for (int low = 0; low < 180; low += 15)
+    ranges.push_back(std::to_string(low) + "-" + std::to_string(low + 15));
   return ranges;
 }
 
@@ -61,7 +64,8 @@ void CheckRendered(const std::string& folder, const std::vector<Trial>& trials) 
     const std::string sequence = folder + "/" + trial.World();
     const std::string way_out = "; make it with: " + RenderCommand(sequence, trial);
     if (!std::filesystem::is_directory(sequence + "/image_2"))
-      throw Error(ErrorKind::kBadInput, {sequence}, "is not there, or has no images in image_2" + way_out);
+      throw Error(ErrorKind::kBadInput, {sequence},
+                  "is not there, or has no images in image_2" + way_out);
     sim::HalvScene scene = trial.place.scene;
     scene.case_number = trial.case_number;
     const Trajectory truth = sim::MakeHalvWorld(trial.seed, scene).world.truth;
@@ -72,7 +76,8 @@ void CheckRendered(const std::string& folder, const std::vector<Trial>& trials) 
       throw Error(ErrorKind::kBadInput, problem.what() + way_out);
     }
     if (!(off < kSame))
-      throw Error(ErrorKind::kBadInput, {sequence}, "is of another world, by its groundtruth.txt" + way_out);
+      throw Error(ErrorKind::kBadInput, {sequence},
+                  "is of another world, by its groundtruth.txt" + way_out);
   }
 }
 

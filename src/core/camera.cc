@@ -18,23 +18,28 @@ Camera RightOf(const StereoCamera& stereo) {
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right) {
   constexpr double kSame = 1e-3;  // [px], [m]
   const double baseline = left.offset.x() - right.offset.x();
-  const bool rectified = std::abs(left.fx - right.fx) < kSame && std::abs(left.fy - right.fy) < kSame &&
+  const bool rectified = std::abs(left.fx - right.fx) < kSame &&
+                         std::abs(left.fy - right.fy) < kSame &&
                          std::abs(left.cx - right.cx) <= StereoCamera::kMostAtInfinity &&
                          std::abs(left.cy - right.cy) < kSame;
   if (!rectified || !(baseline > kSame))
-    throw Error(
-        ErrorKind::kBadInput,
-        "the two cameras are no rectified pair: P2 and P3 of calib.txt (of grey images P0 and P1) must agree in their "
-        "first three columns, but for up to 3 px between the columns of their principal points, and the fourth must "
-        "put the right camera to the right of the left one");
+    throw Error(ErrorKind::kBadInput,
+                "the two cameras are no rectified pair: P2 and P3 of calib.txt (of grey images P0 "
+                "and P1) must agree in their "
+                "first three columns, but for up to 3 px between the columns of their principal "
+                "points, and the fourth must "
+                "put the right camera to the right of the left one");
   return {left, baseline, left.cx - right.cx};
 }
 
 void CheckSize(const ImageView& image, const Camera& camera) {
   if (camera.width <= 0 || (camera.width == image.width && camera.height == image.height)) return;
-  const auto size = [](int width, int height) { return std::to_string(width) + "x" + std::to_string(height); };
-  throw Error(ErrorKind::kBadInput, "the images are " + size(image.width, image.height) + ", the camera's " +
-                                        size(camera.width, camera.height) + ": give the calibration of these images");
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw Error(ErrorKind::kBadInput, "the images are " + size(image.width, image.height) +
+                                        ", the camera's " + size(camera.width, camera.height) +
+                                        ": give the calibration of these images");
 }
 
 double Iou(const Box2d& a, const Box2d& b) {

@@ -6,9 +6,11 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise) {
-  visitor.Real("radial_m", noise.radial_m, 1e-4, 100, "standard deviation along the viewing ray at range 0");
+  visitor.Real("radial_m", noise.radial_m, 1e-4, 100,
+               "standard deviation along the viewing ray at range 0");
   visitor.Real("radial_per_m", noise.radial_per_m, 0, 1, "its growth per metre of range");
-  visitor.Real("lateral_m", noise.lateral_m, 1e-4, 100, "standard deviation across the viewing ray at range 0");
+  visitor.Real("lateral_m", noise.lateral_m, 1e-4, 100,
+               "standard deviation across the viewing ray at range 0");
   visitor.Real("lateral_per_m", noise.lateral_per_m, 0, 1, "its growth per metre of range");
   visitor.Real("vertical_m", noise.vertical_m, 1e-4, 100, "vertical standard deviation at range 0");
   visitor.Real("vertical_per_m", noise.vertical_per_m, 0, 1, "its growth per metre of range");

@@ -10,7 +10,8 @@ std::string ToString(const FileLocation& location) {
   return text;
 }
 
-Error::Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+Error::Error(ErrorKind kind, const std::string& message)
+    : std::runtime_error(message), kind_(kind) {}
 
 Error::Error(ErrorKind kind, const FileLocation& where, const std::string& message)
     : std::runtime_error(ToString(where) + ": " + message), kind_(kind) {}

@@ -7,7 +7,8 @@
 namespace sslcd {
 
 double WrapAngle(double angle_rad, double period_rad) {
-  if (-0.5 * period_rad < angle_rad && angle_rad <= 0.5 * period_rad) return angle_rad;  // to the bit
+  // to the bit
+  if (-0.5 * period_rad < angle_rad && angle_rad <= 0.5 * period_rad) return angle_rad;
   double wrapped = std::fmod(angle_rad + 0.5 * period_rad, period_rad);
   if (wrapped <= 0) wrapped += period_rad;
   return wrapped - 0.5 * period_rad;

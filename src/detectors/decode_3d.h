@@ -11,8 +11,8 @@
 
 namespace sslcd {
 
-/// A cuboid as the models say it: where the image of its centre lies in the input, how deep it is, and from which side
-/// it is seen.
+/// A cuboid as the models say it: where the image of its centre lies in the input, how deep it is,
+/// and from which side it is seen.
 struct ClassCuboid {
   ClassBox found;                     ///< box in the input; without an area: the model says none
   double centre_x = 0, centre_y = 0;  ///< image of the cuboid's centre in the input [px]
@@ -21,28 +21,31 @@ struct ClassCuboid {
   Vec3 dims{0, 0, 0};    ///< length, width, height [m]
 };
 
-/// Mean and standard deviation of z, sin 2a, cos 2a, w, h, l for each anchor of a cell, [scale * ratios + ratio].
+/// Mean and standard deviation of z, sin 2a, cos 2a, w, h, l for each anchor of a cell, [scale *
+/// ratios + ratio].
 struct AnchorPriors {
   std::vector<std::array<double, 6>> mean, std;
 };
 
-/// By class number, from the files of ModelAnchors. Throws Error(kBadInput) when one has not 6 columns and a row an
-/// anchor of a cell.
+/// By class number, from the files of ModelAnchors. Throws Error(kBadInput) when one has not 6
+/// columns and a row an anchor of a cell.
 std::map<int, AnchorPriors> LoadAnchorPriors(const ModelOutput& output);
 
 /// The camera that would see the input as its image; the offset stays the left camera's.
 Camera CameraOfInput(const Camera& left, const InputMap& map);
 
-/// VisualDet3D's Stereo3D (Liu et al., YOLOStereo3D, ICRA 2021) and Yolo3D (Ground-aware monocular 3D detection, RA-L
-/// 2021): for each anchor logits of each class and of "alpha, not alpha + pi", and 12 regression values. `camera` is
-/// that of the input.
-std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs, const ModelOutput& output,
-                                       const std::map<int, AnchorPriors>& priors, const Camera& camera, int width,
-                                       int height);
+/// VisualDet3D's Stereo3D (Liu et al., YOLOStereo3D, ICRA 2021) and Yolo3D (Ground-aware monocular
+/// 3D detection, RA-L 2021): for each anchor logits of each class and of "alpha, not alpha + pi",
+/// and 12 regression values. `camera` is that of the input.
+std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs,
+                                       const ModelOutput& output,
+                                       const std::map<int, AnchorPriors>& priors,
+                                       const Camera& camera, int width, int height);
 
-/// Heads of the kind of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map with offset, depth, size
-/// and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
-std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs, const ModelOutput& output, int width);
+/// Heads of the kind of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map with
+/// offset, depth, size and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
+std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs,
+                                        const ModelOutput& output, int width);
 
 /// The cuboid in the reference camera's frame, without label, score and box.
 Detection CuboidInCamera(const ClassCuboid& cuboid, const Camera& camera);

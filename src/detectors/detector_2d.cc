@@ -26,7 +26,8 @@ std::vector<ImageDetection> Detector2d::Detect(const ImageView& image, TimingTab
   InputMap map;
   {
     const auto timer = model.Time(timing, "prepare");
-    map = Prepare(image, model.description().input, model.width(), model.height(), "image", input.values.data());
+    map = Prepare(image, model.description().input, model.width(), model.height(), "image",
+                  input.values.data());
   }
   std::vector<Tensor> outputs;
   {
@@ -38,7 +39,8 @@ std::vector<ImageDetection> Detector2d::Detect(const ImageView& image, TimingTab
   const std::vector<ClassBox> boxes = DecodeBoxes(outputs, output, model.width(), model.height());
   for (const std::size_t i : SuppressOverlaps(boxes, output)) {
     const Box2d box = BoxInImage(boxes[i].box, map, image.width, image.height);
-    if (box.Area() > 0) detections.push_back({output.labels.at(boxes[i].class_number), boxes[i].score, box});
+    if (box.Area() > 0)
+      detections.push_back({output.labels.at(boxes[i].class_number), boxes[i].score, box});
   }
   return detections;
 }

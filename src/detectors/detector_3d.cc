@@ -23,11 +23,13 @@ Camera CameraOfInput(const Camera& left, const InputMap& map) {
 
 Detection CuboidInCamera(const ClassCuboid& cuboid, const Camera& camera) {
   const double z = cuboid.depth_m;
-  const Vec3 in_left((cuboid.centre_x - camera.cx) * z / camera.fx, (cuboid.centre_y - camera.cy) * z / camera.fy, z);
+  const Vec3 in_left((cuboid.centre_x - camera.cx) * z / camera.fx,
+                     (cuboid.centre_y - camera.cy) * z / camera.fy, z);
   const Vec3 centre = in_left - camera.offset;
   const double rotation_y = cuboid.alpha_rad + std::atan2(centre.x(), centre.z());
   Detection detection;
-  detection.T_cam_object = Pose(GravityFrame().Upright(-rotation_y), centre);  // KITTI turns about down, we about up
+  // KITTI turns about down, we about up
+  detection.T_cam_object = Pose(GravityFrame().Upright(-rotation_y), centre);
   detection.dims = cuboid.dims;
   return detection;
 }
@@ -38,8 +40,9 @@ struct Detector3d::Impl {
 
   std::vector<ClassCuboid> Decode(const std::vector<Tensor>& outputs, const Camera& camera) const {
     const ModelOutput& output = model.description().output;
-    return HasAnchors(output.layout) ? DecodeAnchors(outputs, output, priors, camera, model.width(), model.height())
-                                     : DecodeMonoFlex(outputs, output, model.width());
+    return HasAnchors(output.layout)
+               ? DecodeAnchors(outputs, output, priors, camera, model.width(), model.height())
+               : DecodeMonoFlex(outputs, output, model.width());
   }
 };
 
@@ -66,10 +69,12 @@ std::vector<Detection> Detector3d::Detect(const StereoView& images, const Stereo
   {
     const auto timer = model.Time(timing, "prepare");
     const auto prepare = [&](const ImageView& image, const char* what, Tensor& tensor) {
-      return Prepare(image, model.description().input, model.width(), model.height(), what, tensor.values.data());
+      return Prepare(image, model.description().input, model.width(), model.height(), what,
+                     tensor.values.data());
     };
     map = prepare(images.left, "left image", left);
-    if (model.takes_two_images()) prepare(images.right, "right image", right.emplace(model.EmptyInput(1)));
+    if (model.takes_two_images())
+      prepare(images.right, "right image", right.emplace(model.EmptyInput(1)));
   }
   std::vector<Tensor> outputs;
   {
@@ -85,7 +90,8 @@ std::vector<Detection> Detector3d::Detect(const StereoView& images, const Stereo
   std::vector<ClassBox> boxes;
   for (const ClassCuboid& cuboid : impl_->Decode(outputs, input_camera)) {
     Detection detection = CuboidInCamera(cuboid, input_camera);
-    if (!(detection.dims.minCoeff() > 0) || !(cuboid.depth_m > 0)) continue;  // no cuboid in front of the camera
+    // no cuboid in front of the camera
+    if (!(detection.dims.minCoeff() > 0) || !(cuboid.depth_m > 0)) continue;
     detection.score = cuboid.found.score;
     detection.label = output.labels.at(cuboid.found.class_number);
     detection.box = cuboid.found.box.Area() > 0
@@ -96,7 +102,8 @@ std::vector<Detection> Detector3d::Detect(const StereoView& images, const Stereo
     boxes.push_back({cuboid.found.class_number, detection.score, *detection.box});
   }
   std::vector<Detection> detections;
-  for (const std::size_t kept : SuppressOverlaps(boxes, output)) detections.push_back(candidates[kept]);
+  for (const std::size_t kept : SuppressOverlaps(boxes, output))
+    detections.push_back(candidates[kept]);
   return detections;
 }
 

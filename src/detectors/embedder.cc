@@ -14,8 +14,12 @@ constexpr std::size_t kLargestBatch = 32;  // bounds memory where the model take
 
 /// The whole pixels that a box touches; empty where it holds none.
 ImageView PixelsIn(const ImageView& image, const Box2d& box) {
-  const auto column = [&](double x) { return static_cast<int>(std::clamp(x, 0., static_cast<double>(image.width))); };
-  const auto row = [&](double y) { return static_cast<int>(std::clamp(y, 0., static_cast<double>(image.height))); };
+  const auto column = [&](double x) {
+    return static_cast<int>(std::clamp(x, 0., static_cast<double>(image.width)));
+  };
+  const auto row = [&](double y) {
+    return static_cast<int>(std::clamp(y, 0., static_cast<double>(image.height)));
+  };
   if (!(box.Area() > 0)) return {};
   const int left = column(std::floor(box.left)), right = column(std::ceil(box.right));
   const int top = row(std::floor(box.top)), bottom = row(std::ceil(box.bottom));
@@ -54,7 +58,8 @@ Embedder Embedder::Load(const std::string& model_yaml, const InferenceOptions& o
   return Embedder(std::move(impl));
 }
 
-std::vector<std::vector<float>> Embedder::Embed(const ImageView& image, const std::vector<Box2d>& boxes,
+std::vector<std::vector<float>> Embedder::Embed(const ImageView& image,
+                                                const std::vector<Box2d>& boxes,
                                                 TimingTable* timing) const {
   const Model& model = impl_->model;
   CheckImage(image, "image");
@@ -72,8 +77,8 @@ std::vector<std::vector<float>> Embedder::Embed(const ImageView& image, const st
       const auto timer = model.Time(timing, "prepare");
       const std::size_t size = ElementCount({3, model.height(), model.width()});
       for (std::size_t i = 0; i < count; ++i)
-        Prepare(crops[first + i].second, model.description().input, model.width(), model.height(), "image",
-                input.values.data() + i * size);
+        Prepare(crops[first + i].second, model.description().input, model.width(), model.height(),
+                "image", input.values.data() + i * size);
     }
     const auto timer = model.Time(timing, "run");
     const Tensor vectors = model.Run(std::move(input))[0];
@@ -83,7 +88,8 @@ std::vector<std::vector<float>> Embedder::Embed(const ImageView& image, const st
                   "returns " + ToString(vectors.shape) + " for " + std::to_string(count) +
                       " images: export it with a batch of any size, or of one");
     for (std::size_t i = 0; i < count; ++i)
-      embeddings[crops[first + i].first] = UnitVector(vectors.values.data() + i * dimension, dimension);
+      embeddings[crops[first + i].first] =
+          UnitVector(vectors.values.data() + i * dimension, dimension);
   }
   return embeddings;
 }

@@ -10,7 +10,9 @@ namespace sslcd {
 namespace {
 
 const char* ClassFor(ModelTask task) {
-  return task == ModelTask::kDetect2d ? "Detector2d" : task == ModelTask::kDetect3d ? "Detector3d" : "Embedder";
+  return task == ModelTask::kDetect2d   ? "Detector2d"
+         : task == ModelTask::kDetect3d ? "Detector3d"
+                                        : "Embedder";
 }
 
 /// Reads the description once, so that the session can be made from it.
@@ -18,15 +20,16 @@ ModelDescription LoadFor(ModelTask task, const std::string& yaml_path) {
   ModelDescription description = LoadModelDescription(yaml_path);
   const ModelTask found = TaskOf(description.output.layout);
   if (found != task)
-    throw Error(ErrorKind::kBadConfig, {yaml_path},
-                std::string("its layout is for ") + ClassFor(found) + ", not for " + ClassFor(task));
+    throw Error(
+        ErrorKind::kBadConfig, {yaml_path},
+        std::string("its layout is for ") + ClassFor(found) + ", not for " + ClassFor(task));
   return description;
 }
 
 /// Some exports leave out the batch of one.
 bool FitsWithOrWithoutBatch(const TensorShape& shape, const TensorShape& expected) {
-  return Fits(shape, expected) ||
-         (expected.size() > 1 && expected[0] == 1 && Fits(shape, TensorShape(expected.begin() + 1, expected.end())));
+  return Fits(shape, expected) || (expected.size() > 1 && expected[0] == 1 &&
+                                   Fits(shape, TensorShape(expected.begin() + 1, expected.end())));
 }
 
 }  // namespace
@@ -42,20 +45,26 @@ std::vector<TensorShape> LayoutShapes(const ModelOutput& output, int width, int 
     case ModelLayout::kStereo3d:
     case ModelLayout::kMono3d: {
       const ModelAnchors& anchors = output.anchors;
-      const auto cells = [&](int size) { return static_cast<std::int64_t>(std::ceil(size / anchors.stride_px)); };
-      const auto per_cell = static_cast<std::int64_t>(anchors.scales.size() * anchors.ratios.size());
+      const auto cells = [&](int size) {
+        return static_cast<std::int64_t>(std::ceil(size / anchors.stride_px));
+      };
+      const auto per_cell =
+          static_cast<std::int64_t>(anchors.scales.size() * anchors.ratios.size());
       const std::int64_t count = cells(width) * cells(height) * per_cell;
       return {{1, count, classes + 1}, {1, count, 12}};
     }
     case ModelLayout::kMonoFlex:
-      return {{1, classes, -1, -1}, {1, 2, -1, -1}, {1, 1, -1, -1}, {1, 3, -1, -1}, {1, -1, -1, -1}};
+      return {
+          {1, classes, -1, -1}, {1, 2, -1, -1}, {1, 1, -1, -1}, {1, 3, -1, -1}, {1, -1, -1, -1}};
     case ModelLayout::kEmbedding: return {{-1, -1}};
   }
   return {};
 }
 
 Model::Model(const std::string& yaml_path, ModelTask task, const InferenceOptions& options)
-    : yaml_path_(yaml_path), description_(LoadFor(task, yaml_path)), session_(description_.file, options) {
+    : yaml_path_(yaml_path),
+      description_(LoadFor(task, yaml_path)),
+      session_(description_.file, options) {
   ReadInputs();
   ReadOutputs();
   if (!options.warm_up) return;
@@ -64,7 +73,8 @@ Model::Model(const std::string& yaml_path, ModelTask task, const InferenceOption
 }
 
 void Model::Refuse(const std::string& message) const {
-  throw Error(ErrorKind::kBadConfig, {yaml_path_}, message + " (" + session_.path() + "); docs/models.md");
+  throw Error(ErrorKind::kBadConfig, {yaml_path_},
+              message + " (" + session_.path() + "); docs/models.md");
 }
 
 const TensorInfo& Model::InputNamed(const std::string& name, std::size_t position) const {
@@ -75,7 +85,8 @@ const TensorInfo& Model::InputNamed(const std::string& name, std::size_t positio
     if (info.name == name) return info;
     known += (known.empty() ? "'" : ", '") + info.name + "'";
   }
-  Refuse(name.empty() ? "the layout needs " + std::to_string(position + 1) + " inputs, the model has only " + known
+  Refuse(name.empty() ? "the layout needs " + std::to_string(position + 1) +
+                            " inputs, the model has only " + known
                       : "the model has no input '" + name + "', only " + known);
 }
 
@@ -86,8 +97,8 @@ void Model::ReadInputs() {
   const auto or_any = [](int size) { return static_cast<std::int64_t>(size > 0 ? size : -1); };
   const TensorShape wanted{-1, 3, or_any(input.height_px), or_any(input.width_px)};
   if (!Fits(shape, wanted))
-    Refuse("input '" + left.name + "' of the model is " + ToString(shape) + ", the description says " +
-           ToString(wanted));
+    Refuse("input '" + left.name + "' of the model is " + ToString(shape) +
+           ", the description says " + ToString(wanted));
   left_name_ = left.name;
   fixed_batch_ = static_cast<int>(std::max<std::int64_t>(shape[0], 0));
   height_ = input.height_px > 0 ? input.height_px : static_cast<int>(shape[2]);
@@ -99,20 +110,21 @@ void Model::ReadInputs() {
   if (takes_two_images()) {
     const TensorInfo& right = InputNamed(input.right, 1);
     if (!Fits(right.shape, {shape[0], 3, height_, width_}))
-      Refuse("input '" + right.name + "' of the model is " + ToString(right.shape) + ", '" + left.name + "' " +
-             ToString(shape));
+      Refuse("input '" + right.name + "' of the model is " + ToString(right.shape) + ", '" +
+             left.name + "' " + ToString(shape));
     right_name_ = right.name;
     ++used;
   }
   if (!input.size.empty()) {
     const TensorInfo& size = InputNamed(input.size, used);
     if (!Fits(size.shape, {-1, 2}))
-      Refuse("input '" + size.name + "' of the model is " + ToString(size.shape) + ", width and height are 1x2");
+      Refuse("input '" + size.name + "' of the model is " + ToString(size.shape) +
+             ", width and height are 1x2");
     ++used;
   }
   if (session_.inputs().size() != used)
-    Refuse("the model has " + std::to_string(session_.inputs().size()) + " inputs, the description fills " +
-           std::to_string(used));
+    Refuse("the model has " + std::to_string(session_.inputs().size()) +
+           " inputs, the description fills " + std::to_string(used));
 }
 
 void Model::ReadOutputs() {
@@ -126,13 +138,15 @@ void Model::ReadOutputs() {
     });
     if (found == outputs.end()) {
       std::string known;
-      for (const TensorInfo& info : outputs) known += (known.empty() ? "'" : ", '") + info.name + "'";
+      for (const TensorInfo& info : outputs)
+        known += (known.empty() ? "'" : ", '") + info.name + "'";
       Refuse("the model has no output " +
-             (named == output.names.end() ? std::to_string(i) : "'" + named->second + "'") + ", only " + known);
+             (named == output.names.end() ? std::to_string(i) : "'" + named->second + "'") +
+             ", only " + known);
     }
     if (!FitsWithOrWithoutBatch(found->shape, output_shapes_[i]))
-      Refuse("output '" + found->name + "' of the model is " + ToString(found->shape) + ", the layout expects " +
-             ToString(output_shapes_[i]));
+      Refuse("output '" + found->name + "' of the model is " + ToString(found->shape) +
+             ", the layout expects " + ToString(output_shapes_[i]));
     output_names_.push_back(found->name);
   }
 }
@@ -146,7 +160,8 @@ Tensor Model::EmptyInput(int batch) const {
 std::vector<Tensor> Model::Run(Tensor left, std::optional<Tensor> right) const {
   NamedTensors inputs;
   if (!description_.input.size.empty())
-    inputs[description_.input.size] = {{1, 2}, {static_cast<float>(width_), static_cast<float>(height_)}};
+    inputs[description_.input.size] = {{1, 2},
+                                       {static_cast<float>(width_), static_cast<float>(height_)}};
   inputs[left_name_] = std::move(left);
   if (right) inputs[right_name_] = std::move(*right);
   NamedTensors outputs = session_.Run(inputs);
@@ -155,8 +170,8 @@ std::vector<Tensor> Model::Run(Tensor left, std::optional<Tensor> right) const {
     Tensor& tensor = outputs.at(output_names_[i]);
     const TensorShape& expected = output_shapes_[i];
     if (!FitsWithOrWithoutBatch(tensor.shape, expected))
-      Refuse("output '" + output_names_[i] + "' is " + ToString(tensor.shape) + ", the layout expects " +
-             ToString(expected));
+      Refuse("output '" + output_names_[i] + "' is " + ToString(tensor.shape) +
+             ", the layout expects " + ToString(expected));
     if (tensor.shape.size() < expected.size()) tensor.shape.insert(tensor.shape.begin(), 1);
     ordered.push_back(std::move(tensor));
   }

@@ -15,7 +15,8 @@ namespace sslcd {
 /// A described model that is loaded: images in, its outputs in the layout's order out.
 class Model {
  public:
-  /// Throws Error when the layout is not for `task`, or the model's inputs or outputs do not fit the description.
+  /// Throws Error when the layout is not for `task`, or the model's inputs or outputs do not fit
+  /// the description.
   Model(const std::string& yaml_path, ModelTask task, const InferenceOptions& options);
 
   const ModelDescription& description() const { return description_; }
@@ -27,8 +28,8 @@ class Model {
   /// Room for `batch` images.
   Tensor EmptyInput(int batch) const;
 
-  /// Runs the model; `right` for models that take two images. Throws Error when an output does not have the layout's
-  /// shape.
+  /// Runs the model; `right` for models that take two images. Throws Error when an output does not
+  /// have the layout's shape.
   std::vector<Tensor> Run(Tensor left, std::optional<Tensor> right = std::nullopt) const;
 
   /// Times one stage while it lives, where there is a table.

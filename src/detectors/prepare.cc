@@ -19,7 +19,8 @@ cv::Size ResizedSize(cv::Size image, cv::Size input, ModelInput::Resize resize) 
   if (resize == ModelInput::Resize::kStretch) return input;
   const double by_width = static_cast<double>(input.width) / image.width;
   const double by_height = static_cast<double>(input.height) / image.height;
-  const double scale = resize == ModelInput::Resize::kFitHeight ? by_height : std::min(by_width, by_height);
+  const double scale =
+      resize == ModelInput::Resize::kFitHeight ? by_height : std::min(by_width, by_height);
   return {std::max(1, static_cast<int>(std::lround(image.width * scale))),
           std::max(1, static_cast<int>(std::lround(image.height * scale)))};
 }
@@ -40,8 +41,8 @@ void WritePlanes(const cv::Mat& image, const ModelInput& input, float* planes) {
 
 }  // namespace
 
-InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height, const char* what,
-                 float* planes) {
+InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height,
+                 const char* what, float* planes) {
   CheckImage(image, what);
   const auto refuse = [what](const std::string& why) {
     throw Error(ErrorKind::kBadInput, std::string(what) + ": " + why);
@@ -54,14 +55,16 @@ InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int
   const cv::Mat pixels = MatOf(image).rowRange(input.crop_top_px, image.height);
   const cv::Size size = ResizedSize(pixels.size(), {width, height}, input.resize);
   cv::Mat resized;
-  cv::resize(pixels, resized, size, 0, 0, cv::INTER_LINEAR);  // as these models were trained, also where it aliases
+  // as these models were trained, also where it aliases
+  cv::resize(pixels, resized, size, 0, 0, cv::INTER_LINEAR);
 
   InputMap map;
   map.scale_x = static_cast<double>(size.width) / pixels.cols;
   map.scale_y = static_cast<double>(size.height) / pixels.rows;
   if (size != cv::Size(width, height)) {
     const bool centred = input.resize == ModelInput::Resize::kLetterbox;
-    const cv::Point corner = centred ? cv::Point((width - size.width) / 2, (height - size.height) / 2) : cv::Point();
+    const cv::Point corner =
+        centred ? cv::Point((width - size.width) / 2, (height - size.height) / 2) : cv::Point();
     cv::Mat canvas(height, width, CV_8UC3, cv::Scalar::all(centred ? kLetterboxGrey : 0));
     const cv::Rect inside = cv::Rect(corner, size) & cv::Rect(0, 0, width, height);
     resized(inside - corner).copyTo(canvas(inside));

@@ -7,17 +7,23 @@
 
 namespace sslcd {
 
-/// Where a point of the image lies in the model's input: x * scale_x + offset_x, y * scale_y + offset_y. [px]
+/// Where a point of the image lies in the model's input: x * scale_x + offset_x, y * scale_y +
+/// offset_y. [px]
 struct InputMap {
   double scale_x = 1, scale_y = 1, offset_x = 0, offset_y = 0;
 
-  Vec2 ToImage(double x, double y) const { return {(x - offset_x) / scale_x, (y - offset_y) / scale_y}; }
-  Vec2 ToInput(double x, double y) const { return {x * scale_x + offset_x, y * scale_y + offset_y}; }
+  Vec2 ToImage(double x, double y) const {
+    return {(x - offset_x) / scale_x, (y - offset_y) / scale_y};
+  }
+  Vec2 ToInput(double x, double y) const {
+    return {x * scale_x + offset_x, y * scale_y + offset_y};
+  }
 };
 
-/// Writes one image as three planes of width x height, one a channel, to `planes`. Throws Error(kBadInput), with `what`
-/// in front, unless the image is B G R and higher than what is cut off.
-InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height, const char* what,
-                 float* planes);
+/// Writes one image as three planes of width x height, one a channel, to `planes`. Throws
+/// Error(kBadInput), with `what` in front, unless the image is B G R and higher than what is cut
+/// off.
+InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height,
+                 const char* what, float* planes);
 
 }  // namespace sslcd

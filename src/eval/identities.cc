@@ -20,7 +20,8 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
       const std::optional<int> identity = identity_of_row(observation.detection_row);
       if (!identity) continue;
       ++result.observations;
-      const auto vote = std::find_if(votes.begin(), votes.end(), [&](const auto& v) { return v.first == *identity; });
+      const auto vote = std::find_if(votes.begin(), votes.end(),
+                                     [&](const auto& v) { return v.first == *identity; });
       if (vote == votes.end()) {
         votes.emplace_back(*identity, 1);
       } else {
@@ -29,7 +30,8 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
     }
     if (votes.empty()) continue;
     const auto winner =
-        std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+        std::max_element(votes.begin(), votes.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
     result.pure += winner->second;
     ++result.owned[winner->first];
   }
@@ -38,8 +40,9 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
 
 int IdentityOfRow(const std::vector<int>& identities, int row) {
   if (row < 0 || row >= static_cast<int>(identities.size())) {
-    throw Error(ErrorKind::kUsage, "detection row " + std::to_string(row) + " has no true identity: there are " +
-                                       std::to_string(identities.size()) + " identities, for the rows from 0 on");
+    throw Error(ErrorKind::kUsage,
+                "detection row " + std::to_string(row) + " has no true identity: there are " +
+                    std::to_string(identities.size()) + " identities, for the rows from 0 on");
   }
   return identities[row];
 }

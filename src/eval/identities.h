@@ -10,8 +10,8 @@
 
 namespace sslcd {
 
-/// Which true objects the landmarks of a map stand for. A landmark belongs to the identity most of its observations
-/// have (on a tie, the one observed first).
+/// Which true objects the landmarks of a map stand for. A landmark belongs to the identity most of
+/// its observations have (on a tie, the one observed first).
 struct Identities {
   int landmarks = 0;         ///< confirmed ones
   int observations = 0;      ///< of them, those with an identity

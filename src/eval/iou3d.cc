@@ -18,7 +18,8 @@ Polygon Footprint(const Cuboid& box, const Vec3& origin) {
   const double c = std::cos(box.yaw), s = std::sin(box.yaw);
   const Vec2 along = 0.5 * box.dims.x() * Vec2(c, s);
   const Vec2 across = 0.5 * box.dims.y() * Vec2(-s, c);
-  return {centre + along + across, centre - along + across, centre - along - across, centre + along - across};
+  return {centre + along + across, centre - along + across, centre - along - across,
+          centre + along - across};
 }
 
 /// The part of `polygon` to the left of the line from `a` to `b` (Sutherland and Hodgman 1974).
@@ -38,7 +39,8 @@ Polygon Clip(const Polygon& polygon, const Vec2& a, const Vec2& b) {
 
 double Area(const Polygon& polygon) {
   double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) twice += Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    twice += Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return 0.5 * std::max(0., twice);
 }
 
@@ -53,10 +55,13 @@ bool IsEmpty(const Cuboid& box) { return !(box.dims.array() > 0).all(); }
 }  // namespace
 
 Cuboid ToCuboid(const Pose& T_world_object, const Vec3& dims, const GravityFrame& gravity) {
-  return {gravity.Basis().transpose() * T_world_object.translation(), gravity.YawOf(T_world_object.so3()), dims};
+  return {gravity.Basis().transpose() * T_world_object.translation(),
+          gravity.YawOf(T_world_object.so3()), dims};
 }
 
-double HorizontalDistance(const Cuboid& a, const Cuboid& b) { return (a.centre - b.centre).head<2>().norm(); }
+double HorizontalDistance(const Cuboid& a, const Cuboid& b) {
+  return (a.centre - b.centre).head<2>().norm();
+}
 
 double FootprintIntersection(const Cuboid& a, const Cuboid& b) {
   if (IsEmpty(a) || IsEmpty(b)) return 0.;

@@ -9,7 +9,8 @@
 namespace sslcd {
 namespace {
 
-/// KITTI: x right, y down, z forward; rotation_y about +y, zero along x; the location is on the ground.
+/// KITTI: x right, y down, z forward; rotation_y about +y, zero along x; the location is on the
+/// ground.
 Pose PoseOfLabel(const Vec3& bottom_centre, double height, double rotation_y) {
   return Pose(GravityFrame().Upright(-rotation_y), bottom_centre - Vec3(0, 0.5 * height, 0));
 }
@@ -48,7 +49,8 @@ std::vector<GroundTruthBox> ReadKittiTrackingLabels(const std::string& path) {
 std::vector<int> ReadLandmarkIds(const std::string& path) {
   std::vector<int> ids;
   for (TextRows row(path); row.Next();) {
-    if (row.size() != 1) row.Fail("expected one identity a line, got " + std::to_string(row.size()) + " columns");
+    if (row.size() != 1)
+      row.Fail("expected one identity a line, got " + std::to_string(row.size()) + " columns");
     ids.push_back(row.Integer(0));
   }
   return ids;

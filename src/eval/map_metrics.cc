@@ -26,7 +26,8 @@ struct Scene {
 using Scenes = std::map<int, Scene>;  // by frame number, those with annotated boxes
 
 /// Index of the box nearest to `box`, if it is nearer than `gate`; on a tie the first.
-std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>& boxes, double gate) {
+std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>& boxes,
+                                   double gate) {
   std::optional<std::size_t> best;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const double distance = HorizontalDistance(box, boxes[k]);
@@ -38,8 +39,10 @@ std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>&
 Scenes TrueScenes(const MapRun& run, const MapMetricOptions& options) {
   Scenes scenes;
   for (const GroundTruthBox& box : run.truth) {
-    if (box.frame < 0) throw Error(ErrorKind::kUsage, "an annotated box has a negative frame number");
-    if (std::find(options.labels.begin(), options.labels.end(), box.label) == options.labels.end()) continue;
+    if (box.frame < 0)
+      throw Error(ErrorKind::kUsage, "an annotated box has a negative frame number");
+    if (std::find(options.labels.begin(), options.labels.end(), box.label) == options.labels.end())
+      continue;
     Scene& scene = scenes[box.frame];
     scene.truth.push_back(ToCuboid(box.T_cam_object, box.dims, kCameraAxes));
     scene.tracks.push_back(box.track);
@@ -115,7 +118,9 @@ class Mean {
  public:
   void Add(double value) { sum_ += value, ++count_; }
   int count() const { return count_; }
-  std::optional<double> value() const { return count_ > 0 ? std::optional<double>(sum_ / count_) : std::nullopt; }
+  std::optional<double> value() const {
+    return count_ > 0 ? std::optional<double>(sum_ / count_) : std::nullopt;
+  }
 
  private:
   double sum_ = 0;
@@ -147,13 +152,14 @@ void CompareBoxes(const MapRun& run, const MapMetricOptions& options, const Scen
   metrics.coverage = static_cast<double>(map.count()) / std::max(1, raw.count());
 }
 
-/// Of the tracks seen often enough: how many there are, how many own landmarks, and how many landmarks these own.
+/// Of the tracks seen often enough: how many there are, how many own landmarks, and how many
+/// landmarks these own.
 struct Found {
   int objects = 0, owners = 0, landmarks = 0;
 };
 
-Found CountFound(const std::set<int>& tracks, const Sightings& sightings, const Identities& identities,
-                 int min_sightings) {
+Found CountFound(const std::set<int>& tracks, const Sightings& sightings,
+                 const Identities& identities, int min_sightings) {
   Found found;
   for (const int track : tracks) {
     const auto count = sightings.count.find(track);

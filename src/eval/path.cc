@@ -8,7 +8,8 @@ namespace sslcd {
 std::vector<double> DistanceAlong(const std::vector<Pose>& poses) {
   std::vector<double> distance{0.};
   for (std::size_t i = 1; i < poses.size(); ++i)
-    distance.push_back(distance.back() + (poses[i].translation() - poses[i - 1].translation()).norm());
+    distance.push_back(distance.back() +
+                       (poses[i].translation() - poses[i - 1].translation()).norm());
   return distance;
 }
 

@@ -15,12 +15,14 @@ namespace {
 void Check(const std::vector<ScoredAnswer>& answers, int positives) {
   int correct = 0;
   for (const ScoredAnswer& answer : answers) {
-    if (std::isnan(answer.score)) throw Error(ErrorKind::kUsage, "the score of an answer is not a number");
+    if (std::isnan(answer.score))
+      throw Error(ErrorKind::kUsage, "the score of an answer is not a number");
     correct += answer.correct;
   }
   if (correct > positives) {
     throw Error(ErrorKind::kUsage, std::to_string(correct) + " answers are correct, but only " +
-                                       std::to_string(positives) + " were to be found: count each one once");
+                                       std::to_string(positives) +
+                                       " were to be found: count each one once");
   }
 }
 
@@ -37,7 +39,8 @@ PrecisionRecall ComputePrecisionRecall(std::vector<ScoredAnswer> answers, int po
   for (std::size_t i = 0; i < answers.size(); ++i) {
     ++point.answered;
     point.correct += answers[i].correct;
-    if (i + 1 < answers.size() && answers[i + 1].score == answers[i].score) continue;  // no threshold between them
+    // no threshold between them
+    if (i + 1 < answers.size() && answers[i + 1].score == answers[i].score) continue;
     point.threshold = answers[i].score;
     point.precision = static_cast<double>(point.correct) / point.answered;
     point.recall = positives > 0 ? static_cast<double>(point.correct) / positives : 0.;
@@ -66,7 +69,8 @@ std::array<PrecisionRecall, kViewpointBins> ComputePrecisionRecallByViewpoint(
     binned[ViewpointBin(answer.viewpoint_change_rad)].push_back(answer);
   }
   std::array<PrecisionRecall, kViewpointBins> results;
-  for (int k = 0; k < kViewpointBins; ++k) results[k] = ComputePrecisionRecall(std::move(binned[k]), positives[k]);
+  for (int k = 0; k < kViewpointBins; ++k)
+    results[k] = ComputePrecisionRecall(std::move(binned[k]), positives[k]);
   return results;
 }
 

@@ -14,8 +14,10 @@
 
 namespace sslcd {
 
-std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference, const std::vector<Frame>& frames,
-                                  const std::vector<int>& identities, const RevisitOptions& options) {
+std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
+                                  const std::vector<Frame>& frames,
+                                  const std::vector<int>& identities,
+                                  const RevisitOptions& options) {
   const std::vector<double> distance = DistanceAlong(reference);
   const int n = static_cast<int>(reference.size());
   std::map<int, std::vector<double>> seen;  // identity -> places on the path
@@ -43,26 +45,30 @@ std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference, const std:
     }
     if (revisit.old_frame < 0) continue;
     for (const auto& [identity, places] : seen) {
-      const bool now = std::any_of(places.begin(), places.end(),
-                                   [&](double m) { return std::abs(m - revisit.at_m) <= options.around_m; });
+      const bool now = std::any_of(places.begin(), places.end(), [&](double m) {
+        return std::abs(m - revisit.at_m) <= options.around_m;
+      });
       revisit.common += now && places.front() < revisit.at_m - options.old_m;
     }
     if (revisit.common < options.common) continue;
-    revisit.viewpoint_rad = std::abs(WrapAngle(HeadingOf(reference[f]) - HeadingOf(reference[revisit.old_frame])));
+    revisit.viewpoint_rad =
+        std::abs(WrapAngle(HeadingOf(reference[f]) - HeadingOf(reference[revisit.old_frame])));
     revisits.push_back(revisit);
   }
   return revisits;
 }
 
-std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops, const std::vector<Pose>& reference) {
+std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
+                                    const std::vector<Pose>& reference) {
   const std::vector<double> distance = DistanceAlong(reference);
   const int n = static_cast<int>(reference.size());
   std::vector<LoopOutcome> outcomes;
   for (const LoopClosure& loop : loops) {
-    if (std::min(loop.query_frame, loop.match_frame) < 0 || std::max(loop.query_frame, loop.match_frame) >= n)
+    if (std::min(loop.query_frame, loop.match_frame) < 0 ||
+        std::max(loop.query_frame, loop.match_frame) >= n)
       throw Error(ErrorKind::kUsage, "the loop " + std::to_string(loop.query_frame) + " - " +
-                                         std::to_string(loop.match_frame) + " is outside of the " + std::to_string(n) +
-                                         " frames that have a true pose");
+                                         std::to_string(loop.match_frame) + " is outside of the " +
+                                         std::to_string(n) + " frames that have a true pose");
     const Pose &query = reference[loop.query_frame], &match = reference[loop.match_frame];
     const Pose error = (match.inverse() * query).inverse() * loop.T_match_query;
     LoopOutcome& outcome = outcomes.emplace_back();
@@ -76,13 +82,15 @@ std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops, const
   return outcomes;
 }
 
-std::vector<ScoredAnswer> AnswersOf(const std::vector<Revisit>& revisits, const std::vector<LoopOutcome>& loops,
-                                    double true_m, const RevisitOptions& options) {
+std::vector<ScoredAnswer> AnswersOf(const std::vector<Revisit>& revisits,
+                                    const std::vector<LoopOutcome>& loops, double true_m,
+                                    const RevisitOptions& options) {
   std::vector<ScoredAnswer> answers;
   for (const Revisit& revisit : revisits) {
     const LoopOutcome* best = nullptr;
     for (const LoopOutcome& loop : loops) {
-      if (loop.error_m >= true_m || std::abs(loop.at_m - revisit.at_m) > options.spacing_m) continue;
+      if (loop.error_m >= true_m || std::abs(loop.at_m - revisit.at_m) > options.spacing_m)
+        continue;
       if (best == nullptr || loop.score > best->score) best = &loop;
     }
     if (best != nullptr) answers.push_back({best->score, true, revisit.viewpoint_rad});

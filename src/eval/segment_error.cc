@@ -12,8 +12,9 @@ namespace sslcd {
 SegmentError ComputeSegmentError(const std::vector<Pose>& est, const std::vector<Pose>& ref,
                                  const std::vector<double>& lengths_m, int every) {
   if (est.size() != ref.size())
-    throw Error(ErrorKind::kBadInput, "the estimate has " + std::to_string(est.size()) + " poses and the reference " +
-                                          std::to_string(ref.size()) + ": pair them first, with MatchByStamp()");
+    throw Error(ErrorKind::kBadInput, "the estimate has " + std::to_string(est.size()) +
+                                          " poses and the reference " + std::to_string(ref.size()) +
+                                          ": pair them first, with MatchByStamp()");
   SegmentError result;
   const std::vector<double> distance = DistanceAlong(ref);
   for (std::size_t i = 0; i < ref.size(); i += every) {

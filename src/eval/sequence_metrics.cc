@@ -33,15 +33,16 @@ std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<dou
       if (mark - options.recent_m < position && position <= mark) recent.insert(identity);
       if (position < mark - options.old_m) old.insert(identity);
     }
-    const auto common =
-        std::count_if(recent.begin(), recent.end(), [&old = old](int identity) { return old.count(identity) > 0; });
+    const auto common = std::count_if(recent.begin(), recent.end(), [&old = old](int identity) {
+      return old.count(identity) > 0;
+    });
     if (common >= options.common) marks.push_back(mark);
   }
   return marks;
 }
 
-void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference, const SequenceMetricOptions& options,
-              SequenceMetrics& metrics) {
+void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference,
+              const SequenceMetricOptions& options, SequenceMetrics& metrics) {
   const std::vector<double> distance = DistanceAlong(reference);
   const std::vector<double> marks = RevisitedMarks(run, distance, options);
   std::vector<LoopClosure> accepted;
@@ -58,7 +59,8 @@ void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference, const 
     }
     ++metrics.true_by_viewpoint[ViewpointBin(loop.viewpoint_rad)];
     for (const double mark : marks)
-      if (mark - options.spacing_m < loop.at_m && loop.at_m <= mark + options.spacing_m) hit.insert(mark);
+      if (mark - options.spacing_m < loop.at_m && loop.at_m <= mark + options.spacing_m)
+        hit.insert(mark);
   }
   metrics.loops = static_cast<int>(errors_m.size());
   metrics.revisited_stretches = static_cast<int>(marks.size());
@@ -80,15 +82,19 @@ void JudgeMap(const SequenceRun& run, SequenceMetrics& metrics) {
   for (const auto& [identity, landmarks] : found.owned) owned += landmarks;
   metrics.landmarks = found.landmarks;
   metrics.true_landmarks = static_cast<int>(all.size());
-  metrics.landmarks_per_true = static_cast<double>(owned) / std::max<std::size_t>(1, found.owned.size());
+  metrics.landmarks_per_true =
+      static_cast<double>(owned) / std::max<std::size_t>(1, found.owned.size());
   metrics.purity = found.Purity();
 }
 
 }  // namespace
 
-SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run, const SequenceMetricOptions& options) {
+SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run,
+                                       const SequenceMetricOptions& options) {
   const std::size_t n = std::min({run.estimate.size(), run.odometry.size(), run.reference.size()});
-  const auto cut = [n](const std::vector<Pose>& poses) { return std::vector<Pose>(poses.begin(), poses.begin() + n); };
+  const auto cut = [n](const std::vector<Pose>& poses) {
+    return std::vector<Pose>(poses.begin(), poses.begin() + n);
+  };
   const std::vector<Pose> reference = cut(run.reference);
   SequenceMetrics metrics;
   metrics.ate = ComputeAte(cut(run.estimate), reference).error.rmse;

@@ -16,20 +16,25 @@ namespace {
 
 constexpr const char* kAlignmentNames[] = {"none", "4dof", "se3", "sim3"};
 
-bool IsFinite(const Pose& T) { return T.translation().allFinite() && T.unit_quaternion().coeffs().allFinite(); }
+bool IsFinite(const Pose& T) {
+  return T.translation().allFinite() && T.unit_quaternion().coeffs().allFinite();
+}
 
 void Check(const std::vector<Pose>& est, const std::vector<Pose>& ref) {
   if (est.size() != ref.size()) {
-    throw Error(ErrorKind::kBadInput, "the estimate has " + std::to_string(est.size()) + " poses and the reference " +
-                                          std::to_string(ref.size()) +
-                                          ": pair them first, with MatchByStamp() or by cutting the longer one");
+    throw Error(ErrorKind::kBadInput,
+                "the estimate has " + std::to_string(est.size()) + " poses and the reference " +
+                    std::to_string(ref.size()) +
+                    ": pair them first, with MatchByStamp() or by cutting the longer one");
   }
-  if (est.empty()) throw Error(ErrorKind::kBadInput, "no poses to compare: the trajectories are empty");
+  if (est.empty())
+    throw Error(ErrorKind::kBadInput, "no poses to compare: the trajectories are empty");
   for (std::size_t i = 0; i < est.size(); ++i) {
     if (IsFinite(est[i]) && IsFinite(ref[i])) continue;
-    throw Error(ErrorKind::kBadInput, std::string("pose ") + std::to_string(i) + " of the " +
-                                          (IsFinite(est[i]) ? "reference" : "estimate") +
-                                          " is not finite: leave such poses out of both trajectories");
+    throw Error(ErrorKind::kBadInput,
+                std::string("pose ") + std::to_string(i) + " of the " +
+                    (IsFinite(est[i]) ? "reference" : "estimate") +
+                    " is not finite: leave such poses out of both trajectories");
   }
 }
 
@@ -48,7 +53,9 @@ struct Centred {
 };
 
 /// How many of the values, largest first, count as different from zero.
-int Rank(const Vec3& values) { return static_cast<int>((values.array() > 1e-12 * std::max(values[0], 1e-12)).count()); }
+int Rank(const Vec3& values) {
+  return static_cast<int>((values.array() > 1e-12 * std::max(values[0], 1e-12)).count());
+}
 
 struct RotationAndScale {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -59,7 +66,8 @@ struct RotationAndScale {
 /// Umeyama's eq. 38-43.
 RotationAndScale AlignUmeyama(const Centred& est, const Centred& ref, bool with_scale) {
   const Eigen::Matrix3d covariance = ref.offsets * est.offsets.transpose();  // eq. 38, without 1/n
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, 1);  // S, eq. 43: no reflections
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) signs[2] = -1;
 
@@ -67,14 +75,16 @@ RotationAndScale AlignUmeyama(const Centred& est, const Centred& ref, bool with_
   result.R = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();  // eq. 40
   result.unique = Rank(svd.singularValues()) >= 2;
   const double variance = est.offsets.squaredNorm();
-  if (with_scale && variance > 0) result.scale = svd.singularValues().dot(signs) / variance;  // eq. 42
+  // eq. 42
+  if (with_scale && variance > 0) result.scale = svd.singularValues().dot(signs) / variance;
   return result;
 }
 
 /// The planar case of the same problem: the angle of the sum of the conjugate products.
 RotationAndScale AlignYaw(const Centred& est, const Centred& ref, const Vec3& up) {
   if (!up.allFinite() || up.norm() == 0) {
-    throw Error(ErrorKind::kUsage, "the 4-DoF alignment needs an up axis that is finite and not zero");
+    throw Error(ErrorKind::kUsage,
+                "the 4-DoF alignment needs an up axis that is finite and not zero");
   }
   const GravityFrame gravity = GravityFrame::FromUp(up);
   const Eigen::Matrix3Xd a = gravity.Basis().transpose() * est.offsets;
@@ -84,7 +94,8 @@ RotationAndScale AlignYaw(const Centred& est, const Centred& ref, const Vec3& up
 
   RotationAndScale result;
   result.unique = std::hypot(cosine, sine) > 1e-24;
-  if (result.unique) result.R = lie::SO3<double>::Exp(gravity.up * std::atan2(sine, cosine)).matrix();
+  if (result.unique)
+    result.R = lie::SO3<double>::Exp(gravity.up * std::atan2(sine, cosine)).matrix();
   return result;
 }
 
@@ -92,8 +103,9 @@ std::pair<Similarity, bool> AlignChecked(const std::vector<Pose>& est, const std
                                          Alignment alignment, const Vec3& up) {
   if (alignment == Alignment::kNone) return {Similarity{}, true};
   const Centred p(est), q(ref);
-  const RotationAndScale best =
-      alignment == Alignment::k4Dof ? AlignYaw(p, q, up) : AlignUmeyama(p, q, alignment == Alignment::kSim3);
+  const RotationAndScale best = alignment == Alignment::k4Dof
+                                    ? AlignYaw(p, q, up)
+                                    : AlignUmeyama(p, q, alignment == Alignment::kSim3);
   const Vec3 t = q.mean - best.scale * (best.R * p.mean);  // eq. 41
   return {Similarity{best.scale, Pose(lie::SO3<double>::FromMatrix(best.R), t)}, best.unique};
 }
@@ -115,7 +127,8 @@ IndexPairs ConsecutivePairs(const std::vector<double>& steps, double delta) {
   return pairs;
 }
 
-/// From every pose to the later one whose distance is nearest to `delta`, if it is within `tolerance`.
+/// From every pose to the later one whose distance is nearest to `delta`, if it is within
+/// `tolerance`.
 IndexPairs AllPairs(const std::vector<double>& steps, double delta, double tolerance) {
   std::vector<double> distance(steps.size());
   std::partial_sum(steps.begin(), steps.end(), distance.begin());
@@ -123,8 +136,8 @@ IndexPairs AllPairs(const std::vector<double>& steps, double delta, double toler
   const int n = static_cast<int>(steps.size());
   for (int i = 0; i + 1 < n; ++i) {
     const auto off = [&](double d) { return std::abs(d - distance[i] - delta); };
-    const auto best =
-        std::min_element(distance.begin() + i + 1, distance.end(), [&](double a, double b) { return off(a) < off(b); });
+    const auto best = std::min_element(distance.begin() + i + 1, distance.end(),
+                                       [&](double a, double b) { return off(a) < off(b); });
     if (off(*best) <= tolerance) pairs.emplace_back(i, static_cast<int>(best - distance.begin()));
   }
   return pairs;
@@ -132,9 +145,11 @@ IndexPairs AllPairs(const std::vector<double>& steps, double delta, double toler
 
 IndexPairs FindPairs(const std::vector<Pose>& est, const RpeOptions& options) {
   const bool frames = options.unit == DeltaUnit::kFrames;
-  if (!(options.delta > 0) || !std::isfinite(options.delta) || (frames && std::floor(options.delta) != options.delta)) {
-    throw Error(ErrorKind::kUsage, "the relative pose error's delta is " + std::to_string(options.delta) +
-                                       ": give a positive " + (frames ? "whole number of frames" : "length in metres"));
+  if (!(options.delta > 0) || !std::isfinite(options.delta) ||
+      (frames && std::floor(options.delta) != options.delta)) {
+    throw Error(ErrorKind::kUsage, "the relative pose error's delta is " +
+                                       std::to_string(options.delta) + ": give a positive " +
+                                       (frames ? "whole number of frames" : "length in metres"));
   }
   // In frames every step counts 1, so whole numbers are met exactly.
   std::vector<double> steps(est.size(), frames ? 1. : 0.);
@@ -148,13 +163,15 @@ IndexPairs FindPairs(const std::vector<Pose>& est, const RpeOptions& options) {
 void CheckStamps(const Trajectory& trajectory, const char* name) {
   const std::vector<double>& stamps = trajectory.stamps;
   if (stamps.size() != trajectory.poses.size()) {
-    throw Error(ErrorKind::kBadInput, std::string("the ") + name + " has " + std::to_string(stamps.size()) +
-                                          " stamps and " + std::to_string(trajectory.poses.size()) + " poses");
+    throw Error(ErrorKind::kBadInput, std::string("the ") + name + " has " +
+                                          std::to_string(stamps.size()) + " stamps and " +
+                                          std::to_string(trajectory.poses.size()) + " poses");
   }
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     if (std::isfinite(stamps[i]) && (i == 0 || stamps[i] >= stamps[i - 1])) continue;
-    throw Error(ErrorKind::kBadInput, std::string("stamp ") + std::to_string(i) + " of the " + name +
-                                          " is not finite or goes backwards: sort the trajectory by time");
+    throw Error(ErrorKind::kBadInput,
+                std::string("stamp ") + std::to_string(i) + " of the " + name +
+                    " is not finite or goes backwards: sort the trajectory by time");
   }
 }
 
@@ -207,33 +224,39 @@ MatchedPoses MatchByStamp(const Trajectory& est, const Trajectory& ref, double m
   }
   if (matched.est.empty()) {
     const auto span = [](const std::vector<double>& s) {
-      return s.empty() ? std::string("empty") : std::to_string(s.front()) + " to " + std::to_string(s.back()) + " s";
+      return s.empty() ? std::string("empty")
+                       : std::to_string(s.front()) + " to " + std::to_string(s.back()) + " s";
     };
-    throw Error(ErrorKind::kNoSolution, "no pose of the estimate (" + span(est.stamps) + ") is within " +
-                                            std::to_string(max_difference_s) + " s of one of the reference (" +
-                                            span(ref.stamps) + "): check that both use the same clock");
+    throw Error(ErrorKind::kNoSolution, "no pose of the estimate (" + span(est.stamps) +
+                                            ") is within " + std::to_string(max_difference_s) +
+                                            " s of one of the reference (" + span(ref.stamps) +
+                                            "): check that both use the same clock");
   }
   return matched;
 }
 
-Similarity Align(const std::vector<Pose>& est, const std::vector<Pose>& ref, Alignment alignment, const Vec3& up) {
+Similarity Align(const std::vector<Pose>& est, const std::vector<Pose>& ref, Alignment alignment,
+                 const Vec3& up) {
   Check(est, ref);
   return AlignChecked(est, ref, alignment, up).first;
 }
 
-AteResult ComputeAte(const std::vector<Pose>& est, const std::vector<Pose>& ref, Alignment alignment, const Vec3& up) {
+AteResult ComputeAte(const std::vector<Pose>& est, const std::vector<Pose>& ref,
+                     Alignment alignment, const Vec3& up) {
   Check(est, ref);
   AteResult result;
   result.alignment = alignment;
   std::tie(result.S_ref_est, result.unique) = AlignChecked(est, ref, alignment, up);
   for (std::size_t i = 0; i < est.size(); ++i) {
-    result.errors.push_back((result.S_ref_est * est[i].translation() - ref[i].translation()).norm());
+    result.errors.push_back(
+        (result.S_ref_est * est[i].translation() - ref[i].translation()).norm());
   }
   result.error = Summarise(result.errors);
   return result;
 }
 
-RpeResult ComputeRpe(const std::vector<Pose>& est, const std::vector<Pose>& ref, const RpeOptions& options) {
+RpeResult ComputeRpe(const std::vector<Pose>& est, const std::vector<Pose>& ref,
+                     const RpeOptions& options) {
   Check(est, ref);
   std::vector<double> translation, rotation;
   for (const auto& [i, j] : FindPairs(est, options)) {

@@ -13,8 +13,8 @@
 
 namespace sslcd {
 
-/// Runs a source on a thread of its own, up to `ahead` items in front of whoever asks for them. Items come in the order
-/// of the source, and what it throws comes when its turn has come.
+/// Runs a source on a thread of its own, up to `ahead` items in front of whoever asks for them.
+/// Items come in the order of the source, and what it throws comes when its turn has come.
 template <class T>
 class Background {
  public:

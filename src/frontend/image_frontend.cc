@@ -72,10 +72,11 @@ struct ImageFrontend::Impl {
       ++loaded.images_failed;
       const bool right = !item.left.empty();
       const std::string& path = right ? item.frame.image_right : item.frame.image_left;
-      item.warnings.push_back((path.empty() ? "frame " + std::to_string(item.frame.index) + " has no " +
-                                                  (right ? "right" : "left") + " image"
+      item.warnings.push_back((path.empty() ? "frame " + std::to_string(item.frame.index) +
+                                                  " has no " + (right ? "right" : "left") + " image"
                                             : path + ": no image that can be read") +
-                              "; the frame goes without detections" + (odometry ? ", its pose is guessed" : ""));
+                              "; the frame goes without detections" +
+                              (odometry ? ", its pose is guessed" : ""));
       item.left = item.right = {};
     }
     return item;
@@ -95,7 +96,8 @@ struct ImageFrontend::Impl {
       ++tracked.lost;
       if (lost_because.empty()) lost_because = step.reason;
       if (item->complete())
-        item->warnings.push_back(item->frame.image_left + ": odometry lost (" + step.reason + "), its pose is guessed");
+        item->warnings.push_back(item->frame.image_left + ": odometry lost (" + step.reason +
+                                 "), its pose is guessed");
     }
     return item;
   }
@@ -107,7 +109,8 @@ struct ImageFrontend::Impl {
       Naming(frame, [&] { frame.detections = finder->Find(frame.index, item->view(), found); });
       if (finder->lifts() && frame.index % kGroundEvery == 0) {
         const ScopedTimer timer(found.timing, "ground check");
-        CheckGround(item->view(), sequence.camera, frame.detections, options.lift.ground, found.ground);
+        CheckGround(item->view(), sequence.camera, frame.detections, options.lift.ground,
+                    found.ground);
       }
       for (Detection& detection : frame.detections) detection.row = rows++;
       found.detections += static_cast<int>(frame.detections.size());
@@ -119,25 +122,28 @@ struct ImageFrontend::Impl {
 
   // Puts what has been built so far on a thread of its own.
   void InBackground() {
-    running.push_back(std::make_unique<Background<Item>>(std::move(stages), static_cast<std::size_t>(options.ahead)));
+    running.push_back(std::make_unique<Background<Item>>(std::move(stages),
+                                                         static_cast<std::size_t>(options.ahead)));
     stages = [stage = running.back().get()] { return stage->Next(); };
   }
 };
 
-ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour,
-                             FrontendHooks hooks, int threads)
+ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& options,
+                             const ColourOptions& colour, FrontendHooks hooks, int threads)
     : impl_(std::make_unique<Impl>()) {
   Impl& m = *impl_;
-  if (std::none_of(sequence.frames.begin(), sequence.frames.end(),
-                   [](const Frame& frame) { return !frame.image_left.empty() && !frame.image_right.empty(); }))
-    throw Error(
-        ErrorKind::kBadInput,
-        "no frame has a left and a right image (image_2/000000.png, image_3/000000.png; grey: image_0, image_1)");
+  if (std::none_of(sequence.frames.begin(), sequence.frames.end(), [](const Frame& frame) {
+        return !frame.image_left.empty() && !frame.image_right.empty();
+      }))
+    throw Error(ErrorKind::kBadInput,
+                "no frame has a left and a right image (image_2/000000.png, image_3/000000.png; "
+                "grey: image_0, image_1)");
   m.sequence = std::move(sequence);
   m.options = options;
   m.hooks = std::move(hooks);
   if (m.sequence.odometry) m.odometry.emplace(m.sequence.camera, options.odometry);
-  if (m.sequence.detections) m.finder.emplace(m.sequence.camera, options, colour, std::move(m.sequence.boxes));
+  if (m.sequence.detections)
+    m.finder.emplace(m.sequence.camera, options, colour, std::move(m.sequence.boxes));
 
   const bool parallel = threads > 1;
   m.stages = [&m] { return m.Load(); };
@@ -162,7 +168,8 @@ std::optional<Frame> ImageFrontend::Next() {
   if (!item) {
     impl_->stages = {};
     if (impl_->odometry && impl_->loaded.frames > 1 && impl_->followed == 0)
-      throw Error(ErrorKind::kNoSolution, "no odometry: not one of " + std::to_string(impl_->loaded.frames) +
+      throw Error(ErrorKind::kNoSolution, "no odometry: not one of " +
+                                              std::to_string(impl_->loaded.frames) +
                                               " frames could be followed: " + impl_->lost_because);
     return std::nullopt;
   }

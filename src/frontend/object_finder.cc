@@ -9,24 +9,29 @@
 
 namespace sslcd {
 
-ObjectFinder::ObjectFinder(const StereoCamera& camera, const VisionOptions& options, const ColourOptions& colour,
-                           std::optional<BoxesByFrame> boxes)
+ObjectFinder::ObjectFinder(const StereoCamera& camera, const VisionOptions& options,
+                           const ColourOptions& colour, std::optional<BoxesByFrame> boxes)
     : camera_(camera), lift_(options.lift), colour_(colour), boxes_(std::move(boxes)) {
   if (!boxes_) {
     if (options.detector.empty())
-      throw Error(ErrorKind::kUsage,
-                  "nothing to make detections from: name a detector's description (--detector, docs/models.md) or a "
-                  "file of 2D boxes (--boxes), or ask for odometry alone (detect --odometry stereo)");
+      throw Error(
+          ErrorKind::kUsage,
+          "nothing to make detections from: name a detector's description (--detector, "
+          "docs/models.md) or a "
+          "file of 2D boxes (--boxes), or ask for odometry alone (detect --odometry stereo)");
     if (TaskOf(LoadModelDescription(options.detector).output.layout) == ModelTask::kDetect3d)
       detector_3d_.emplace(Detector3d::Load(options.detector, options.inference));
     else
       detector_2d_.emplace(Detector2d::Load(options.detector, options.inference));
-    if (detector_2d_) lift_.box_sigma_share = std::max(lift_.box_sigma_share, detector_2d_->box_sigma());
+    if (detector_2d_)
+      lift_.box_sigma_share = std::max(lift_.box_sigma_share, detector_2d_->box_sigma());
   }
-  if (!options.embedder.empty()) embedder_.emplace(Embedder::Load(options.embedder, options.inference));
+  if (!options.embedder.empty())
+    embedder_.emplace(Embedder::Load(options.embedder, options.inference));
 }
 
-std::vector<Detection> ObjectFinder::Lift(int frame, const StereoView& images, FrontendReport& report) const {
+std::vector<Detection> ObjectFinder::Lift(int frame, const StereoView& images,
+                                          FrontendReport& report) const {
   std::vector<ImageDetection> boxes;
   if (detector_2d_) {
     boxes = detector_2d_->Detect(images.left, &report.timing);
@@ -43,14 +48,17 @@ std::vector<Detection> ObjectFinder::Lift(int frame, const StereoView& images, F
   return detections;
 }
 
-std::vector<Detection> ObjectFinder::Find(int frame, const StereoView& images, FrontendReport& report) const {
-  std::vector<Detection> detections =
-      detector_3d_ ? detector_3d_->Detect(images, camera_, &report.timing) : Lift(frame, images, report);
+std::vector<Detection> ObjectFinder::Find(int frame, const StereoView& images,
+                                          FrontendReport& report) const {
+  std::vector<Detection> detections = detector_3d_
+                                          ? detector_3d_->Detect(images, camera_, &report.timing)
+                                          : Lift(frame, images, report);
   std::vector<Box2d> boxes;
   for (const Detection& detection : detections) boxes.push_back(detection.box.value_or(Box2d()));
   if (embedder_) {
     std::vector<std::vector<float>> vectors = embedder_->Embed(images.left, boxes, &report.timing);
-    for (std::size_t i = 0; i < detections.size(); ++i) detections[i].embedding = std::move(vectors[i]);
+    for (std::size_t i = 0; i < detections.size(); ++i)
+      detections[i].embedding = std::move(vectors[i]);
   }
   if (images.left.channels == 3) {
     const ScopedTimer timer(report.timing, "colour");

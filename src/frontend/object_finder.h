@@ -11,12 +11,14 @@
 
 namespace sslcd {
 
-/// The detections of a stereo pair: cuboids of a 3D detector, or lifted from 2D boxes, each with colour and embedding.
+/// The detections of a stereo pair: cuboids of a 3D detector, or lifted from 2D boxes, each with
+/// colour and embedding.
 class ObjectFinder {
  public:
-  /// `boxes` instead of VisionOptions::detector. Throws Error where there is neither, and as models do when loaded.
-  ObjectFinder(const StereoCamera& camera, const VisionOptions& options, const ColourOptions& colour,
-               std::optional<BoxesByFrame> boxes);
+  /// `boxes` instead of VisionOptions::detector. Throws Error where there is neither, and as models
+  /// do when loaded.
+  ObjectFinder(const StereoCamera& camera, const VisionOptions& options,
+               const ColourOptions& colour, std::optional<BoxesByFrame> boxes);
 
   /// Counts and times go to `report`.
   std::vector<Detection> Find(int frame, const StereoView& images, FrontendReport& report) const;

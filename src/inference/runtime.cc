@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::uint32_t kApiVersion = 17;
 const char kHelp[] =
-    "install it (scripts/install_deps.sh vision, or the package libonnxruntime-dev), or give the path of "
+    "install it (scripts/install_deps.sh vision, or the package libonnxruntime-dev), or give the "
+    "path of "
     "libonnxruntime.so as 'library' or in SSLCD_ORT_LIB";
 
 /// The places to look at, and who named them.
@@ -48,18 +49,19 @@ const OrtApi& LoadRuntime(const std::string& library) {
   if (!handle) {
     throw Error(ErrorKind::kBadInput,
                 "models need ONNX Runtime, which was not found" +
-                    (candidates.named_by.empty() ? "" : " where " + candidates.named_by + " says") + " (" + reason +
-                    "): " + kHelp);
+                    (candidates.named_by.empty() ? "" : " where " + candidates.named_by + " says") +
+                    " (" + reason + "): " + kHelp);
   }
   using GetApiBase = const OrtApiBase*(ORT_API_CALL*)();
   const auto get_api_base = reinterpret_cast<GetApiBase>(dlsym(handle, "OrtGetApiBase"));
-  if (!get_api_base) throw Error(ErrorKind::kBadInput, {path}, std::string("is not ONNX Runtime: ") + kHelp);
+  if (!get_api_base)
+    throw Error(ErrorKind::kBadInput, {path}, std::string("is not ONNX Runtime: ") + kHelp);
   const OrtApiBase* base = get_api_base();
   const OrtApi* api = base->GetApi(kApiVersion);
   if (!api) {
     throw Error(ErrorKind::kBadInput, {path},
-                std::string("is ONNX Runtime ") + base->GetVersionString() + ", but 1." + std::to_string(kApiVersion) +
-                    " or later is needed: " + kHelp);
+                std::string("is ONNX Runtime ") + base->GetVersionString() + ", but 1." +
+                    std::to_string(kApiVersion) + " or later is needed: " + kHelp);
   }
   return *api;
 }

@@ -8,9 +8,10 @@
 
 namespace sslcd {
 
-/// ONNX Runtime's table of functions. Only functions of 1.17 are in it, however new header and library are.
-/// `library` as InferenceOptions::library. The library stays loaded until the process ends: it cannot be unloaded
-/// safely. Throws Error(kBadInput) when there is none, or it is too old, or is something else.
+/// ONNX Runtime's table of functions. Only functions of 1.17 are in it, however new header and
+/// library are. `library` as InferenceOptions::library. The library stays loaded until the process
+/// ends: it cannot be unloaded safely. Throws Error(kBadInput) when there is none, or it is too
+/// old, or is something else.
 const OrtApi& LoadRuntime(const std::string& library);
 
 /// Frees what a release function of the API frees.

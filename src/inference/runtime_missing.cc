@@ -8,7 +8,8 @@ namespace {
 
 [[noreturn]] void Refuse() {
   throw Error(ErrorKind::kBadInput,
-              "this build cannot run models: ONNX Runtime's header was not found; install it (scripts/install_deps.sh "
+              "this build cannot run models: ONNX Runtime's header was not found; install it "
+              "(scripts/install_deps.sh "
               "vision, or the package libonnxruntime-dev), configure and build anew");
 }
 

@@ -22,7 +22,8 @@ const char* NameOf(ONNXTensorElementDataType type) {
   }
 }
 
-void ForwardLog(void*, OrtLoggingLevel level, const char*, const char*, const char*, const char* message) {
+void ForwardLog(void*, OrtLoggingLevel level, const char*, const char*, const char*,
+                const char* message) {
   Log(level >= ORT_LOGGING_LEVEL_ERROR ? LogLevel::kError : LogLevel::kWarning,
       std::string("ONNX Runtime: ") + message);
 }
@@ -43,14 +44,19 @@ struct Session::Impl {
         env(nullptr, api.ReleaseEnv),
         session(nullptr, api.ReleaseSession) {
     OrtEnv* created = nullptr;
-    Check(api.CreateEnvWithCustomLogger(ForwardLog, nullptr, ORT_LOGGING_LEVEL_WARNING, "sslcd", &created));
+    Check(api.CreateEnvWithCustomLogger(ForwardLog, nullptr, ORT_LOGGING_LEVEL_WARNING, "sslcd",
+                                        &created));
     env.reset(created);
     Open(options);
-    inputs = Describe(api.SessionGetInputCount, api.SessionGetInputName, api.SessionGetInputTypeInfo);
-    outputs = Describe(api.SessionGetOutputCount, api.SessionGetOutputName, api.SessionGetOutputTypeInfo);
+    inputs =
+        Describe(api.SessionGetInputCount, api.SessionGetInputName, api.SessionGetInputTypeInfo);
+    outputs =
+        Describe(api.SessionGetOutputCount, api.SessionGetOutputName, api.SessionGetOutputTypeInfo);
   }
 
-  [[noreturn]] void Fail(const std::string& message) const { throw Error(ErrorKind::kBadInput, {path}, message); }
+  [[noreturn]] void Fail(const std::string& message) const {
+    throw Error(ErrorKind::kBadInput, {path}, message);
+  }
 
   void Check(OrtStatus* status, const std::string& way_out = "") const {
     const std::string problem = Problem(api, status);
@@ -64,12 +70,15 @@ struct Session::Impl {
         provider = InferenceOptions::Provider::kCuda;
         return;
       }
-      Log(LogLevel::kWarning, path + ": runs on the CPU, CUDA is not there (" + problem +
-                                  "); 'library' must be ONNX Runtime's GPU build, with its CUDA and cuDNN");
+      Log(LogLevel::kWarning,
+          path + ": runs on the CPU, CUDA is not there (" + problem +
+              "); 'library' must be ONNX Runtime's GPU build, with its CUDA and cuDNN");
     }
     InferenceOptions on_cpu = options;
     on_cpu.provider = InferenceOptions::Provider::kCpu;
-    Check(TryToOpen(on_cpu), "; export the model again, in a version of ONNX that ONNX Runtime knows (docs/models.md)");
+    Check(
+        TryToOpen(on_cpu),
+        "; export the model again, in a version of ONNX that ONNX Runtime knows (docs/models.md)");
   }
 
   OrtStatus* TryToOpen(const InferenceOptions& options) {
@@ -78,7 +87,8 @@ struct Session::Impl {
     const OrtPointer<OrtSessionOptions> settings(raw, api.ReleaseSessionOptions);
     Check(api.SetIntraOpNumThreads(raw, options.threads));
     Check(api.SetInterOpNumThreads(raw, 1));
-    Check(api.AddSessionConfigEntry(raw, "session.intra_op.allow_spinning", "0"));  // leaves the cores to others
+    // leaves the cores to others
+    Check(api.AddSessionConfigEntry(raw, "session.intra_op.allow_spinning", "0"));
     if (options.provider == InferenceOptions::Provider::kCuda)
       if (OrtStatus* problem = AddCuda(raw, options.device_id)) return problem;
     OrtSession* opened = nullptr;
@@ -93,7 +103,8 @@ struct Session::Impl {
     const OrtPointer<OrtCUDAProviderOptionsV2> cuda(raw, api.ReleaseCUDAProviderOptions);
     const std::string device = std::to_string(device_id);
     const std::array<const char*, 1> keys = {"device_id"}, values = {device.c_str()};
-    if (OrtStatus* problem = api.UpdateCUDAProviderOptions(raw, keys.data(), values.data(), keys.size()))
+    if (OrtStatus* problem =
+            api.UpdateCUDAProviderOptions(raw, keys.data(), values.data(), keys.size()))
       return problem;
     return api.SessionOptionsAppendExecutionProvider_CUDA_V2(settings, raw);
   }
@@ -118,7 +129,8 @@ struct Session::Impl {
       ONNXTensorElementDataType element = ONNX_TENSOR_ELEMENT_DATA_TYPE_UNDEFINED;
       if (tensor) Check(api.GetTensorElementType(tensor, &element));
       if (!NameOf(element))
-        Fail("'" + result[i].name + "' is no tensor of float32, int32 or int64; export the model in float32");
+        Fail("'" + result[i].name +
+             "' is no tensor of float32, int32 or int64; export the model in float32");
       result[i].type = NameOf(element);
       result[i].shape = ShapeOf(tensor);
     }
@@ -139,7 +151,8 @@ struct Session::Impl {
     OrtAllocator* allocator = nullptr;
     Check(api.GetAllocatorWithDefaultOptions(&allocator));
     OrtValue* raw = nullptr;
-    Check(api.CreateTensorAsOrtValue(allocator, tensor.shape.data(), tensor.shape.size(), type, &raw));
+    Check(api.CreateTensorAsOrtValue(allocator, tensor.shape.data(), tensor.shape.size(), type,
+                                     &raw));
     OrtPointer<OrtValue> value(raw, api.ReleaseValue);
     void* data = nullptr;
     Check(api.GetTensorMutableData(raw, &data));
@@ -152,9 +165,12 @@ struct Session::Impl {
     if (found == named.end()) Fail("nothing given for its input '" + info.name + "'");
     const Tensor& tensor = found->second;
     if (!Fits(tensor.shape, info.shape) || tensor.values.size() != ElementCount(tensor.shape))
-      Fail("input '" + info.name + "' is " + ToString(tensor.shape) + ", the model takes " + ToString(info.shape));
-    if (info.type == "int64") return Copy<std::int64_t>(tensor, ONNX_TENSOR_ELEMENT_DATA_TYPE_INT64);
-    if (info.type == "int32") return Copy<std::int32_t>(tensor, ONNX_TENSOR_ELEMENT_DATA_TYPE_INT32);
+      Fail("input '" + info.name + "' is " + ToString(tensor.shape) + ", the model takes " +
+           ToString(info.shape));
+    if (info.type == "int64")
+      return Copy<std::int64_t>(tensor, ONNX_TENSOR_ELEMENT_DATA_TYPE_INT64);
+    if (info.type == "int32")
+      return Copy<std::int32_t>(tensor, ONNX_TENSOR_ELEMENT_DATA_TYPE_INT32);
     return Copy<float>(tensor, ONNX_TENSOR_ELEMENT_DATA_TYPE_FLOAT);
   }
 
@@ -174,15 +190,18 @@ struct Session::Impl {
     } else {
       read(static_cast<const float*>(data));
     }
-    if (!std::all_of(tensor.values.begin(), tensor.values.end(), [](float v) { return std::isfinite(v); }))
-      Fail("its output '" + info.name + "' holds NaN or infinity; check the image and the input's scale, mean and std");
+    if (!std::all_of(tensor.values.begin(), tensor.values.end(),
+                     [](float v) { return std::isfinite(v); }))
+      Fail("its output '" + info.name +
+           "' holds NaN or infinity; check the image and the input's scale, mean and std");
     return tensor;
   }
 };
 
 Session::Session(const std::string& model_path, const InferenceOptions& options) {
   if (!std::ifstream(model_path).good())
-    throw Error(ErrorKind::kBadInput, {model_path}, "this model cannot be read: check the path (docs/models.md)");
+    throw Error(ErrorKind::kBadInput, {model_path},
+                "this model cannot be read: check the path (docs/models.md)");
   impl_ = std::make_unique<Impl>(model_path, options);
 }
 Session::Session(Session&&) noexcept = default;
@@ -206,8 +225,9 @@ NamedTensors Session::Run(const NamedTensors& inputs) const {
     input_names.push_back(info.name.c_str());
   }
   for (const TensorInfo& info : impl.outputs) output_names.push_back(info.name.c_str());
-  impl.Check(impl.api.Run(impl.session.get(), nullptr, input_names.data(), given_raw.data(), given_raw.size(),
-                          output_names.data(), output_names.size(), received_raw.data()));
+  impl.Check(impl.api.Run(impl.session.get(), nullptr, input_names.data(), given_raw.data(),
+                          given_raw.size(), output_names.data(), output_names.size(),
+                          received_raw.data()));
   for (OrtValue* value : received_raw) received.emplace_back(value, impl.api.ReleaseValue);
   NamedTensors outputs;
   for (std::size_t i = 0; i < received.size(); ++i)

@@ -16,7 +16,8 @@ std::size_t ElementCount(const TensorShape& shape) {
 
 std::string ToString(const TensorShape& shape) {
   std::string text;
-  for (const std::int64_t size : shape) text += (text.empty() ? "" : "x") + (size < 0 ? "?" : std::to_string(size));
+  for (const std::int64_t size : shape)
+    text += (text.empty() ? "" : "x") + (size < 0 ? "?" : std::to_string(size));
   return text.empty() ? "scalar" : text;
 }
 

@@ -16,7 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void Fail(const std::string& path, int code, const std::string& way_out) {
-  throw Error(ErrorKind::kOutput, path + ": cannot be written: " + std::strerror(code) + "; " + way_out);
+  throw Error(ErrorKind::kOutput,
+              path + ": cannot be written: " + std::strerror(code) + "; " + way_out);
 }
 
 // 0, or errno of the first step that failed.
@@ -51,12 +52,14 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
     const fs::file_status status = fs::status(path, ignored);
     const bool special = fs::exists(status) && !fs::is_regular_file(status);
     const std::string temporary = path + ".tmp-" + std::to_string(getpid());
-    const int code = special ? WriteAll(path, content, 0) : WriteAll(temporary, content, O_CREAT | O_TRUNC);
+    const int code =
+        special ? WriteAll(path, content, 0) : WriteAll(temporary, content, O_CREAT | O_TRUNC);
     if (!special) waiting.emplace_back(temporary, path);
     if (code == 0) continue;
     for (const auto& [name, final_name] : waiting) unlink(name.c_str());
     if (special) Fail(path, code, "name another file");
-    Fail(path, code, code == ENOSPC ? "make room or choose another folder" : "choose another folder");
+    Fail(path, code,
+         code == ENOSPC ? "make room or choose another folder" : "choose another folder");
   }
   for (const auto& [temporary, path] : waiting) {
     if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
@@ -70,9 +73,14 @@ void MakeWritableFolder(const std::string& path) {
   std::error_code code, unseen;
   fs::create_directories(path, code);
   if (!fs::is_directory(path, unseen))
-    Fail(path, code ? code.value() : unseen ? unseen.value() : ENOTDIR, "choose another folder with --out");
+    Fail(path,
+         code     ? code.value()
+         : unseen ? unseen.value()
+                  : ENOTDIR,
+         "choose another folder with --out");
   const std::string probe = path + "/.sslcd-probe-" + std::to_string(getpid());
-  if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC)) Fail(path, failed, "choose another folder with --out");
+  if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC))
+    Fail(path, failed, "choose another folder with --out");
   unlink(probe.c_str());
 }
 

@@ -12,7 +12,8 @@ std::map<int, std::vector<ImageDetection>> ReadBoxes(const std::string& path) {
   TextRows row(path);
   while (row.Next()) {
     if (row.size() != 7)
-      row.Fail("found " + std::to_string(row.size()) + " columns, expected 'frame label score left top right bottom'");
+      row.Fail("found " + std::to_string(row.size()) +
+               " columns, expected 'frame label score left top right bottom'");
     const int frame = row.Integer(0);
     if (frame < 0) row.Fail("frame " + std::to_string(frame) + ": frames count from 0");
     ImageDetection detection;

@@ -17,8 +17,8 @@ struct Entry {
   std::vector<std::string> fields;
 };
 
-/// "key: field field ..." rows by key; where no row has one they are P0, P1, ... Fields become numbers only where they
-/// are used: dates are among them.
+/// "key: field field ..." rows by key; where no row has one they are P0, P1, ... Fields become
+/// numbers only where they are used: dates are among them.
 class Entries {
  public:
   explicit Entries(const std::string& path) : path_(path) {
@@ -31,7 +31,8 @@ class Entries {
       Entry& entry = named ? entries_[key] : nameless["P" + std::to_string(nameless.size())];
       entry.line = row.where().line;
       entry.fields.clear();
-      for (std::size_t i = named ? 1 : 0; i < row.size(); ++i) entry.fields.emplace_back(row.Text(i));
+      for (std::size_t i = named ? 1 : 0; i < row.size(); ++i)
+        entry.fields.emplace_back(row.Text(i));
       last_line_ = entry.line;
     }
     if (entries_.empty()) entries_ = std::move(nameless);
@@ -50,8 +51,8 @@ class Entries {
         numbers.push_back(*number);
       }
       if (numbers.size() != count) {
-        Fail(std::string(key) + ": found " + std::to_string(numbers.size()) + " numbers, expected " +
-             std::to_string(count));
+        Fail(std::string(key) + ": found " + std::to_string(numbers.size()) +
+             " numbers, expected " + std::to_string(count));
       }
       return numbers;
     }
@@ -64,9 +65,11 @@ class Entries {
     Camera camera;
     camera.fx = P[0], camera.cx = P[2], camera.fy = P[5], camera.cy = P[6];
     const double depth = P[11];
-    camera.offset = Vec3((P[3] - camera.cx * depth) / camera.fx, (P[7] - camera.cy * depth) / camera.fy, depth);
+    camera.offset =
+        Vec3((P[3] - camera.cx * depth) / camera.fx, (P[7] - camera.cy * depth) / camera.fy, depth);
     if (!(camera.fx > 0 && camera.fy > 0) || !camera.offset.allFinite()) {
-      Fail(std::string(keys[0]) + " is no projection matrix: its focal lengths must be positive, all numbers finite");
+      Fail(std::string(keys[0]) +
+           " is no projection matrix: its focal lengths must be positive, all numbers finite");
     }
     return camera;
   }
@@ -84,15 +87,17 @@ class Entries {
   }
 
   Pose MakeRigid(const std::vector<double>& R, const std::vector<double>& t) const {
-    const auto pose = RigidFromMatrix(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data()),
-                                      Vec3(t[0], t[1], t[2]));
+    const auto pose =
+        RigidFromMatrix(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data()),
+                        Vec3(t[0], t[1], t[2]));
     if (!pose) Fail("not a rotation matrix: mend the entry");
     return *pose;
   }
 
   /// At the entry used last, or at the end of the file.
   [[noreturn]] void Fail(const std::string& message) const {
-    throw Error(ErrorKind::kBadInput, {path_, used_line_ > 0 ? used_line_ : std::max(last_line_, 1)}, message);
+    throw Error(ErrorKind::kBadInput,
+                {path_, used_line_ > 0 ? used_line_ : std::max(last_line_, 1)}, message);
   }
 
   std::string Keys() const {
@@ -125,11 +130,11 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   const bool grey = pair == CameraPair::kGrey;
   calibration.left = grey ? entries.CameraOf({"P0", "P2"}) : entries.CameraOf({"P2", "P_rect_02"});
   if (!calibration.left) {
-    entries.Fail(
-        (grey ? std::string("no P0 (or P2) here, the left camera")
-              : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
-        "; found: " + entries.Keys() +
-        ". Add it (grey images need both of their folders to be taken), or remove the file where nothing is projected");
+    entries.Fail((grey ? std::string("no P0 (or P2) here, the left camera")
+                       : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
+                 "; found: " + entries.Keys() +
+                 ". Add it (grey images need both of their folders to be taken), or remove the "
+                 "file where nothing is projected");
   }
   calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
@@ -141,7 +146,8 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   if (!calibration.T_cam_velo) {
     calibration.T_cam_velo = entries.Rigid({"Tr_velo_to_cam", "Tr_velo_cam"});
     const std::optional<Pose> rectification = entries.Rotation({"R0_rect", "R_rect"});
-    if (calibration.T_cam_velo && rectification) calibration.T_cam_velo = *rectification * *calibration.T_cam_velo;
+    if (calibration.T_cam_velo && rectification)
+      calibration.T_cam_velo = *rectification * *calibration.T_cam_velo;
   }
   calibration.T_velo_imu = entries.Rigid({"Tr_imu_to_velo", "Tr_imu_velo"});
   return calibration;
@@ -152,7 +158,8 @@ Calibration ReadRawCalibration(const std::string& folder) {
   Calibration calibration = ReadCalibration(cam_to_cam);
   calibration.T_cam_velo = ReadRT(folder + "/calib_velo_to_cam.txt");
   const std::optional<Pose> rectification = Entries(cam_to_cam).Rotation({"R_rect_00"});
-  if (calibration.T_cam_velo && rectification) calibration.T_cam_velo = *rectification * *calibration.T_cam_velo;
+  if (calibration.T_cam_velo && rectification)
+    calibration.T_cam_velo = *rectification * *calibration.T_cam_velo;
   calibration.T_velo_imu = ReadRT(folder + "/calib_imu_to_velo.txt");
   return calibration;
 }

@@ -17,10 +17,12 @@ std::string Quoted(const std::string& text) {
 class Printer : public FieldVisitor {
  public:
   void Real(const char* key, double& value, double low, double high, const char* meaning) override {
-    Field(key, ShortestNumber(value), "number", ShortestNumber(low) + " .. " + ShortestNumber(high), meaning);
+    Field(key, ShortestNumber(value), "number", ShortestNumber(low) + " .. " + ShortestNumber(high),
+          meaning);
   }
   void Integer(const char* key, int& value, int low, int high, const char* meaning) override {
-    Field(key, std::to_string(value), "integer", std::to_string(low) + " .. " + std::to_string(high), meaning);
+    Field(key, std::to_string(value), "integer",
+          std::to_string(low) + " .. " + std::to_string(high), meaning);
   }
   void Flag(const char* key, bool& value, const char* meaning) override {
     Field(key, value ? "true" : "false", "flag", "true, false", meaning);
@@ -28,15 +30,18 @@ class Printer : public FieldVisitor {
   void Text(const char* key, std::string& value, const char* meaning) override {
     Field(key, Quoted(value), "text", "", meaning);
   }
-  void Choice(const char* key, int& value, const std::vector<const char*>& names, const char* meaning) override {
+  void Choice(const char* key, int& value, const std::vector<const char*>& names,
+              const char* meaning) override {
     std::string list;
     for (const char* name : names) list += (list.empty() ? "" : ", ") + std::string(name);
     Field(key, names[value], "name", list, meaning);
   }
-  void Numbers(const char* key, std::vector<double>& values, double low, double high, const char* meaning) override {
+  void Numbers(const char* key, std::vector<double>& values, double low, double high,
+               const char* meaning) override {
     std::string list;
     for (const double value : values) list += (list.empty() ? "" : ", ") + ShortestNumber(value);
-    Field(key, "[" + list + "]", "numbers", ShortestNumber(low) + " .. " + ShortestNumber(high), meaning);
+    Field(key, "[" + list + "]", "numbers", ShortestNumber(low) + " .. " + ShortestNumber(high),
+          meaning);
   }
   void Names(const char* key, std::map<int, std::string>& names, const char* meaning) override {
     std::string list;
@@ -56,7 +61,8 @@ class YamlPrinter final : public Printer {
  public:
   explicit YamlPrinter(bool with_comments) : with_comments_(with_comments) {}
 
-  void Section(const char* key, const char* meaning, const std::function<void(FieldVisitor&)>& describe) override {
+  void Section(const char* key, const char* meaning,
+               const std::function<void(FieldVisitor&)>& describe) override {
     text += indent_ + key + ":" + (with_comments_ ? "  # " + std::string(meaning) : "") + "\n";
     indent_ += "  ";
     describe(*this);
@@ -64,8 +70,8 @@ class YamlPrinter final : public Printer {
   }
 
  private:
-  void Field(const std::string& key, const std::string& value, const std::string&, const std::string&,
-             const std::string& meaning) override {
+  void Field(const std::string& key, const std::string& value, const std::string&,
+             const std::string&, const std::string& meaning) override {
     text += indent_ + key + ": " + value + (with_comments_ ? "  # " + meaning : "") + "\n";
   }
 
@@ -75,20 +81,23 @@ class YamlPrinter final : public Printer {
 
 class MarkdownPrinter final : public Printer {
  public:
-  void Section(const char* key, const char* meaning, const std::function<void(FieldVisitor&)>& describe) override {
+  void Section(const char* key, const char* meaning,
+               const std::function<void(FieldVisitor&)>& describe) override {
     MarkdownPrinter inner;
     inner.path_ = path_.empty() ? key : path_ + "." + key;
     describe(inner);
     sections_ += "\n## `" + inner.path_ + "`\n" + meaning + "\n\n" + inner.Result();
   }
   std::string Result() const {
-    return (text.empty() ? "" : "| key | type | default | range | meaning |\n|---|---|---|---|---|\n" + text) +
+    return (text.empty()
+                ? ""
+                : "| key | type | default | range | meaning |\n|---|---|---|---|---|\n" + text) +
            sections_;
   }
 
  private:
-  void Field(const std::string& key, const std::string& value, const std::string& type, const std::string& range,
-             const std::string& meaning) override {
+  void Field(const std::string& key, const std::string& value, const std::string& type,
+             const std::string& range, const std::string& meaning) override {
     text += "| `" + key + "` | " + type + " | " + value + " | " + range + " | " + meaning + " |\n";
   }
 

@@ -34,8 +34,8 @@ std::string Plain(double value) {
   return stream.str();
 }
 
-// Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing; second pass:
-// applies.
+// Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing;
+// second pass: applies.
 class Loader final : public FieldVisitor {
  public:
   Loader(const YAML::Node& root, std::string name, bool marks, bool apply)
@@ -45,7 +45,8 @@ class Loader final : public FieldVisitor {
 
   void Root(const Describe& describe) {
     if (!node_.IsDefined() || node_.IsNull()) return;  // an empty file changes nothing
-    if (!node_.IsMap()) return Problem(node_, "expected a map of sections, e.g. 'ba: {max_iterations: 30}'");
+    if (!node_.IsMap())
+      return Problem(node_, "expected a map of sections, e.g. 'ba: {max_iterations: 30}'");
     CheckDuplicates();
     describe(*this);
     CheckUnknown();
@@ -55,7 +56,8 @@ class Loader final : public FieldVisitor {
     Scalar(key, "a number", [&](const YAML::Node& node) {
       const std::optional<double> number = ParseNumber(node.Scalar());
       if (!number) return WrongType(node, key, "a number");
-      if (!(*number >= low && *number <= high)) return OutOfRange(node, key, Plain(low), Plain(high));
+      if (!(*number >= low && *number <= high))
+        return OutOfRange(node, key, Plain(low), Plain(high));
       if (apply_) value = *number;
     });
   }
@@ -65,14 +67,16 @@ class Loader final : public FieldVisitor {
       const std::optional<double> number = ParseNumber(node.Scalar());
       const bool digits = node.Scalar().find_first_not_of("+-0123456789") == std::string::npos;
       if (!number || !digits) return WrongType(node, key, "a whole number");
-      if (!(*number >= low && *number <= high)) return OutOfRange(node, key, std::to_string(low), std::to_string(high));
+      if (!(*number >= low && *number <= high))
+        return OutOfRange(node, key, std::to_string(low), std::to_string(high));
       if (apply_) value = static_cast<int>(*number);
     });
   }
 
   void Flag(const char* key, bool& value, const char*) override {
     Scalar(key, "true or false", [&](const YAML::Node& node) {
-      if (node.Scalar() != "true" && node.Scalar() != "false") return WrongType(node, key, "true or false");
+      if (node.Scalar() != "true" && node.Scalar() != "false")
+        return WrongType(node, key, "true or false");
       if (apply_) value = node.Scalar() == "true";
     });
   }
@@ -83,7 +87,8 @@ class Loader final : public FieldVisitor {
     });
   }
 
-  void Choice(const char* key, int& value, const std::vector<const char*>& names, const char*) override {
+  void Choice(const char* key, int& value, const std::vector<const char*>& names,
+              const char*) override {
     Scalar(key, "a name", [&](const YAML::Node& node) {
       std::string list;
       for (std::size_t i = 0; i < names.size(); ++i) {
@@ -93,29 +98,37 @@ class Loader final : public FieldVisitor {
         }
         list += (i ? ", " : "") + std::string(names[i]);
       }
-      Problem(node, "'" + std::string(key) + "' is '" + node.Scalar() + "', must be one of " + list);
+      Problem(node,
+              "'" + std::string(key) + "' is '" + node.Scalar() + "', must be one of " + list);
     });
   }
 
-  void Numbers(const char* key, std::vector<double>& values, double low, double high, const char*) override {
-    const YAML::Node node = Collection(key, YAML::NodeType::Sequence, "a list of numbers, e.g. [1, 2]");
+  void Numbers(const char* key, std::vector<double>& values, double low, double high,
+               const char*) override {
+    const YAML::Node node =
+        Collection(key, YAML::NodeType::Sequence, "a list of numbers, e.g. [1, 2]");
     std::vector<double> read;
     for (const auto& item : node) {
-      const std::optional<double> number = item.IsScalar() ? ParseNumber(item.Scalar()) : std::nullopt;
+      const std::optional<double> number =
+          item.IsScalar() ? ParseNumber(item.Scalar()) : std::nullopt;
       if (!number) return WrongType(item, key, "a list of numbers");
-      if (!(*number >= low && *number <= high)) return OutOfRange(item, key, Plain(low), Plain(high));
+      if (!(*number >= low && *number <= high))
+        return OutOfRange(item, key, Plain(low), Plain(high));
       read.push_back(*number);
     }
     if (apply_ && node.IsSequence()) values = read;
   }
 
   void Names(const char* key, std::map<int, std::string>& names, const char*) override {
-    const YAML::Node node = Collection(key, YAML::NodeType::Map, "names by number, e.g. {2: Car, 7: Truck}");
+    const YAML::Node node =
+        Collection(key, YAML::NodeType::Map, "names by number, e.g. {2: Car, 7: Truck}");
     std::map<int, std::string> read;
     for (const auto& entry : node) {
       const std::string number = entry.first.IsScalar() ? entry.first.Scalar() : "";
-      if (number.empty() || number.size() > 6 || number.find_first_not_of("0123456789") != std::string::npos)
-        return Problem(entry.first, "'" + std::string(key) + "' has '" + number + "', must be a whole number >= 0");
+      if (number.empty() || number.size() > 6 ||
+          number.find_first_not_of("0123456789") != std::string::npos)
+        return Problem(entry.first, "'" + std::string(key) + "' has '" + number +
+                                        "', must be a whole number >= 0");
       if (!entry.second.IsScalar()) return WrongType(entry.second, key, "names by number");
       if (!read.emplace(std::stoi(number), entry.second.Scalar()).second)
         return Problem(entry.first, "duplicate number " + number + " in '" + key + "'");
@@ -123,11 +136,13 @@ class Loader final : public FieldVisitor {
     if (apply_ && node.IsMap()) names = read;
   }
 
-  void Section(const char* key, const char*, const std::function<void(FieldVisitor&)>& describe) override {
+  void Section(const char* key, const char*,
+               const std::function<void(FieldVisitor&)>& describe) override {
     known_.push_back(key);
     const YAML::Node child = Find(key);
     if (!child.IsDefined() || child.IsNull()) return;
-    if (!child.IsMap()) return Problem(child, "'" + std::string(key) + "' is a section: expected a map of keys");
+    if (!child.IsMap())
+      return Problem(child, "'" + std::string(key) + "' is a section: expected a map of keys");
     const YAML::Node outer = node_;
     const std::vector<std::string> outer_known = std::move(known_);
     const std::string outer_path = path_;
@@ -175,11 +190,14 @@ class Loader final : public FieldVisitor {
   }
 
   void WrongType(const YAML::Node& node, const std::string& key, const std::string& expected) {
-    const std::string found = node.IsScalar() ? "'" + node.Scalar() + "'" : node.IsNull() ? "nothing" : "a list or map";
+    const std::string found = node.IsScalar() ? "'" + node.Scalar() + "'"
+                              : node.IsNull() ? "nothing"
+                                              : "a list or map";
     Problem(node, "'" + key + "' is " + found + ", must be " + expected);
   }
 
-  void OutOfRange(const YAML::Node& node, const std::string& key, const std::string& low, const std::string& high) {
+  void OutOfRange(const YAML::Node& node, const std::string& key, const std::string& low,
+                  const std::string& high) {
     Problem(node, "'" + key + "' is " + node.Scalar() + ", must be in [" + low + ", " + high + "]");
   }
 
@@ -195,10 +213,12 @@ class Loader final : public FieldVisitor {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
       std::string message = "unknown key '" + key + "'" + In();
-      const auto nearest = std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
-        return EditDistance(key, a) < EditDistance(key, b);
-      });
-      if (nearest != known_.end() && EditDistance(key, *nearest) <= std::max<std::size_t>(2, key.size() / 3))
+      const auto nearest =
+          std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
+            return EditDistance(key, a) < EditDistance(key, b);
+          });
+      if (nearest != known_.end() &&
+          EditDistance(key, *nearest) <= std::max<std::size_t>(2, key.size() / 3))
         message += " - did you mean '" + *nearest + "'?";
       Problem(entry.first, message);
     }
@@ -226,7 +246,8 @@ void LoadConfigText(const std::string& text, const std::string& name, const Desc
   try {
     root = YAML::Load(text);
   } catch (const YAML::ParserException& problem) {
-    throw Error(ErrorKind::kBadConfig, {name, problem.mark.line + 1, problem.mark.column + 1}, problem.msg);
+    throw Error(ErrorKind::kBadConfig, {name, problem.mark.line + 1, problem.mark.column + 1},
+                problem.msg);
   }
   Loader check(root, name, true, false);
   check.Root(describe);

@@ -22,8 +22,8 @@ namespace sslcd {
 namespace {
 
 constexpr double kKittiFrameStep = 0.1;  // [s]
-constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking", "kitti-raw",
-                                                     "sequence"};
+constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking",
+                                                     "kitti-raw", "sequence"};
 
 bool IsOxts(const std::string& path) {
   if (IsFolder(path)) return true;
@@ -31,19 +31,23 @@ bool IsOxts(const std::string& path) {
   return row.Next() && row.size() == 30;
 }
 
-bool IsTracklets(const std::string& path) { return path.size() > 4 && path.substr(path.size() - 4) == ".xml"; }
+bool IsTracklets(const std::string& path) {
+  return path.size() > 4 && path.substr(path.size() - 4) == ".xml";
+}
 
 PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
   if (!IsOxts(path)) return ReadPoseFile(path);
   PoseFile file{PoseFormat::kKitti, {}};
   file.trajectory.poses = ReadOxtsCamera(path, calibration);
-  for (std::size_t i = 0; i < file.trajectory.size(); ++i) file.trajectory.stamps.push_back(static_cast<double>(i));
+  for (std::size_t i = 0; i < file.trajectory.size(); ++i)
+    file.trajectory.stamps.push_back(static_cast<double>(i));
   return file;
 }
 
 class Loader {
  public:
-  explicit Loader(const DatasetRequest& request) : request_(request), layout_(FindDatasetLayout(request)) {}
+  explicit Loader(const DatasetRequest& request)
+      : request_(request), layout_(FindDatasetLayout(request)) {}
 
   Dataset Load() {
     out_.format = layout_.format;
@@ -52,7 +56,8 @@ class Loader {
     out_.labels = info_.labels;
     if (!layout_.calib.empty()) {
       const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
-      calibration_ = is_raw ? ReadRawCalibration(layout_.calib) : ReadCalibration(layout_.calib, layout_.cameras);
+      calibration_ = is_raw ? ReadRawCalibration(layout_.calib)
+                            : ReadCalibration(layout_.calib, layout_.cameras);
     }
     layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
     out_.camera = calibration_.left;
@@ -71,7 +76,8 @@ class Loader {
   void AddFramesWithoutPoses();
   void AddDetections();
   void AddAppearance();
-  int AddVectors(const std::string& path, std::vector<float> Detection::*vector);  // returns how many are unusable
+  // returns how many are unusable
+  int AddVectors(const std::string& path, std::vector<float> Detection::*vector);
   void WarnOfMoreImages();
   void CheckLabels();
   void AddGroundtruth();
@@ -90,7 +96,8 @@ void Loader::AddFrames() {
   out_.odometry_path = layout_.odometry;
   out_.odometry_format = odometry.format;
   if (odometry.trajectory.poses.empty()) {
-    throw Error(ErrorKind::kBadInput, {layout_.odometry}, "holds no poses: there is nothing to run on");
+    throw Error(ErrorKind::kBadInput, {layout_.odometry},
+                "holds no poses: there is nothing to run on");
   }
   const bool is_vins = odometry.format == PoseFormat::kVinsCsv;
   out_.up_axis = info_.up_axis.value_or(is_vins ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
@@ -99,15 +106,19 @@ void Loader::AddFrames() {
   std::vector<double> stamps = odometry.trajectory.stamps;
   std::vector<Pose> poses = odometry.trajectory.poses;
   if (!layout_.times.empty()) {
-    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
-    if (stamps.empty()) throw Error(ErrorKind::kBadInput, {layout_.times}, "holds no stamps: fill or remove the file");
+    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times)
+                                                        : ReadTimes(layout_.times);
+    if (stamps.empty())
+      throw Error(ErrorKind::kBadInput, {layout_.times},
+                  "holds no stamps: fill or remove the file");
     if (has_stamps) {
       poses = PosesAt(stamps, odometry.trajectory, layout_.odometry);
       const std::vector<double>& given = odometry.trajectory.stamps;
-      const auto late =
-          given.end() - std::upper_bound(given.begin(), given.end(), stamps.back() + 0.5 * MedianStep(stamps));
+      const auto late = given.end() - std::upper_bound(given.begin(), given.end(),
+                                                       stamps.back() + 0.5 * MedianStep(stamps));
       if (late > 0)
-        Warn(layout_.odometry + ": " + std::to_string(late) + " poses come after the last of " + layout_.times);
+        Warn(layout_.odometry + ": " + std::to_string(late) + " poses come after the last of " +
+             layout_.times);
     } else if (stamps.size() != poses.size()) {
       throw Error(ErrorKind::kBadInput, {layout_.odometry},
                   "has " + std::to_string(poses.size()) + " poses, but " + layout_.times + " has " +
@@ -122,7 +133,8 @@ void Loader::AddFrames() {
   }
 
   frames_in_file_ = poses.size();
-  const std::size_t limit = request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : poses.size();
+  const std::size_t limit =
+      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : poses.size();
   out_.frames.resize(std::min(poses.size(), limit));
   for (std::size_t i = 0; i < out_.frames.size(); ++i) {
     out_.frames[i].index = static_cast<int>(i);
@@ -132,19 +144,23 @@ void Loader::AddFrames() {
 }
 
 void Loader::AddFramesWithoutPoses() {
-  out_.up_axis = Vec3(0, -1, 0);  // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
+  // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
+  out_.up_axis = Vec3(0, -1, 0);
   std::vector<double> stamps;
   if (!layout_.times.empty()) {
-    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times) : ReadTimes(layout_.times);
+    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times)
+                                                        : ReadTimes(layout_.times);
   } else if (!layout_.images.empty()) {
     for (int i = 0; i < FramesOfImages(layout_.images); ++i) stamps.push_back(kKittiFrameStep * i);
   }
   if (stamps.empty())
     throw Error(ErrorKind::kBadInput, {request_.path},
-                "no frames: odometry from images needs times.txt or a folder of left images (image_2, or image_0)");
+                "no frames: odometry from images needs times.txt or a folder of left images "
+                "(image_2, or image_0)");
   if (const auto warning = GapWarning(stamps)) Warn(*warning);
   frames_in_file_ = stamps.size();
-  const std::size_t limit = request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : stamps.size();
+  const std::size_t limit =
+      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : stamps.size();
   out_.frames.resize(std::min(stamps.size(), limit));
   for (std::size_t i = 0; i < out_.frames.size(); ++i) {
     out_.frames[i].index = static_cast<int>(i);
@@ -166,13 +182,14 @@ void Loader::AddDetections() {
   DetectionFile file;
   if (IsTracklets(layout_.detections)) {
     if (!calibration_.T_cam_velo) {
-      throw Error(
-          ErrorKind::kBadInput, {layout_.detections},
-          "tracklets are in the lidar's frame: add calib_cam_to_cam.txt and calib_velo_to_cam.txt to the drive or "
-          "the folder above it");
+      throw Error(ErrorKind::kBadInput, {layout_.detections},
+                  "tracklets are in the lidar's frame: add calib_cam_to_cam.txt and "
+                  "calib_velo_to_cam.txt to the drive or "
+                  "the folder above it");
     }
     file.by_frame = TrackletDetections(ReadTracklets(layout_.detections), *calibration_.T_cam_velo);
-    for (const auto& [frame, detections] : file.by_frame) file.rows += static_cast<int>(detections.size());
+    for (const auto& [frame, detections] : file.by_frame)
+      file.rows += static_cast<int>(detections.size());
     Warn("the detections are the drive's hand-labelled tracklets (" + layout_.detections + ")");
   } else {
     file = ReadDetections(layout_.detections, request_.detection_options);
@@ -183,10 +200,13 @@ void Loader::AddDetections() {
   out_.warnings.insert(out_.warnings.end(), file.warnings.begin(), file.warnings.end());
 
   for (auto& [frame, detections] : file.by_frame) {
-    if (static_cast<std::size_t>(frame) >= frames_in_file_) out_.rows_beyond_end += static_cast<int>(detections.size());
-    if (static_cast<std::size_t>(frame) < out_.frames.size()) out_.frames[frame].detections = std::move(detections);
+    if (static_cast<std::size_t>(frame) >= frames_in_file_)
+      out_.rows_beyond_end += static_cast<int>(detections.size());
+    if (static_cast<std::size_t>(frame) < out_.frames.size())
+      out_.frames[frame].detections = std::move(detections);
   }
-  if (file.by_frame.empty()) Warn(layout_.detections + " holds no detections that can be used: the map will be empty");
+  if (file.by_frame.empty())
+    Warn(layout_.detections + " holds no detections that can be used: the map will be empty");
   if (out_.rows_beyond_end > 0) {
     Warn(layout_.detections + ": dropped " + std::to_string(out_.rows_beyond_end) +
          " detections of frames after the last pose (" + std::to_string(frames_in_file_ - 1) + ")");
@@ -200,8 +220,9 @@ int Loader::AddVectors(const std::string& path, std::vector<float> Detection::*v
   const NpyMatrix matrix = ReadNpy(path);
   if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
     throw Error(ErrorKind::kBadInput, {path},
-                "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections + " has " +
-                    std::to_string(out_.rows_read) + ": one row a detection row is needed");
+                "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections +
+                    " has " + std::to_string(out_.rows_read) +
+                    ": one row a detection row is needed");
   }
   int unusable = 0;
   for (Frame& frame : out_.frames) {
@@ -222,7 +243,8 @@ int Loader::AddVectors(const std::string& path, std::vector<float> Detection::*v
 
 void Loader::AddAppearance() {
   if (const int unusable = AddVectors(layout_.embeddings, &Detection::embedding)) {
-    Warn(layout_.embeddings + ": left out " + std::to_string(unusable) + " embedding(s) that are zero or not finite");
+    Warn(layout_.embeddings + ": left out " + std::to_string(unusable) +
+         " embedding(s) that are zero or not finite");
   }
   // A gap would be filled from the image, with a vector of another kind.
   if (const int unusable = AddVectors(layout_.colours, &Detection::colour)) {
@@ -250,19 +272,22 @@ void Loader::CheckLabels() {
 void Loader::AddGroundtruth() {
   if (layout_.groundtruth.empty()) return;
   if (request_.groundtruth.empty() && IsOxts(layout_.groundtruth) && !calibration_.HasImu()) {
-    Warn(layout_.groundtruth + ": not used as ground truth, the calibration does not lead from IMU to camera");
+    Warn(layout_.groundtruth +
+         ": not used as ground truth, the calibration does not lead from IMU to camera");
     return;
   }
   PoseFile file = ReadPoses(layout_.groundtruth, calibration_);
   Trajectory& trajectory = file.trajectory;
   if (file.format == PoseFormat::kKitti) {
     if (trajectory.size() != frames_in_file_) {
-      Warn(layout_.groundtruth + ": " + std::to_string(trajectory.size()) + " ground-truth poses for " +
-           std::to_string(frames_in_file_) + " frames; row i is taken as frame i");
+      Warn(layout_.groundtruth + ": " + std::to_string(trajectory.size()) +
+           " ground-truth poses for " + std::to_string(frames_in_file_) +
+           " frames; row i is taken as frame i");
     }
     trajectory.poses.resize(std::min(trajectory.size(), out_.frames.size()));
     trajectory.stamps.clear();
-    for (std::size_t i = 0; i < trajectory.size(); ++i) trajectory.stamps.push_back(out_.frames[i].stamp);
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
+      trajectory.stamps.push_back(out_.frames[i].stamp);
   }
   out_.groundtruth = std::move(trajectory);
   out_.groundtruth_path = layout_.groundtruth;
@@ -270,7 +295,9 @@ void Loader::AddGroundtruth() {
 
 }  // namespace
 
-const char* ToString(DatasetFormat format) { return kFormatNames[static_cast<std::size_t>(format)]; }
+const char* ToString(DatasetFormat format) {
+  return kFormatNames[static_cast<std::size_t>(format)];
+}
 
 std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text) {
   for (std::size_t i = 0; i < kFormatNames.size(); ++i) {

@@ -16,7 +16,9 @@ constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
 
 constexpr ImageSize kKittiTracking = {1242, 375};  // a few sequences are some pixels off
 
-std::string Text(const ImageSize& size) { return std::to_string(size[0]) + "x" + std::to_string(size[1]); }
+std::string Text(const ImageSize& size) {
+  return std::to_string(size[0]) + "x" + std::to_string(size[1]);
+}
 
 /// What most of the first few images have, since one of them may be broken; 0: none says.
 ImageSize SizeOfImages(const std::vector<Frame>& frames) {
@@ -63,7 +65,8 @@ int FramesOfImages(const std::string& folder) {
 
 int ImagesAfter(const DatasetLayout& layout, std::size_t frames) {
   int count = 0;
-  while (!ImageOf(layout.images, layout.image_digits, static_cast<int>(frames) + count).empty()) ++count;
+  while (!ImageOf(layout.images, layout.image_digits, static_cast<int>(frames) + count).empty())
+    ++count;
   return count;
 }
 
@@ -76,13 +79,14 @@ void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& d
   ImageSize size = SizeOfImages(dataset.frames);
   if (given[0] > 0 && size[0] > 0 && given != size)
     throw Error(ErrorKind::kBadInput, {layout.sequence_yaml},
-                "image_size_px is " + Text(given) + ", but the images in " + layout.images + " are " + Text(size) +
-                    ": take it out if calib.txt is theirs");
+                "image_size_px is " + Text(given) + ", but the images in " + layout.images +
+                    " are " + Text(size) + ": take it out if calib.txt is theirs");
   if (size[0] == 0) size = given;
   if (size[0] == 0 && layout.format == DatasetFormat::kKittiTracking) size = kKittiTracking;
   if (layout.odometry.empty()) {  // a stamp is no frame
-    const auto last = std::find_if(dataset.frames.rbegin(), dataset.frames.rend(),
-                                   [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });
+    const auto last = std::find_if(
+        dataset.frames.rbegin(), dataset.frames.rend(),
+        [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });
     const auto frames = static_cast<std::size_t>(dataset.frames.rend() - last);
     if (frames > 0 && frames < dataset.frames.size()) {
       dataset.warnings.push_back(layout.times + ": " + std::to_string(dataset.frames.size()) +

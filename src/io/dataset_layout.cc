@@ -32,14 +32,16 @@ constexpr std::array<ImagePair, 3> kImagePairs = {{{"/image_2", "/image_3", Came
                                                    {"/image_l", "/image_r", CameraPair::kGrey}}};
 
 bool HasImages(const std::string& folder) {
-  return IsFolder(folder) && (!NumberedFiles(folder, ".png").empty() || !NumberedFiles(folder, ".jpg").empty());
+  return IsFolder(folder) &&
+         (!NumberedFiles(folder, ".png").empty() || !NumberedFiles(folder, ".jpg").empty());
 }
 
 bool LooksLikeSequence(const std::string& folder) {
   const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
   return std::any_of(kImagePairs.begin(), kImagePairs.end(),
                      [&](const ImagePair& pair) { return IsFolder(folder + pair.left); }) ||
-         std::any_of(names.begin(), names.end(), [&](const char* name) { return IsFile(folder + "/" + name); });
+         std::any_of(names.begin(), names.end(),
+                     [&](const char* name) { return IsFile(folder + "/" + name); });
 }
 bool LooksLikeRaw(const std::string& folder) {
   return IsFolder(folder + "/oxts/data") || IsFile(folder + "/tracklet_labels.xml");
@@ -55,8 +57,10 @@ DatasetFormat Guess(const std::string& root) {
   if (LooksLikeRaw(root)) return DatasetFormat::kKittiRaw;
   if (LooksLikeTracking(root)) return DatasetFormat::kKittiTracking;
   std::string message =
-      "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, detections.txt, "
-      "sequence.yaml, image_2/, image_0/ or image_l/), KITTI odometry (sequences/), KITTI raw drive (oxts/data/ or "
+      "not a dataset folder that is known. Looked for: sequence folder (times.txt, odometry.txt, "
+      "detections.txt, "
+      "sequence.yaml, image_2/, image_0/ or image_l/), KITTI odometry (sequences/), KITTI raw "
+      "drive (oxts/data/ or "
       "tracklet_labels.xml), "
       "KITTI tracking (calib/ or label_02/)";
   std::vector<std::string> inside;
@@ -69,16 +73,21 @@ DatasetFormat Guess(const std::string& root) {
 }
 
 /// Checks `wanted` against what there is; an empty one stands for the only one.
-std::string ChooseSequence(const std::string& root, const std::string& wanted, const std::set<std::string>& available) {
+std::string ChooseSequence(const std::string& root, const std::string& wanted,
+                           const std::set<std::string>& available) {
   if (available.count(wanted) > 0) return wanted;
   const std::string list = Join({available.begin(), available.end()});
-  if (!wanted.empty()) throw Error(ErrorKind::kBadInput, {root}, "no sequence '" + wanted + "'; there are: " + list);
-  if (available.size() != 1) throw Error(ErrorKind::kUsage, {root}, "name a sequence (--sequence); there are: " + list);
+  if (!wanted.empty())
+    throw Error(ErrorKind::kBadInput, {root}, "no sequence '" + wanted + "'; there are: " + list);
+  if (available.size() != 1)
+    throw Error(ErrorKind::kUsage, {root}, "name a sequence (--sequence); there are: " + list);
   return *available.begin();
 }
 
-/// A path of the request: relative to the dataset or to the current folder; in a folder, the sequence's file.
-std::string Resolve(const std::string& root, const std::string& path, const std::string& sequence, const char* what) {
+/// A path of the request: relative to the dataset or to the current folder; in a folder, the
+/// sequence's file.
+std::string Resolve(const std::string& root, const std::string& path, const std::string& sequence,
+                    const char* what) {
   for (const std::string& candidate : {(std::filesystem::path(root) / path).string(), path}) {
     if (IsFile(candidate)) return candidate;
     if (!IsFolder(candidate)) continue;
@@ -98,9 +107,10 @@ std::string Resolve(const std::string& root, const std::string& path, const std:
                                         " nor in the current folder: check the path");
 }
 
-/// Paths "folder/SEQUENCE.txt" whose first row could be a pose (or else a detection), to choose from. Ground truth is
-/// not offered.
-std::vector<std::string> Candidates(const std::string& root, const std::string& sequence, bool poses) {
+/// Paths "folder/SEQUENCE.txt" whose first row could be a pose (or else a detection), to choose
+/// from. Ground truth is not offered.
+std::vector<std::string> Candidates(const std::string& root, const std::string& sequence,
+                                    bool poses) {
   std::vector<std::string> found;
   for (const std::string& folder : FileNames(root)) {
     const std::string kind = folder.substr(0, 4);
@@ -125,9 +135,10 @@ DatasetLayout SequenceLayout(const std::string& folder) {
   layout.sequence_yaml = IfFile(folder + "/sequence.yaml");
   layout.embeddings = IfFile(folder + "/embeddings.npy");
   layout.colours = IfFile(folder + "/colours.npy");
-  const auto complete = std::find_if(kImagePairs.begin(), kImagePairs.end(), [&](const ImagePair& pair) {
-    return HasImages(folder + pair.left) && HasImages(folder + pair.right);
-  });
+  const auto complete =
+      std::find_if(kImagePairs.begin(), kImagePairs.end(), [&](const ImagePair& pair) {
+        return HasImages(folder + pair.left) && HasImages(folder + pair.right);
+      });
   const ImagePair& pair = complete == kImagePairs.end() ? kImagePairs[0] : *complete;
   layout.images = IfFolder(folder + pair.left);
   layout.images_right = IfFolder(folder + pair.right);
@@ -178,9 +189,10 @@ DatasetLayout RawLayout(const std::string& root) {
   return layout;
 }
 
-[[noreturn]] void FailMissing(const std::string& root, const DatasetLayout& layout, const char* what, bool poses,
-                              PartPolicy policy) {
-  std::string message = std::string("no ") + what + " here for '" + layout.name + "': name a file (--" + what + ")";
+[[noreturn]] void FailMissing(const std::string& root, const DatasetLayout& layout,
+                              const char* what, bool poses, PartPolicy policy) {
+  std::string message =
+      std::string("no ") + what + " here for '" + layout.name + "': name a file (--" + what + ")";
   if (layout.format == DatasetFormat::kKittiTracking) {
     message += "; there are: " + Join(Candidates(root, layout.name, poses));
   } else if (layout.format == DatasetFormat::kKittiRaw) {
@@ -189,7 +201,8 @@ DatasetLayout RawLayout(const std::string& root) {
     message += poses ? " or add odometry.txt" : " or add detections.txt";
   }
   if (policy == PartPolicy::kIfThere)
-    message += "; or add left and right images (image_2, image_3; grey: image_0, image_1) to make it from";
+    message +=
+        "; or add left and right images (image_2, image_3; grey: image_0, image_1) to make it from";
   throw Error(ErrorKind::kBadInput, {root}, message);
 }
 
@@ -197,18 +210,23 @@ DatasetLayout RawLayout(const std::string& root) {
 
 DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
   std::string root = request.path;
-  if (!IsFolder(root)) throw Error(ErrorKind::kBadInput, {root}, "no such folder: check the path of the dataset");
+  if (!IsFolder(root))
+    throw Error(ErrorKind::kBadInput, {root}, "no such folder: check the path of the dataset");
   // The folder may hold several sequence folders or drives side by side.
   const std::string inner = root + "/" + request.sequence;
-  const bool is_inner = !request.sequence.empty() && (LooksLikeSequence(inner) || LooksLikeRaw(inner));
+  const bool is_inner =
+      !request.sequence.empty() && (LooksLikeSequence(inner) || LooksLikeRaw(inner));
   if (is_inner) root = inner;
 
-  const DatasetFormat format = request.format == DatasetFormat::kAuto ? Guess(root) : request.format;
-  const bool by_name = format == DatasetFormat::kKittiOdometry || format == DatasetFormat::kKittiTracking;
+  const DatasetFormat format =
+      request.format == DatasetFormat::kAuto ? Guess(root) : request.format;
+  const bool by_name =
+      format == DatasetFormat::kKittiOdometry || format == DatasetFormat::kKittiTracking;
   if (!by_name && !is_inner && !request.sequence.empty() && request.sequence != LastName(root)) {
     std::set<std::string> available;
     for (const std::string& name : FileNames(root)) {
-      if (LooksLikeSequence(root + "/" + name) || LooksLikeRaw(root + "/" + name)) available.insert(name);
+      if (LooksLikeSequence(root + "/" + name) || LooksLikeRaw(root + "/" + name))
+        available.insert(name);
     }
     ChooseSequence(root, request.sequence, available);  // throws
   }
@@ -230,10 +248,12 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
     layout.detections = layout.embeddings = layout.colours = "";
   else if (!request.detections.empty())
     layout.detections = Resolve(root, request.detections, sequence, "detections");
-  if (!request.groundtruth.empty()) layout.groundtruth = Resolve(root, request.groundtruth, sequence, "groundtruth");
+  if (!request.groundtruth.empty())
+    layout.groundtruth = Resolve(root, request.groundtruth, sequence, "groundtruth");
   const auto missing = [&layout](const std::string& path, PartPolicy policy) {
     const bool images = !layout.images.empty() && !layout.images_right.empty();
-    return path.empty() && policy != PartPolicy::kIgnored && !(policy == PartPolicy::kIfThere && images);
+    return path.empty() && policy != PartPolicy::kIgnored &&
+           !(policy == PartPolicy::kIfThere && images);
   };
   if (missing(layout.odometry, request.odometry_policy))
     FailMissing(root, layout, "odometry", true, request.odometry_policy);

@@ -12,8 +12,10 @@ namespace sslcd {
 struct DatasetLayout {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string name;
-  std::string odometry;     ///< pose file, or oxts packets (file or folder); empty only if made from the images
-  std::string detections;   ///< file or folder, or tracklet_labels.xml; empty only if made from the images
+  /// pose file, or oxts packets (file or folder); empty only if made from the images
+  std::string odometry;
+  /// file or folder, or tracklet_labels.xml; empty only if made from the images
+  std::string detections;
   std::string groundtruth;  ///< pose file or oxts packets
   std::string times;        ///< times.txt, or timestamps.txt of a raw drive
   std::string calib;        ///< calib.txt; for a raw drive the folder of calib_cam_to_cam.txt
@@ -23,8 +25,9 @@ struct DatasetLayout {
   int image_digits = 6;                      ///< in the images' names
 };
 
-/// Finds out the format and the parts. Throws Error when the folder is none of the known kinds, when the sequence is
-/// unknown or must be chosen, when a requested path does not exist, and when odometry or detections are missing.
+/// Finds out the format and the parts. Throws Error when the folder is none of the known kinds,
+/// when the sequence is unknown or must be chosen, when a requested path does not exist, and when
+/// odometry or detections are missing.
 DatasetLayout FindDatasetLayout(const DatasetRequest& request);
 
 }  // namespace sslcd

@@ -33,9 +33,9 @@ DetectionFormat Guess(const TextRows& row) {
     if (row.size() == 17 || row.size() == 18) return DetectionFormat::kKittiTracking;
   }
   row.Fail("not a detection row: found " + std::to_string(row.size()) +
-           (row.has_commas()
-                ? " columns with commas, expected 15 (AB3DMOT csv)"
-                : " columns, expected 15 or 16 (KITTI object), 17 or 18 (KITTI tracking) or an AB3DMOT csv"));
+           (row.has_commas() ? " columns with commas, expected 15 (AB3DMOT csv)"
+                             : " columns, expected 15 or 16 (KITTI object), 17 or 18 (KITTI "
+                               "tracking) or an AB3DMOT csv"));
 }
 
 std::string LabelOf(const TextRows& row, DetectionFormat format, int column) {
@@ -48,7 +48,8 @@ std::string LabelOf(const TextRows& row, DetectionFormat format, int column) {
   }
   std::string label(row.Text(column));
   if (ParseNumber(label))
-    row.Fail("expected a class name in column " + std::to_string(column + 1) + ", found '" + label + "'");
+    row.Fail("expected a class name in column " + std::to_string(column + 1) + ", found '" + label +
+             "'");
   return label;
 }
 
@@ -63,7 +64,8 @@ lie::SO3<double> RotationFromYaw(double rotation_y) {
 }
 
 /// None: the row cannot be used (not finite, or a size that is not positive).
-std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format, const Columns& columns) {
+std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
+                                  const Columns& columns) {
   bool finite = true;
   std::array<double, 18> value{};
   for (int i = 0; i < static_cast<int>(row.size()); ++i) {
@@ -77,8 +79,8 @@ std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format, c
   if (detection.label != "DontCare" && !(finite && h > 0 && w > 0 && l > 0)) return std::nullopt;
   const double* location = &value[columns.location];
   detection.dims = Vec3(l, w, h);
-  detection.T_cam_object =
-      Pose(RotationFromYaw(value[columns.yaw]), Vec3(location[0], location[1] - h / 2, location[2]));
+  detection.T_cam_object = Pose(RotationFromYaw(value[columns.yaw]),
+                                Vec3(location[0], location[1] - h / 2, location[2]));
   const double* box = &value[columns.box];
   const Box2d box_2d{box[0], box[1], box[2], box[3]};
   if (box_2d.Area() > 0) detection.box = box_2d;
@@ -119,7 +121,8 @@ void Reader::CheckLayout(const TextRows& row, int frame) {
   if (row.size() != row_size_ || row.has_commas() != is_csv) {
     row.Fail("found " + std::to_string(row.size()) + " columns " +
              (row.has_commas() ? "with commas" : "without commas") + ", the rows before have " +
-             std::to_string(row_size_) + " (" + ToString(out_.format) + "): complete or remove the row");
+             std::to_string(row_size_) + " (" + ToString(out_.format) +
+             "): complete or remove the row");
   }
 }
 
@@ -155,7 +158,8 @@ void Reader::ReadFile(const std::string& path, int frame) {
 }
 
 DetectionFile Reader::Finish() {
-  out_.logits = options_.score == ScoreKind::kLogit || (options_.score == ScoreKind::kAuto && outside_unit_);
+  out_.logits =
+      options_.score == ScoreKind::kLogit || (options_.score == ScoreKind::kAuto && outside_unit_);
   const bool has_scores = ColumnsOf(out_.format, row_size_).score >= 0;
   if (out_.logits && has_scores) {
     for (auto& [frame, detections] : out_.by_frame) {
@@ -163,8 +167,9 @@ DetectionFile Reader::Finish() {
     }
   }
   if (out_.dropped > 0) {
-    out_.warnings.push_back(first_dropped_ + ": dropped " + std::to_string(out_.dropped) +
-                            " detection(s), this the first: a value is not finite or a size not positive");
+    out_.warnings.push_back(
+        first_dropped_ + ": dropped " + std::to_string(out_.dropped) +
+        " detection(s), this the first: a value is not finite or a size not positive");
   }
   return std::move(out_);
 }
@@ -190,7 +195,8 @@ DetectionFile ReadDetections(const std::string& path, const DetectionReadOptions
   Reader reader(options);
   if (IsFolder(path)) {
     const std::vector<NumberedFile> files = NumberedFiles(path, ".txt");
-    if (files.empty()) throw Error(ErrorKind::kBadInput, {path}, "no files named by frame number (000000.txt, ...)");
+    if (files.empty())
+      throw Error(ErrorKind::kBadInput, {path}, "no files named by frame number (000000.txt, ...)");
     for (const NumberedFile& file : files) reader.ReadFile(file.path, file.number);
   } else {
     reader.ReadFile(path, -1);

@@ -29,13 +29,17 @@ std::vector<NumberedFile> NumberedFiles(const std::string& folder, const std::st
     int number = 0;
     const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
     const bool is_number = error == std::errc() && end == stem.data() + stem.size() && number >= 0;
-    if (is_number && path.extension() == extension) files.push_back({number, (fs::path(folder) / name).string()});
+    if (is_number && path.extension() == extension)
+      files.push_back({number, (fs::path(folder) / name).string()});
   }
-  const auto by_number = [](const NumberedFile& a, const NumberedFile& b) { return a.number < b.number; };
+  const auto by_number = [](const NumberedFile& a, const NumberedFile& b) {
+    return a.number < b.number;
+  };
   std::sort(files.begin(), files.end(), by_number);
   for (std::size_t i = 1; i < files.size(); ++i) {
     if (files[i].number == files[i - 1].number) {
-      throw Error(ErrorKind::kBadInput, {files[i].path}, "is the same number as " + files[i - 1].path + ": remove one");
+      throw Error(ErrorKind::kBadInput, {files[i].path},
+                  "is the same number as " + files[i - 1].path + ": remove one");
     }
   }
   return files;

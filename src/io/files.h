@@ -11,8 +11,8 @@ struct NumberedFile {
   std::string path;
 };
 
-/// The files of a folder whose name is a number and `extension` (".txt"), by number. Throws Error when the folder
-/// cannot be read or when two names are the same number (7.txt, 000007.txt).
+/// The files of a folder whose name is a number and `extension` (".txt"), by number. Throws Error
+/// when the folder cannot be read or when two names are the same number (7.txt, 000007.txt).
 std::vector<NumberedFile> NumberedFiles(const std::string& folder, const std::string& extension);
 
 /// Names in a folder, sorted; empty when there is no such folder.

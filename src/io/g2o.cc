@@ -19,13 +19,14 @@ using Information = Eigen::Matrix<double, 6, 6>;
 
 void ExpectNumbers(const TextRows& row, std::size_t ids, std::size_t numbers) {
   if (row.size() == 1 + ids + numbers) return;
-  row.Fail(std::string(row.Text(0)) + ": expected " + std::to_string(ids + numbers) + " fields after it, found " +
-           std::to_string(row.size() - 1));
+  row.Fail(std::string(row.Text(0)) + ": expected " + std::to_string(ids + numbers) +
+           " fields after it, found " + std::to_string(row.size() - 1));
 }
 
 double FiniteNumber(const TextRows& row, std::size_t column) {
   const double value = row.Number(column);
-  if (!std::isfinite(value)) row.Fail("column " + std::to_string(column + 1) + " is not finite: mend or drop the row");
+  if (!std::isfinite(value))
+    row.Fail("column " + std::to_string(column + 1) + " is not finite: mend or drop the row");
   return value;
 }
 
@@ -47,8 +48,10 @@ Pose ReadSe2(const TextRows& row, std::size_t column) {
   return Pose(lie::SO3<double>::RotZ(FiniteNumber(row, column + 2)), t);
 }
 
-// The upper triangle of a matrix over the given components of [tx ty tz rx ry rz]; the others keep a fixed value.
-Information ReadInformation(const TextRows& row, std::size_t column, const std::vector<int>& components) {
+// The upper triangle of a matrix over the given components of [tx ty tz rx ry rz]; the others keep
+// a fixed value.
+Information ReadInformation(const TextRows& row, std::size_t column,
+                            const std::vector<int>& components) {
   Information information = kLiftedInformation * Information::Identity();
   for (std::size_t i = 0; i < components.size(); ++i) {
     for (std::size_t j = i; j < components.size(); ++j) {
@@ -57,7 +60,9 @@ Information ReadInformation(const TextRows& row, std::size_t column, const std::
     }
   }
   if (Eigen::LLT<Information>(information).info() != Eigen::Success) {
-    row.Fail("the information matrix is not positive definite: check its order (upper triangle, row by row)");
+    row.Fail(
+        "the information matrix is not positive definite: check its order (upper triangle, row by "
+        "row)");
   }
   return information;
 }
@@ -74,8 +79,8 @@ struct Reader {
     const int id = row.Integer(1);
     const auto [earlier, is_new] = vertex_rows.emplace(id, row.where());
     if (!is_new) {
-      row.Fail("vertex " + std::to_string(id) + " was given before, in line " + std::to_string(earlier->second.line) +
-               ": drop one of the rows");
+      row.Fail("vertex " + std::to_string(id) + " was given before, in line " +
+               std::to_string(earlier->second.line) + ": drop one of the rows");
     }
     file.graph.vertices.push_back({id, planar ? ReadSe2(row, 2) : ReadSe3(row, 2)});
   }
@@ -85,9 +90,11 @@ struct Reader {
     PoseGraph::Edge edge;
     edge.from = row.Integer(1);
     edge.to = row.Integer(2);
-    if (edge.from == edge.to) row.Fail("the edge leads from vertex " + std::to_string(edge.from) + " to itself");
+    if (edge.from == edge.to)
+      row.Fail("the edge leads from vertex " + std::to_string(edge.from) + " to itself");
     edge.T_from_to = planar ? ReadSe2(row, 3) : ReadSe3(row, 3);
-    edge.information = planar ? ReadInformation(row, 6, {0, 1, 5}) : ReadInformation(row, 10, {0, 1, 2, 3, 4, 5});
+    edge.information =
+        planar ? ReadInformation(row, 6, {0, 1, 5}) : ReadInformation(row, 10, {0, 1, 2, 3, 4, 5});
     file.graph.edges.push_back(edge);
     edge_rows.push_back(row.where());
   }
@@ -113,8 +120,9 @@ struct Reader {
     for (std::size_t e = 0; e < edge_rows.size(); ++e) {
       for (const int id : {file.graph.edges[e].from, file.graph.edges[e].to}) {
         if (vertex_rows.count(id) > 0) continue;
-        throw Error(ErrorKind::kBadInput, edge_rows[e],
-                    "vertex " + std::to_string(id) + " has no VERTEX row: add one, or drop the edge");
+        throw Error(
+            ErrorKind::kBadInput, edge_rows[e],
+            "vertex " + std::to_string(id) + " has no VERTEX row: add one, or drop the edge");
       }
     }
   }
@@ -125,19 +133,21 @@ struct Reader {
     for (const PoseGraph::Vertex& vertex : file.graph.vertices) ids.insert(vertex.id);
     for (const PoseGraph::Edge& edge : file.graph.edges) ids.insert({edge.from, edge.to});
     for (PoseGraph::Edge& edge : file.graph.edges)
-      edge.loop = *std::next(ids.find(std::min(edge.from, edge.to))) != std::max(edge.from, edge.to);
+      edge.loop =
+          *std::next(ids.find(std::min(edge.from, edge.to))) != std::max(edge.from, edge.to);
   }
 
   void Fix() {
     for (PoseGraph::Vertex& vertex : file.graph.vertices) vertex.fixed = fixed.erase(vertex.id) > 0;
     if (fixed.empty()) return;
     const auto& [id, where] = *fixed.begin();
-    throw Error(ErrorKind::kBadInput, where, "FIX names vertex " + std::to_string(id) + ", which is not there");
+    throw Error(ErrorKind::kBadInput, where,
+                "FIX names vertex " + std::to_string(id) + ", which is not there");
   }
 };
 
-// Vertices of a file that has none: from the lowest id of each part outwards, over loops only where odometry leads
-// nowhere new.
+// Vertices of a file that has none: from the lowest id of each part outwards, over loops only where
+// odometry leads nowhere new.
 std::vector<PoseGraph::Vertex> VerticesFromEdges(const PoseGraph& graph) {
   struct Step {
     int id = 0;
@@ -158,7 +168,8 @@ std::vector<PoseGraph::Vertex> VerticesFromEdges(const PoseGraph& graph) {
       queue.pop_front();
       if (!placed.emplace(at.id, at.pose).second) continue;
       for (const Step& step : steps[at.id])
-        if (!placed.count(step.id)) (step.loop ? loops : odometry).push_back({step.id, at.pose * step.pose, step.loop});
+        if (!placed.count(step.id))
+          (step.loop ? loops : odometry).push_back({step.id, at.pose * step.pose, step.loop});
     }
   }
   std::vector<PoseGraph::Vertex> vertices;

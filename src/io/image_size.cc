@@ -25,7 +25,8 @@ ImageSize ReadImageSize(const std::string& path) {
     int marker = byte();
     while (marker == 0xFF) marker = byte();
     const int length = number(2);
-    const bool frame = marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    const bool frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (frame) {
       byte();  // bits
       const int height = number(2), width = number(2);

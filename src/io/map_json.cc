@@ -53,7 +53,8 @@ class Reader {
   void Numbers(const YAML::Node& parent, const char* key, int size, Out out) const {
     const YAML::Node list = Child(parent, key);
     if (!list.IsSequence() || static_cast<int>(list.size()) != size)
-      Fail(list, "'" + std::string(key) + "' must be a list of " + std::to_string(size) + " numbers");
+      Fail(list,
+           "'" + std::string(key) + "' must be a list of " + std::to_string(size) + " numbers");
     for (int i = 0; i < size; ++i) out[i] = Number(list[i]);
   }
 
@@ -63,8 +64,8 @@ class Reader {
     object.label = Child(node, "label").Scalar();
     const YAML::Node state = Child(node, "state");
     bool known = false;
-    for (const LandmarkState s :
-         {LandmarkState::kTentative, LandmarkState::kConfirmed, LandmarkState::kDynamic, LandmarkState::kStale}) {
+    for (const LandmarkState s : {LandmarkState::kTentative, LandmarkState::kConfirmed,
+                                  LandmarkState::kDynamic, LandmarkState::kStale}) {
       if (state.Scalar() != ToString(s)) continue;
       object.state = s;
       known = true;
@@ -76,8 +77,10 @@ class Reader {
     object.T_world_object.normalise();
     Numbers(node, "dimensions_lwh", 3, object.dims.data());
     for (const YAML::Node& pair : Child(node, "observations")) {
-      if (!pair.IsSequence() || pair.size() != 2) Fail(pair, "an observation is a pair [frame, detection_row]");
-      object.observations.push_back({static_cast<int>(Number(pair[0])), static_cast<int>(Number(pair[1]))});
+      if (!pair.IsSequence() || pair.size() != 2)
+        Fail(pair, "an observation is a pair [frame, detection_row]");
+      object.observations.push_back(
+          {static_cast<int>(Number(pair[0])), static_cast<int>(Number(pair[1]))});
     }
     return object;
   }
@@ -89,7 +92,8 @@ class Reader {
 }  // namespace
 
 std::string MapJson(const MapFile& map) {
-  std::string text = "{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":" + List(map.up_axis, 3) + ",\"objects\":[";
+  std::string text = "{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":" + List(map.up_axis, 3) +
+                     ",\"objects\":[";
   bool first = true;
   for (const MapObject& object : map.objects) {
     text += (first ? "\n" : ",\n") + std::string("{\"id\":") + std::to_string(object.id.value);
@@ -114,12 +118,15 @@ MapFile ReadMapJson(const std::string& path) {
     throw Error(ErrorKind::kBadInput, {path, problem.mark.line + 1, problem.mark.column + 1},
                 "not JSON: " + problem.msg);
   }
-  if (reader.Child(root, "format").Scalar() != "sslcd-map") reader.Fail(root, "this is not an sslcd map");
+  if (reader.Child(root, "format").Scalar() != "sslcd-map")
+    reader.Fail(root, "this is not an sslcd map");
   if (reader.Number(reader.Child(root, "version")) != 1)
-    reader.Fail(root, "version " + root["version"].Scalar() + " of the map format; this program reads version 1");
+    reader.Fail(root, "version " + root["version"].Scalar() +
+                          " of the map format; this program reads version 1");
   MapFile map;
   reader.Numbers(root, "up_axis", 3, map.up_axis.data());
-  for (const YAML::Node& object : reader.Child(root, "objects")) map.objects.push_back(reader.Object(object));
+  for (const YAML::Node& object : reader.Child(root, "objects"))
+    map.objects.push_back(reader.Object(object));
   return map;
 }
 

@@ -14,7 +14,8 @@ namespace {
 constexpr std::string_view kMagic = "\x93NUMPY";
 
 [[noreturn]] void Fail(const std::string& path, const std::string& message) {
-  throw Error(ErrorKind::kBadInput, {path}, message + "; save it as np.save(path, np.ascontiguousarray(x, '<f4'))");
+  throw Error(ErrorKind::kBadInput, {path},
+              message + "; save it as np.save(path, np.ascontiguousarray(x, '<f4'))");
 }
 
 /// What follows "'key':" in the header, which is the text of a Python dict.
@@ -38,15 +39,17 @@ void ParseShape(const std::string& path, std::string_view text, NpyMatrix& matri
     at = error == std::errc() ? end : at + 1;
   }
   if (shape.size() != 2)
-    Fail(path, "expected an array of two dimensions, rows x dim, found " + std::to_string(shape.size()));
+    Fail(path,
+         "expected an array of two dimensions, rows x dim, found " + std::to_string(shape.size()));
   matrix.rows = shape[0], matrix.columns = shape[1];
 }
 
 template <class T>
 void CopyValues(const std::string& path, std::string_view data, NpyMatrix& matrix) {
   const std::size_t count = data.size() / sizeof(T);
-  const bool fits =
-      matrix.columns == 0 ? count == 0 : count / matrix.columns == matrix.rows && count % matrix.columns == 0;
+  const bool fits = matrix.columns == 0
+                        ? count == 0
+                        : count / matrix.columns == matrix.rows && count % matrix.columns == 0;
   if (!fits || data.size() % sizeof(T) != 0) {
     Fail(path, "the data do not fit the shape: the file is cut off or too long");
   }
@@ -63,9 +66,13 @@ void CopyValues(const std::string& path, std::string_view data, NpyMatrix& matri
 NpyMatrix ReadNpy(const std::string& path) {
   const std::string bytes = ReadFileBytes(path);
   std::string_view data = bytes;
-  if (data.size() < 10 || data.substr(0, kMagic.size()) != kMagic) Fail(path, "not a NumPy .npy file");
-  const auto byte = [&](std::size_t i) { return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i])); };
-  std::size_t start = 10, length = byte(8) | byte(9) << 8;  // version 1; later ones have four bytes of length
+  if (data.size() < 10 || data.substr(0, kMagic.size()) != kMagic)
+    Fail(path, "not a NumPy .npy file");
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
+  };
+  // version 1; later ones have four bytes of length
+  std::size_t start = 10, length = byte(8) | byte(9) << 8;
   if (byte(6) > 1 && data.size() >= 12) start = 12, length |= byte(10) << 16 | byte(11) << 24;
   if (byte(6) < 1 || byte(6) > 3 || length > data.size() - start)
     Fail(path, "unknown npy version, or the header is cut off");
@@ -88,13 +95,15 @@ NpyMatrix ReadNpy(const std::string& path) {
 }
 
 std::string NpyBytes(const NpyMatrix& matrix) {
-  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(matrix.rows) + ", " +
-                       std::to_string(matrix.columns) + "), }";
-  constexpr std::size_t kBefore = 10, kAlign = 64;  // as NumPy does, so that the data can be mapped into memory
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
+                       std::to_string(matrix.rows) + ", " + std::to_string(matrix.columns) + "), }";
+  // as NumPy does, so that the data can be mapped into memory
+  constexpr std::size_t kBefore = 10, kAlign = 64;
   header.append(kAlign - 1 - (kBefore + header.size()) % kAlign, ' ');
   header += '\n';
   std::string bytes(kMagic);
-  bytes += {'\x01', '\0', static_cast<char>(header.size() & 255), static_cast<char>(header.size() >> 8)};
+  bytes +=
+      {'\x01', '\0', static_cast<char>(header.size() & 255), static_cast<char>(header.size() >> 8)};
   bytes += header;
   const std::size_t start = bytes.size(), size = matrix.values.size() * sizeof(float);
   bytes.resize(start + size);

@@ -15,8 +15,9 @@ inline std::string ShortestNumber(double value) {
 /// With a fixed number of decimals; never "-0.000".
 inline std::string FixedNumber(double value, int decimals) {
   char buffer[400];
-  std::string text(buffer,
-                   std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr);
+  std::string text(
+      buffer,
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
 }

@@ -23,7 +23,8 @@ Vec3 FinitePoint(const TextRows& row, std::size_t column) {
 }
 
 void ExpectColumns(const TextRows& row, std::size_t columns, const char* layout) {
-  if (row.size() != columns) row.Fail("found " + std::to_string(row.size()) + " columns, expected '" + layout + "'");
+  if (row.size() != columns)
+    row.Fail("found " + std::to_string(row.size()) + " columns, expected '" + layout + "'");
 }
 
 LayoutObject ParseObject(const TextRows& row) {
@@ -46,8 +47,9 @@ void ExpectComplete(const LayoutPair& pair, const Counts& promised) {
   const auto check = [&](std::size_t found, int expected, const char* kind) {
     if (found != static_cast<std::size_t>(expected))
       throw Error(ErrorKind::kBadInput, promised.where,
-                  "pair " + std::to_string(pair.id) + " announces " + std::to_string(expected) + " " + kind +
-                      " rows, but has " + std::to_string(found) + ": is the file cut short?");
+                  "pair " + std::to_string(pair.id) + " announces " + std::to_string(expected) +
+                      " " + kind + " rows, but has " + std::to_string(found) +
+                      ": is the file cut short?");
   };
   check(pair.local.size(), promised.local, "L");
   check(pair.global.size(), promised.global, "G");
@@ -84,7 +86,8 @@ std::vector<LayoutPair> ReadLayoutPairs(const std::string& path) {
     }
   }
   if (pairs.empty())
-    throw Error(ErrorKind::kBadInput, {path}, "holds no pair: expected 'PAIR id scene n_local n_global yaw tx ty tz'");
+    throw Error(ErrorKind::kBadInput, {path},
+                "holds no pair: expected 'PAIR id scene n_local n_global yaw tx ty tz'");
   ExpectComplete(pairs.back(), promised);
   return pairs;
 }

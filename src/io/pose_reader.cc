@@ -14,7 +14,8 @@ PoseFormat Guess(const TextRows& row) {
   if (!row.has_commas() && row.size() == 12) return PoseFormat::kKitti;
   if (!row.has_commas() && row.size() == 8) return PoseFormat::kTum;
   row.Fail("not a pose row: found " + std::to_string(row.size()) +
-           " columns, expected 8 (TUM: t x y z qx qy qz qw), 12 (KITTI: 3x4 matrix) or a VINS-Fusion csv");
+           " columns, expected 8 (TUM: t x y z qx qy qz qw), 12 (KITTI: 3x4 matrix) or a "
+           "VINS-Fusion csv");
 }
 
 Pose PoseFromKitti(const TextRows& row) {
@@ -22,7 +23,9 @@ Pose PoseFromKitti(const TextRows& row) {
   for (int i = 0; i < 12; ++i) M(i / 4, i % 4) = row.Number(i);
   const std::optional<Pose> pose = RigidFromMatrix(M.leftCols<3>(), M.col(3));
   if (!pose)
-    row.Fail("the 3x4 matrix is no rigid transform (NaN, mirrored, or R^T R is not the identity): mend the row");
+    row.Fail(
+        "the 3x4 matrix is no rigid transform (NaN, mirrored, or R^T R is not the identity): mend "
+        "the row");
   return *pose;
 }
 
@@ -32,7 +35,9 @@ Pose PoseFromQuaternion(const TextRows& row, int w) {
   const Vec3 t(row.Number(1), row.Number(2), row.Number(3));
   const Eigen::Quaterniond q(row.Number(w), row.Number(x), row.Number(x + 1), row.Number(x + 2));
   if (!t.allFinite() || !(std::abs(q.norm() - 1) <= kRotationTolerance)) {
-    row.Fail("the pose is not finite or its quaternion not of unit length: mend the row, or check the column order");
+    row.Fail(
+        "the pose is not finite or its quaternion not of unit length: mend the row, or check the "
+        "column order");
   }
   return Pose::FromQuaternionTranslation(q, t);
 }
@@ -40,7 +45,8 @@ Pose PoseFromQuaternion(const TextRows& row, int w) {
 void CheckIncreasing(const TextRows& row, const Trajectory& trajectory, double stamp) {
   if (!std::isfinite(stamp)) row.Fail("the stamp is not finite");
   if (!trajectory.stamps.empty() && !(stamp > trajectory.stamps.back())) {
-    row.Fail("stamp " + std::string(row.Text(0)) + " does not come after the one before: stamps must increase");
+    row.Fail("stamp " + std::string(row.Text(0)) +
+             " does not come after the one before: stamps must increase");
   }
 }
 
@@ -64,10 +70,13 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
   while (row.Next()) {
     if (file.format == PoseFormat::kAuto) file.format = Guess(row);
     if (columns == 0)
-      columns = file.format == PoseFormat::kTum ? 8 : file.format == PoseFormat::kKitti ? 12 : row.size();
+      columns = file.format == PoseFormat::kTum     ? 8
+                : file.format == PoseFormat::kKitti ? 12
+                                                    : row.size();
     if (row.size() != columns || columns < 8) {
       row.Fail("found " + std::to_string(row.size()) + " columns, expected " +
-               std::to_string(std::max<std::size_t>(columns, 8)) + " (format " + ToString(file.format) + ")");
+               std::to_string(std::max<std::size_t>(columns, 8)) + " (format " +
+               ToString(file.format) + ")");
     }
     Pose pose;
     double stamp = static_cast<double>(stamps.size());
@@ -84,6 +93,8 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
   return file;
 }
 
-Trajectory ReadTrajectory(const std::string& path, PoseFormat format) { return ReadPoseFile(path, format).trajectory; }
+Trajectory ReadTrajectory(const std::string& path, PoseFormat format) {
+  return ReadPoseFile(path, format).trajectory;
+}
 
 }  // namespace sslcd

@@ -8,7 +8,8 @@ namespace sslcd {
 
 std::optional<Pose> RigidFromMatrix(const Eigen::Matrix3d& R, const Vec3& t) {
   if (!R.allFinite() || !t.allFinite()) return std::nullopt;
-  if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > kRotationTolerance || R.determinant() < 0) {
+  if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > kRotationTolerance ||
+      R.determinant() < 0) {
     return std::nullopt;
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);

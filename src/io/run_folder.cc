@@ -16,7 +16,8 @@ std::string PoseText(const Pose& T) {
   const double sign = q.w() < 0 ? -1. : 1.;
   std::string text;
   for (int i = 0; i < 3; ++i) text += FixedNumber(T.translation()[i], 9) + " ";
-  for (const double component : {q.x(), q.y(), q.z()}) text += FixedNumber(sign * component, 9) + " ";
+  for (const double component : {q.x(), q.y(), q.z()})
+    text += FixedNumber(sign * component, 9) + " ";
   return text + FixedNumber(sign * q.w(), 9);
 }
 
@@ -25,7 +26,8 @@ std::string Json(const std::optional<double>& value) {
 }
 
 /// Paths and contents.
-std::vector<std::pair<std::string, std::string>> FilesOf(const RunOutputs& outputs, const std::string& folder) {
+std::vector<std::pair<std::string, std::string>> FilesOf(const RunOutputs& outputs,
+                                                         const std::string& folder) {
   return {{folder + "/trajectory_tum.txt", TumText(outputs.trajectory)},
           {folder + "/trajectory_kitti.txt", KittiText(outputs.trajectory)},
           {folder + "/odometry_tum.txt", TumText(outputs.odometry)},
@@ -60,14 +62,16 @@ std::string KittiText(const Trajectory& trajectory) {
 std::string G2oText(const PoseGraph& graph) {
   std::string text;
   for (const auto& vertex : graph.vertices) {
-    text += "VERTEX_SE3:QUAT " + std::to_string(vertex.id) + " " + PoseText(vertex.T_world_vertex) + "\n";
+    text += "VERTEX_SE3:QUAT " + std::to_string(vertex.id) + " " + PoseText(vertex.T_world_vertex) +
+            "\n";
     if (vertex.fixed) text += "FIX " + std::to_string(vertex.id) + "\n";
   }
   for (const auto& edge : graph.edges) {
-    text +=
-        "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " + PoseText(edge.T_from_to);
+    text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " +
+            PoseText(edge.T_from_to);
     for (int row = 0; row < 6; ++row)
-      for (int column = row; column < 6; ++column) text += " " + ShortestNumber(edge.information(row, column));
+      for (int column = row; column < 6; ++column)
+        text += " " + ShortestNumber(edge.information(row, column));
     text += "\n";
   }
   return text;
@@ -75,7 +79,8 @@ std::string G2oText(const PoseGraph& graph) {
 
 std::string PlyText(const MapFile& map, const Trajectory& trajectory) {
   // Corner i of a cuboid: bit 0 front, bit 1 left, bit 2 top.
-  constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  constexpr int kFaces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   std::string vertices, faces;
   int count = 0, face_count = 0;
   for (const MapObject& object : map.objects) {
@@ -100,20 +105,24 @@ std::string PlyText(const MapFile& map, const Trajectory& trajectory) {
     ++count;
   }
   return "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+         "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty "
+         "uchar green\n"
          "property uchar blue\nelement face " +
-         std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + faces;
+         std::to_string(face_count) + "\nproperty list uchar int vertex_indices\nend_header\n" +
+         vertices + faces;
 }
 
 std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
   constexpr double kDegrees = 180 / M_PI;
   std::string text =
-      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
+      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,"
+      "ty,tz,qx,qy,qz,qw,"
       "pairs\n";
   for (const LoopClosure& loop : loops) {
-    text += std::to_string(loop.query_frame) + "," + std::to_string(loop.match_frame) + "," + ToString(loop.decision) +
-            "," + loop.reason + "," + FixedNumber(loop.score, 3) + "," + FixedNumber(loop.second_score, 3) + "," +
-            std::to_string(loop.pairs.size()) + "," + FixedNumber(loop.viewpoint_change_rad * kDegrees, 2);
+    text += std::to_string(loop.query_frame) + "," + std::to_string(loop.match_frame) + "," +
+            ToString(loop.decision) + "," + loop.reason + "," + FixedNumber(loop.score, 3) + "," +
+            FixedNumber(loop.second_score, 3) + "," + std::to_string(loop.pairs.size()) + "," +
+            FixedNumber(loop.viewpoint_change_rad * kDegrees, 2);
     std::string pose = PoseText(loop.T_match_query);
     std::replace(pose.begin(), pose.end(), ' ', ',');
     text += "," + pose + ",";
@@ -129,9 +138,9 @@ std::string TimingJson(const TimingTable& timing) {
   std::string text = "{";
   for (const auto& [stage, times] : timing.Summary()) {
     text += text.size() > 1 ? ",\n" : "\n";
-    text += "\"" + stage + "\":{\"count\":" + std::to_string(times.count) + ",\"mean_ms\":" + Json(times.mean) +
-            ",\"p50_ms\":" + Json(times.p50) + ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) +
-            "}";
+    text += "\"" + stage + "\":{\"count\":" + std::to_string(times.count) +
+            ",\"mean_ms\":" + Json(times.mean) + ",\"p50_ms\":" + Json(times.p50) +
+            ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) + "}";
   }
   return text + "\n}\n";
 }

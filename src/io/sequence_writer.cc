@@ -26,17 +26,17 @@ std::string Format(const char* format, Numbers... numbers) {
 /// Row "Pn: ..." of K [I | t].
 std::string CalibRow(int number, const Camera& camera) {
   const Vec3& offset = camera.offset;
-  const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(), camera.fy * offset.y() + camera.cy * offset.z(),
-                    offset.z());
-  return Format("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number, camera.fx, camera.cx, column.x(),
-                camera.fy, camera.cy, column.y(), column.z());
+  const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(),
+                    camera.fy * offset.y() + camera.cy * offset.z(), offset.z());
+  return Format("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number, camera.fx,
+                camera.cx, column.x(), camera.fy, camera.cy, column.y(), column.z());
 }
 
 std::string Calib(const StereoCamera& stereo) {
   StereoCamera at_reference = stereo;
   at_reference.left.offset.setZero();
-  return CalibRow(0, at_reference.left) + CalibRow(1, RightOf(at_reference)) + CalibRow(2, stereo.left) +
-         CalibRow(3, RightOf(stereo));
+  return CalibRow(0, at_reference.left) + CalibRow(1, RightOf(at_reference)) +
+         CalibRow(2, stereo.left) + CalibRow(3, RightOf(stereo));
 }
 
 std::string Times(const std::vector<double>& stamps) {
@@ -45,8 +45,8 @@ std::string Times(const std::vector<double>& stamps) {
   return text;
 }
 
-/// KITTI tracking: frame track label truncated occluded alpha, box, h w l, centre of the bottom face, rotation_y,
-/// score.
+/// KITTI tracking: frame track label truncated occluded alpha, box, h w l, centre of the bottom
+/// face, rotation_y, score.
 std::string DetectionRow(int frame, const Detection& detection) {
   const Box2d box = detection.box.value_or(Box2d{-1, -1, -1, -1});
   const Vec3& centre = detection.T_cam_object.translation();
@@ -54,30 +54,35 @@ std::string DetectionRow(int frame, const Detection& detection) {
   const double rotation_y = WrapAngle(-GravityFrame().YawOf(detection.T_cam_object.so3()));
   const double alpha = WrapAngle(rotation_y - std::atan2(centre.x(), centre.z()));
   const Vec3& d = detection.dims;
-  return Format("%d -1 %s -1 -1 %.4f %.2f %.2f %.2f %.2f %.4f %.4f %.4f %.4f %.4f %.4f %.5f %.3f\n", frame,
-                detection.label.c_str(), alpha, box.left, box.top, box.right, box.bottom, d.z(), d.y(), d.x(),
-                centre.x(), centre.y() + 0.5 * d.z(), centre.z(), rotation_y, detection.score);
+  return Format("%d -1 %s -1 -1 %.4f %.2f %.2f %.2f %.2f %.4f %.4f %.4f %.4f %.4f %.4f %.5f %.3f\n",
+                frame, detection.label.c_str(), alpha, box.left, box.top, box.right, box.bottom,
+                d.z(), d.y(), d.x(), centre.x(), centre.y() + 0.5 * d.z(), centre.z(), rotation_y,
+                detection.score);
 }
 
 std::string Rows(const Detections& detections) {
   std::string text;
   for (std::size_t frame = 0; frame < detections.size(); ++frame)
-    for (const Detection& detection : detections[frame]) text += DetectionRow(static_cast<int>(frame), detection);
+    for (const Detection& detection : detections[frame])
+      text += DetectionRow(static_cast<int>(frame), detection);
   return text;
 }
 
 std::string SequenceYaml(const SequenceFiles& files) {
   std::string text = files.comment.empty() ? "" : "# " + files.comment + "\n";
-  text += Format("up_axis: [%.9g, %.9g, %.9g]\n", files.up_axis.x(), files.up_axis.y(), files.up_axis.z());
+  text += Format("up_axis: [%.9g, %.9g, %.9g]\n", files.up_axis.x(), files.up_axis.y(),
+                 files.up_axis.z());
   if (files.camera && files.camera->left.width > 0)
-    text += Format("image_size_px: [%d, %d]\n", files.camera->left.width, files.camera->left.height);
+    text +=
+        Format("image_size_px: [%d, %d]\n", files.camera->left.width, files.camera->left.height);
   if (!files.labels.entries().empty()) text += "labels:\n";
   for (const auto& [label, info] : files.labels.entries())
     text += "  " + label + ": {symmetry: " + ToString(info.symmetry) + "}\n";
   return text;
 }
 
-/// One row a detection; empty where none has such a vector, or where all should have one and some have not.
+/// One row a detection; empty where none has such a vector, or where all should have one and some
+/// have not.
 std::string Npy(const Detections& detections, std::vector<float> Detection::*vector, bool all) {
   NpyMatrix matrix;
   bool gaps = false;
@@ -125,7 +130,8 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   for (const std::filesystem::path& path : removed) {
     std::error_code error;
     std::filesystem::remove(path, error);
-    if (error) throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
+    if (error)
+      throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
   }
 }
 
@@ -133,9 +139,13 @@ void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) 
   MakeWritableFolder(folder.string());
   std::error_code error;
   const bool empty = std::filesystem::is_empty(folder, error);
-  if (error) throw Error(ErrorKind::kOutput, folder.string() + ": " + error.message() + "; choose another folder");
+  if (error)
+    throw Error(ErrorKind::kOutput,
+                folder.string() + ": " + error.message() + "; choose another folder");
   if (!overwrite && !empty)
-    throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+    throw Error(
+        ErrorKind::kUsage,
+        folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
 }
 
 }  // namespace sslcd

@@ -37,7 +37,8 @@ class Reader {
     throw Error(ErrorKind::kBadInput, {path_, mark.line + 1, mark.column + 1}, message);
   }
 
-  /// A mapping with no key twice (yaml-cpp would keep both silently) and, unless `known` is empty, only known ones.
+  /// A mapping with no key twice (yaml-cpp would keep both silently) and, unless `known` is empty,
+  /// only known ones.
   void CheckKeys(const YAML::Node& node, const std::set<std::string>& known) const {
     if (!node.IsMap()) Fail(node.Mark(), "expected a mapping 'key: value'");
     std::string names;
@@ -60,16 +61,20 @@ class Reader {
   }
 
   Vec3 UpAxis(const YAML::Node& node) const {
-    if (!node.IsSequence() || node.size() != 3) Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
-    const Vec3 up(Number(node[0], "up_axis"), Number(node[1], "up_axis"), Number(node[2], "up_axis"));
-    if (!(up.allFinite() && up.norm() > 1e-6)) Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
+    if (!node.IsSequence() || node.size() != 3)
+      Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
+    const Vec3 up(Number(node[0], "up_axis"), Number(node[1], "up_axis"),
+                  Number(node[2], "up_axis"));
+    if (!(up.allFinite() && up.norm() > 1e-6))
+      Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
     return up.normalized();
   }
 
   void ReadImageSize(const YAML::Node& node, SequenceInfo& info) const {
     if (!node.IsSequence() || node.size() != 2)
       Fail(node.Mark(), "image_size_px: expected width and height, like [1242, 375]");
-    const double width = Number(node[0], "image_size_px"), height = Number(node[1], "image_size_px");
+    const double width = Number(node[0], "image_size_px"),
+                 height = Number(node[1], "image_size_px");
     for (const double side : {width, height})
       if (!(side >= 1 && side <= 1e5 && side == std::floor(side)))
         Fail(node.Mark(), "image_size_px: expected whole numbers of pixels, like [1242, 375]");

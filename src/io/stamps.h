@@ -18,7 +18,9 @@ double MedianStep(const std::vector<double>& stamps);
 /// A sentence about the gaps of more than ten median steps, if there are any.
 std::optional<std::string> GapWarning(const std::vector<double>& stamps);
 
-/// The pose nearest to each stamp. Throws Error naming the first stamp that has none within half a median step.
-std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory, const std::string& path);
+/// The pose nearest to each stamp. Throws Error naming the first stamp that has none within half a
+/// median step.
+std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory,
+                          const std::string& path);
 
 }  // namespace sslcd

@@ -29,21 +29,25 @@ std::string ReadFileBytes(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) {
     throw Error(ErrorKind::kBadInput, {path}, "is a folder, expected a file");
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             &std::fclose);
   std::string bytes;
   if (file) {
     char block[1 << 16];
-    while (const std::size_t count = std::fread(block, 1, sizeof(block), file.get())) bytes.append(block, count);
+    while (const std::size_t count = std::fread(block, 1, sizeof(block), file.get()))
+      bytes.append(block, count);
   }
   if (!file || std::ferror(file.get()) != 0) {
     const std::string reason = std::strerror(errno);
-    throw Error(ErrorKind::kBadInput, {path}, "cannot be read (" + reason + "): check the path and its permissions");
+    throw Error(ErrorKind::kBadInput, {path},
+                "cannot be read (" + reason + "): check the path and its permissions");
   }
   return bytes;
 }
 
 std::optional<double> ParseNumber(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // from_chars knows no plus sign
+  // from_chars knows no plus sign
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
@@ -82,19 +86,23 @@ void TextRows::Split(std::string_view line) {
 double TextRows::Number(std::size_t column) const {
   const std::string_view text = Text(column);
   const std::optional<double> value = ParseNumber(text);
-  if (!value) Fail("column " + std::to_string(column + 1) + ": expected a number, found '" + std::string(text) + "'");
+  if (!value)
+    Fail("column " + std::to_string(column + 1) + ": expected a number, found '" +
+         std::string(text) + "'");
   return *value;
 }
 
 int TextRows::Integer(std::size_t column) const {
   const double value = Number(column);
   if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value)) {
-    Fail("column " + std::to_string(column + 1) + ": expected a whole number, found '" + std::string(Text(column)) +
-         "'");
+    Fail("column " + std::to_string(column + 1) + ": expected a whole number, found '" +
+         std::string(Text(column)) + "'");
   }
   return static_cast<int>(value);
 }
 
-void TextRows::Fail(const std::string& message) const { throw Error(ErrorKind::kBadInput, where(), message); }
+void TextRows::Fail(const std::string& message) const {
+  throw Error(ErrorKind::kBadInput, where(), message);
+}
 
 }  // namespace sslcd

@@ -18,7 +18,8 @@ class Reader {
     const XmlElement document = ReadXml(path_);
     const XmlElement* root = document.Find("boost_serialization");
     if (root == nullptr)
-      throw Error(ErrorKind::kBadInput, {path_, 1}, "not a KITTI tracklet file: no <boost_serialization>");
+      throw Error(ErrorKind::kBadInput, {path_, 1},
+                  "not a KITTI tracklet file: no <boost_serialization>");
     std::vector<Tracklet> tracklets;
     for (const XmlElement& item : Child(*root, "tracklets").children) {
       if (item.name == "item") tracklets.push_back(ReadTracklet(item));
@@ -51,7 +52,8 @@ class Reader {
     tracklet.dims = Vec3(Number(item, "l"), Number(item, "w"), Number(item, "h"));
     if (!(tracklet.dims.minCoeff() > 0)) Fail(item, "the tracklet's sizes must be positive");
     const double first_frame = Number(item, "first_frame");
-    if (!(first_frame >= 0 && first_frame < 1e9)) Fail(item, "the first frame is not a frame number");
+    if (!(first_frame >= 0 && first_frame < 1e9))
+      Fail(item, "the first frame is not a frame number");
     tracklet.first_frame = static_cast<int>(first_frame);
     for (const XmlElement& pose : Child(item, "poses").children) {
       if (pose.name != "item") continue;

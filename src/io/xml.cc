@@ -31,11 +31,15 @@ XmlElement ReadXml(const std::string& path) {
   const std::string bytes = ReadFileBytes(path);
   std::string_view rest = bytes;
   XmlElement document;
-  std::vector<XmlElement*> open = {&document};  // stays valid: only the innermost element gets children
+  // stays valid: only the innermost element gets children
+  std::vector<XmlElement*> open = {&document};
   int line = 1;
-  const auto fail = [&](const std::string& message) { throw Error(ErrorKind::kBadInput, {path, line}, message); };
+  const auto fail = [&](const std::string& message) {
+    throw Error(ErrorKind::kBadInput, {path, line}, message);
+  };
   const auto skip = [&](std::size_t count) {
-    line += static_cast<int>(std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
+    line += static_cast<int>(
+        std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
     rest.remove_prefix(count);
   };
   while (!rest.empty()) {

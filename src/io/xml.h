@@ -15,8 +15,9 @@ struct XmlElement {
   const XmlElement* Find(const std::string& child) const;  ///< the first of that name; null: none
 };
 
-/// The XML that boost::serialization writes: elements and text; attributes, declarations and comments are skipped,
-/// entities left as they are. Returns a nameless element around the root. Throws Error with file:line.
+/// The XML that boost::serialization writes: elements and text; attributes, declarations and
+/// comments are skipped, entities left as they are. Returns a nameless element around the root.
+/// Throws Error with file:line.
 XmlElement ReadXml(const std::string& path);
 
 }  // namespace sslcd

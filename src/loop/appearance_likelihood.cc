@@ -19,17 +19,19 @@ double LogRatio(double value, double mean, double other_mean, double sigma) {
   return 0.5 * (b * b - a * a);
 }
 
-// How much of the same side two views show: 1 the same, -1 opposite ones; where sides are not told apart, in between.
+// How much of the same side two views show: 1 the same, -1 opposite ones; where sides are not told
+// apart, in between.
 double SharedSide(const AppearanceView& a, const AppearanceView& b, Symmetry symmetry) {
   if (symmetry == Symmetry::kFull) return 1;  // looks alike from everywhere
   const double cosine = std::cos(a.viewpoint_rad - b.viewpoint_rad);
   return symmetry == Symmetry::kPi ? std::abs(cosine) : cosine;
 }
 
-// Mean over all pairs of views, weighted by the sightings behind them: views of one object are not independent.
-// `gain` takes a pair of views.
+// Mean over all pairs of views, weighted by the sightings behind them: views of one object are not
+// independent. `gain` takes a pair of views.
 template <class Gain>
-double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<AppearanceView>& b, const Gain& gain) {
+double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<AppearanceView>& b,
+                     const Gain& gain) {
   double sum = 0, weights = 0;
   for (const AppearanceView& p : a) {
     for (const AppearanceView& q : b) {
@@ -46,22 +48,28 @@ double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<App
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
-  visitor.Real("same_side", options.same_side, -1, 1, "expected cosine of one object's embeddings, from one side ...");
+  visitor.Real("same_side", options.same_side, -1, 1,
+               "expected cosine of one object's embeddings, from one side ...");
   visitor.Real("opposite_side", options.opposite_side, -1, 1, "... and from opposite sides");
-  visitor.Real("other_object", options.other_object, -1, 1, "expected cosine of different objects' embeddings");
+  visitor.Real("other_object", options.other_object, -1, 1,
+               "expected cosine of different objects' embeddings");
   visitor.Real("embedding_sigma", options.embedding_sigma, 1e-3, 10, "standard deviation of these");
-  visitor.Real("colour_same", options.colour_same, -1, 1, "expected cosine of one object's colours");
-  visitor.Real("colour_other", options.colour_other, -1, 1, "expected cosine of different objects' colours");
+  visitor.Real("colour_same", options.colour_same, -1, 1,
+               "expected cosine of one object's colours");
+  visitor.Real("colour_other", options.colour_other, -1, 1,
+               "expected cosine of different objects' colours");
   visitor.Real("colour_sigma", options.colour_sigma, 1e-3, 10, "standard deviation of these");
-  visitor.Real("limit", options.limit, 0, 100, "appearance says no more about one object, for or against [nats]");
+  visitor.Real("limit", options.limit, 0, 100,
+               "appearance says no more about one object, for or against [nats]");
 }
 
 double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const AppearanceOptions& o) {
-  const double embedding = MeanOverViews(a.embedding, b.embedding, [&](const auto& p, const auto& q) {
-    const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
-    const double same = o.opposite_side + side * (o.same_side - o.opposite_side);
-    return LogRatio(Dot(p.vector, q.vector), same, o.other_object, o.embedding_sigma);
-  });
+  const double embedding =
+      MeanOverViews(a.embedding, b.embedding, [&](const auto& p, const auto& q) {
+        const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
+        const double same = o.opposite_side + side * (o.same_side - o.opposite_side);
+        return LogRatio(Dot(p.vector, q.vector), same, o.other_object, o.embedding_sigma);
+      });
   const double colour = MeanOverViews(a.colour, b.colour, [&](const auto& p, const auto& q) {
     return LogRatio(Dot(p.vector, q.vector), o.colour_same, o.colour_other, o.colour_sigma);
   });

@@ -18,7 +18,8 @@ struct LocalPair {
   int matches = 0;  // global pairs that may equal it
 };
 
-// The local pairs to be laid on the map: long enough, few of their kind, every object in some of them.
+// The local pairs to be laid on the map: long enough, few of their kind, every object in some of
+// them.
 std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                    const PoseSearchOptions& options) {
   std::vector<LocalPair> pairs;
@@ -29,8 +30,10 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
       const Vec3 step = local[b].position - local[a].position;
       const double distance = std::hypot(step.x(), step.y());
       if (distance < options.min_pair_m || distance > index.max_pair()) continue;
-      const auto begin = index.PairsBegin(local[a].label, local[b].label, distance - options.pair_noise_m);
-      const auto end = index.PairsEnd(local[a].label, local[b].label, distance + options.pair_noise_m);
+      const auto begin =
+          index.PairsBegin(local[a].label, local[b].label, distance - options.pair_noise_m);
+      const auto end =
+          index.PairsEnd(local[a].label, local[b].label, distance + options.pair_noise_m);
       if (end <= begin) continue;
       LocalPair pair;
       pair.pair = {a,
@@ -56,8 +59,8 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
   return chosen;
 }
 
-/// What a point may gain at most, by where it falls: a picture of the map. One look into it takes the place of one at
-/// every object nearby.
+/// What a point may gain at most, by where it falls: a picture of the map. One look into it takes
+/// the place of one at every object nearby.
 class GainBound {
  public:
   static constexpr int kOne = 250;
@@ -70,7 +73,8 @@ class GainBound {
     const Eigen::Vector2f size = box.sizes() + Eigen::Vector2f::Constant(2 * inlier_);
     cell_ = std::max(kFinest, size.maxCoeff() / (kMaxSide - 4));
     per_cell_ = 1 / cell_;
-    low_ = box.min() - Eigen::Vector2f::Constant(inlier_ + 2 * cell_);  // nothing gains anything on the rim
+    // nothing gains anything on the rim
+    low_ = box.min() - Eigen::Vector2f::Constant(inlier_ + 2 * cell_);
     last_column_ = std::floor(size.x() / cell_) + 3;
     last_row_ = std::floor(size.y() / cell_) + 3;
     while (1 << shift_ <= static_cast<int>(last_column_)) ++shift_;
@@ -87,8 +91,8 @@ class GainBound {
             (pose.y - low_.y()) * per_cell_};
   }
 
-  /// What kAtOnce points may gain that stand at (x, y) before they are placed, and the sum. Compilers vectorise the
-  /// first loop.
+  /// What kAtOnce points may gain that stand at (x, y) before they are placed, and the sum.
+  /// Compilers vectorise the first loop.
   int Look(const Placing& at, const float* x, const float* y, std::uint8_t* bounds) const {
     int cells[kAtOnce], sum = 0;
     for (int i = 0; i < kAtOnce; ++i) {
@@ -106,16 +110,20 @@ class GainBound {
     constexpr float kRounding = 0.01f;  // of coordinates, and more [m]
     const float reach = inlier_ + kRounding;
     const auto apart = [&](float v, int i) {  // how far a coordinate is from a row of cells
-      const float from = static_cast<float>(i) * cell_ - kRounding, to = from + cell_ + 2 * kRounding;
+      const float from = static_cast<float>(i) * cell_ - kRounding,
+                  to = from + cell_ + 2 * kRounding;
       return std::max({0.f, from - v, v - to});
     };
-    for (int row = static_cast<int>((y - reach) / cell_); row <= static_cast<int>((y + reach) / cell_); ++row) {
-      for (int column = static_cast<int>((x - reach) / cell_); column <= static_cast<int>((x + reach) / cell_);
-           ++column) {
+    for (int row = static_cast<int>((y - reach) / cell_);
+         row <= static_cast<int>((y + reach) / cell_); ++row) {
+      for (int column = static_cast<int>((x - reach) / cell_);
+           column <= static_cast<int>((x + reach) / cell_); ++column) {
         const float dx = apart(x, column), dy = apart(y, row);
         const float most = 1 - (dx * dx + dy * dy) / (inlier_ * inlier_);
-        std::uint8_t& bound = bound_[(static_cast<std::size_t>(row) << shift_) + static_cast<std::size_t>(column)];
-        if (most > 0) bound = std::max(bound, static_cast<std::uint8_t>(static_cast<float>(kOne) * most + 1));
+        std::uint8_t& bound =
+            bound_[(static_cast<std::size_t>(row) << shift_) + static_cast<std::size_t>(column)];
+        if (most > 0)
+          bound = std::max(bound, static_cast<std::uint8_t>(static_cast<float>(kOne) * most + 1));
       }
     }
   }
@@ -129,7 +137,8 @@ class GainBound {
 /// Scores poses as they are proposed and keeps the best of each cell of poses.
 class Contest {
  public:
-  Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index, const PoseSearchOptions& options)
+  Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
+          const PoseSearchOptions& options)
       : points_(points),
         index_(index),
         inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)),
@@ -140,14 +149,16 @@ class Contest {
     bounds_.resize(padded, GainBound::kOne);
     for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
     // Where triangles propose the poses, these are too few for a picture of the map.
-    if (index.triangles() == nullptr) bound_.emplace(index.points(), static_cast<float>(options.inlier_m));
+    if (index.triangles() == nullptr)
+      bound_.emplace(index.points(), static_cast<float>(options.inlier_m));
   }
 
   void Enter(CoarsePose pose) {
     pose.score = MayWin(pose) ? Score(pose) : 0;
     if (!(pose.score >= least_)) return;
     const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
-    const std::int64_t cell = key(std::atan2(pose.sine, pose.cosine) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
+    const std::int64_t cell =
+        key(std::atan2(pose.sine, pose.cosine) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
     CoarsePose& kept = cells_[cell];
     if (pose.score > kept.score) kept = pose;
     RaiseBar(pose.score);
@@ -163,7 +174,8 @@ class Contest {
       return a.y != b.y ? a.y < b.y : a.sine < b.sine;
     };
     const std::size_t keep = std::min(coarse.size(), winners_);
-    std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep), coarse.end(), better);
+    std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep),
+                      coarse.end(), better);
     coarse.resize(keep);
     return coarse;
   }
@@ -199,7 +211,8 @@ class Contest {
     int open = most_;  // what the other points may add
     for (const Landed& landed : landed_) {
       const LayoutPoint& p = points_[landed.point];
-      const float x = pose.cosine * p.x - pose.sine * p.y + pose.x, y = pose.sine * p.x + pose.cosine * p.y + pose.y;
+      const float x = pose.cosine * p.x - pose.sine * p.y + pose.x,
+                  y = pose.sine * p.x + pose.cosine * p.y + pose.y;
       float gain = 0;
       for (const int j : index_.Near(x, y)) {
         const float dx = map[j].x - x, dy = map[j].y - y, dz = map[j].z - p.z - pose.z;
@@ -214,8 +227,11 @@ class Contest {
     return score;
   }
 
-  // What has to come on top of a score to reach least_; a little less, for the sake of rounding. [1/GainBound::kOne]
-  int Needed(float score) const { return static_cast<int>((least_ - score - 1e-3f) * GainBound::kOne) - 1; }
+  // What has to come on top of a score to reach least_; a little less, for the sake of rounding.
+  // [1/GainBound::kOne]
+  int Needed(float score) const {
+    return static_cast<int>((least_ - score - 1e-3f) * GainBound::kOne) - 1;
+  }
 
   // What falls short of half the best score, or of the winners so far, is out.
   void RaiseBar(float score) {
@@ -253,13 +269,15 @@ void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<Layout
     const ObjectPair& l = chosen.pair;
     const LayoutPoint &pa = points[l.a], &pb = points[l.b];
     const auto end = index.PairsEnd(pa.label, pb.label, l.distance + options.pair_noise_m);
-    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - options.pair_noise_m); g < end; ++g) {
+    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - options.pair_noise_m); g < end;
+         ++g) {
       if (std::abs(g->distance - l.distance) > tolerance) continue;
       if (map[g->a].label != pa.label || map[g->b].label != pb.label) continue;
       for (int flip = 0; flip < (pa.label == pb.label ? 2 : 1); ++flip) {
         const float sign = flip ? -1.f : 1.f;
         if (std::abs(sign * g->dz - l.dz) > tolerance) continue;
-        const float c = sign * (g->dx * l.dx + g->dy * l.dy), s = sign * (g->dy * l.dx - g->dx * l.dy);
+        const float c = sign * (g->dx * l.dx + g->dy * l.dy),
+                    s = sign * (g->dy * l.dx - g->dx * l.dy);
         const LayoutPoint &qa = map[flip ? g->b : g->a], &qb = map[flip ? g->a : g->b];
         const float mx = (pa.x + pb.x) / 2, my = (pa.y + pb.y) / 2;
         CoarsePose pose;

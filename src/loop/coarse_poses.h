@@ -7,7 +7,8 @@
 
 namespace sslcd {
 
-/// A pose that two objects propose, local to global with the local map's centre as origin, and how many others agree.
+/// A pose that two objects propose, local to global with the local map's centre as origin, and how
+/// many others agree.
 struct CoarsePose {
   float score = 0;             ///< soft count of objects that fall on one another
   float cosine = 1, sine = 0;  ///< of the yaw

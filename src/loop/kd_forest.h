@@ -12,9 +12,10 @@
 
 namespace sslcd {
 
-/// Points with three coordinates that come and go, each with a value, in FLANN k-d trees. FLANN can only rebuild a tree
-/// as a whole. So there are several, each at least twice as large as the next, and behind them a short list without a
-/// tree: a point is built into a tree O(log n) times (the logarithmic method of Bentley and Saxe, 1980).
+/// Points with three coordinates that come and go, each with a value, in FLANN k-d trees. FLANN can
+/// only rebuild a tree as a whole. So there are several, each at least twice as large as the next,
+/// and behind them a short list without a tree: a point is built into a tree O(log n) times (the
+/// logarithmic method of Bentley and Saxe, 1980).
 template <class Scalar, class Value>
 class KdForest {
  public:
@@ -49,8 +50,9 @@ class KdForest {
     return false;
   }
 
-  /// Calls visitor.Visit(squared distance, value, row) for points nearer than visitor.Reach2(), which may shrink on the
-  /// way; in no particular but always the same order. Values stay where they are until something is added or removed.
+  /// Calls visitor.Visit(squared distance, value, row) for points nearer than visitor.Reach2(),
+  /// which may shrink on the way; in no particular but always the same order. Values stay where
+  /// they are until something is added or removed.
   template <class Visitor>
   void Search(const Point& point, Visitor& visitor) const {
     for (const auto& tree : trees_) tree->Search(point.data(), visitor);
@@ -111,16 +113,16 @@ class KdForest {
   // Turns the list, and the trees before it that are less than twice as large, into one tree.
   void MergeTail(bool all) {
     auto merged = std::make_unique<Tree>();
-    while (!trees_.empty() &&
-           (all || trees_.back()->values.size() < std::max(2 * merged->values.size(), kLinear + 1))) {
+    while (!trees_.empty() && (all || trees_.back()->values.size() <
+                                          std::max(2 * merged->values.size(), kLinear + 1))) {
       const Tree& tree = *trees_.back();
       for (std::size_t row = 0; row < tree.values.size(); ++row)
         if (tree.alive[row]) merged->Add(&tree.coordinates[3 * row], tree.values[row]);
       trees_.pop_back();
     }
     if (!merged->values.empty()) {
-      merged->index =
-          std::make_unique<Index>(flann::Matrix<Scalar>(merged->coordinates.data(), merged->values.size(), 3));
+      merged->index = std::make_unique<Index>(
+          flann::Matrix<Scalar>(merged->coordinates.data(), merged->values.size(), 3));
       merged->index->buildIndex();
       trees_.push_back(std::move(merged));
     }

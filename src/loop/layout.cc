@@ -13,6 +13,8 @@ std::optional<Eigen::VectorXd> LayoutVector(const ObjectGraph& graph, int id, in
   return w / sum;
 }
 
-double LayoutDifference(const Eigen::VectorXd& local, const Eigen::VectorXd& global) { return (local - global).norm(); }
+double LayoutDifference(const Eigen::VectorXd& local, const Eigen::VectorXd& global) {
+  return (local - global).norm();
+}
 
 }  // namespace sslcd

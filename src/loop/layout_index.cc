@@ -9,23 +9,32 @@
 namespace sslcd {
 namespace {
 
-constexpr double kBin = 0.25;             // of pair distances [m]
-constexpr double kSurroundings = 15.;     // radius in which density and heights are judged [m]
-constexpr double kBlock = 10.;            // [m]
-constexpr double kHeightUnit = 1e-9;      // in which squared differences of heights are added up [m^2]
+constexpr double kBin = 0.25;          // of pair distances [m]
+constexpr double kSurroundings = 15.;  // radius in which density and heights are judged [m]
+constexpr double kBlock = 10.;         // [m]
+// in which squared differences of heights are added up [m^2]
+constexpr double kHeightUnit = 1e-9;
 constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
 constexpr int kMaxLabels = 256;           // with lists of their own
-constexpr std::size_t kFewOf = 32;        // where more than one object in so many changes, all are built anew
+// where more than one object in so many changes, all are built anew
+constexpr std::size_t kFewOf = 32;
 
-bool SamePoint(const LayoutObject& a, const LayoutObject& b) { return a.position == b.position && a.label == b.label; }
+bool SamePoint(const LayoutObject& a, const LayoutObject& b) {
+  return a.position == b.position && a.label == b.label;
+}
 
 }  // namespace
 
 LayoutIndex::LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m)
-    : objects_(std::move(objects)), max_pair_(max_pair_m), reach_(reach_m), blocks_(kBlock), near_(reach_m) {
-  objects_.erase(std::remove_if(objects_.begin(), objects_.end(),
-                                [](const LayoutObject& object) { return !object.position.allFinite(); }),
-                 objects_.end());
+    : objects_(std::move(objects)),
+      max_pair_(max_pair_m),
+      reach_(reach_m),
+      blocks_(kBlock),
+      near_(reach_m) {
+  objects_.erase(
+      std::remove_if(objects_.begin(), objects_.end(),
+                     [](const LayoutObject& object) { return !object.position.allFinite(); }),
+      objects_.end());
   Build();
 }
 
@@ -42,7 +51,8 @@ void LayoutIndex::Build() {
   headings_ = {};
   neighbours_ = height_sum_ = 0;
   points_.resize(objects_.size());
-  for (int i = static_cast<int>(objects_.size()) - 1; i >= 0; --i) {  // cells list the last one first
+  for (int i = static_cast<int>(objects_.size()) - 1; i >= 0;
+       --i) {  // cells list the last one first
     Count(i, 1);
     Enter(i);
   }
@@ -50,10 +60,13 @@ void LayoutIndex::Build() {
   BuildPairs();
 }
 
-void LayoutIndex::Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed) {
+void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
+                         const std::vector<int>& removed) {
   if (index_of_.empty())
-    for (std::size_t i = 0; i < objects_.size(); ++i) index_of_[objects_[i].id] = static_cast<int>(i);
-  const auto gone = std::count_if(removed.begin(), removed.end(), [&](int id) { return index_of_.count(id) > 0; });
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      index_of_[objects_[i].id] = static_cast<int>(i);
+  const auto gone = std::count_if(removed.begin(), removed.end(),
+                                  [&](int id) { return index_of_.count(id) > 0; });
   const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
   const bool anew = triangles_ == nullptr || kFewOf * changes > objects_.size();
   std::vector<int> touched;
@@ -117,25 +130,29 @@ void LayoutIndex::Count(int i, int by) {
   const auto label = label_counts_.insert({object.label, 0}).first;
   if ((label->second += by) == 0) label_counts_.erase(label);
   if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) return;
-  const int degree = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * 360 + 0.5)) % 360;
+  const int degree =
+      static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * 360 + 0.5)) % 360;
   headings_[object.symmetry == Symmetry::kPi][degree] += by;
 }
 
 // Puts an object where it can be found.
 void LayoutIndex::Enter(int i) {
   const Vec3& p = objects_[i].position;
-  points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), objects_[i].label};
+  points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                objects_[i].label};
   CountNeighbours(i, 1);
   blocks_.Add(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
-    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row) near_.Add(column, row, i);
+    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row)
+      near_.Add(column, row, i);
 }
 
 void LayoutIndex::Leave(int i) {
   const Vec3& p = objects_[i].position;
   blocks_.Remove(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
-    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row) near_.Remove(column, row, i);
+    for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row)
+      near_.Remove(column, row, i);
   CountNeighbours(i, -1);
 }
 
@@ -158,7 +175,8 @@ void LayoutIndex::CountNeighbours(int i, int by) {
 
 void LayoutIndex::Judge() {
   const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
-  const double near = static_cast<double>(neighbours_), heights = static_cast<double>(height_sum_) * kHeightUnit;
+  const double near = static_cast<double>(neighbours_),
+               heights = static_cast<double>(height_sum_) * kHeightUnit;
   density_ = (1 + 2 * near / n) / (M_PI * kSurroundings * kSurroundings);
   height_spread_ = near > 0 ? std::sqrt(heights / near / 2) : 0.;
 }
@@ -192,14 +210,16 @@ void LayoutIndex::BuildPairs() {
 
   std::vector<ObjectPair> found;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= max_pair_; ++j) {
+    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= max_pair_;
+         ++j) {
       const Sorted *a = &sorted[i], *b = &sorted[j];
       if (a->label > b->label || (a->label == b->label && a->object > b->object)) std::swap(a, b);
       const double dx = b->x - a->x, dy = b->y - a->y, dz = b->z - a->z, d2 = dx * dx + dy * dy;
       if (d2 > max_pair_ * max_pair_ || d2 < 1e-12) continue;
       const double distance = std::sqrt(d2);
-      found.push_back({a->object, b->object, static_cast<float>(distance), static_cast<float>(dx / distance),
-                       static_cast<float>(dy / distance), static_cast<float>(dz)});
+      found.push_back({a->object, b->object, static_cast<float>(distance),
+                       static_cast<float>(dx / distance), static_cast<float>(dy / distance),
+                       static_cast<float>(dz)});
     }
     if (found.size() <= kMaxPairs) continue;
     triangles_ = std::make_unique<TriangleIndex>(*this);
@@ -239,13 +259,15 @@ void LayoutIndex::SortPairs(const std::vector<ObjectPair>& found) {
   for (std::size_t i = 0; i < found.size(); ++i) pairs_[fill[slot[i]]++] = found[i];
 }
 
-std::vector<ObjectPair>::const_iterator LayoutIndex::PairsBegin(int label_a, int label_b, double from_m) const {
+std::vector<ObjectPair>::const_iterator LayoutIndex::PairsBegin(int label_a, int label_b,
+                                                                double from_m) const {
   const int a = LabelRank(label_a), b = LabelRank(label_b);
   if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
   return pairs_.begin() + pair_start_[PairSlot(a, b, from_m)];
 }
 
-std::vector<ObjectPair>::const_iterator LayoutIndex::PairsEnd(int label_a, int label_b, double to_m) const {
+std::vector<ObjectPair>::const_iterator LayoutIndex::PairsEnd(int label_a, int label_b,
+                                                              double to_m) const {
   const int a = LabelRank(label_a), b = LabelRank(label_b);
   if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
   return pairs_.begin() + pair_start_[PairSlot(a, b, to_m) + 1];

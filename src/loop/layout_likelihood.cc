@@ -5,39 +5,26 @@
 #include <cmath>
 #include <limits>
 
+#include "loop/convex_hull.h"
+#include "loop/heading_density.h"
+
 namespace sslcd {
 namespace {
 
 // Scatter between the two maps' idea of one object. Which it is, the data say: [m].
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
-constexpr double kHullMargin = 1.;  // objects of a straight row lie on its edge, this side or that [m]
-constexpr double kGate = 3.;        // matched within so many standard deviations
+// objects of a straight row lie on its edge, this side or that [m]
+constexpr double kHullMargin = 1.;
+constexpr double kGate = 3.;  // matched within so many standard deviations
 
 double HeightSigma(double sigma) { return 0.06 + 0.4 * sigma; }
 
-std::vector<Vec2> ConvexHull(std::vector<Vec2> points) {
-  if (points.empty()) return {};
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-  const auto cross = [](const Vec2& o, const Vec2& a, const Vec2& b) {
-    return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-  };
-  std::vector<Vec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-// Probability of one sequence of `yes` and `no` outcomes whose rate is unknown: log of the Beta-binomial.
+// Probability of one sequence of `yes` and `no` outcomes whose rate is unknown: log of the
+// Beta-binomial.
 double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
-  const auto log_beta = [](double a, double b) { return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b); };
+  const auto log_beta = [](double a, double b) {
+    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+  };
   return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
 }
 
@@ -46,68 +33,29 @@ double LogAdd(double a, double b) {
   return top + std::log(std::exp(a - top) + std::exp(b - top));
 }
 
-bool HasHeading(const LayoutObject& object) { return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw); }
-
-// Density of the difference of two headings of one object [1/rad]. Some are taken for their reverse, some for anything.
-double HeadingDensity(double difference, Symmetry symmetry) {
-  constexpr double kSharpness = 16., kFlipped = 0.05, kAny = 0.1;  // of a von Mises density: 15 degrees
-  const double peak = std::sqrt(kSharpness / (2 * M_PI));
-  const double forward = peak * std::exp(kSharpness * (std::cos(difference) - 1));
-  const double reverse = peak * std::exp(kSharpness * (-std::cos(difference) - 1));
-  const double flipped = symmetry == Symmetry::kPi ? 0.5 : kFlipped;
-  return (1 - kAny) * ((1 - flipped) * forward + flipped * reverse) + kAny / (2 * M_PI);
-}
-
-// The same by degrees.
-const std::vector<double>& HeadingDensities(Symmetry symmetry) {
-  const auto compute = [](Symmetry s) {
-    std::vector<double> densities;
-    for (int degree = 0; degree < 360; ++degree) densities.push_back(HeadingDensity(degree * M_PI / 180, s));
-    return densities;
-  };
-  static const std::vector<double> kFullTurn = compute(Symmetry::kNone), kHalfTurn = compute(Symmetry::kPi);
-  return symmetry == Symmetry::kPi ? kHalfTurn : kFullTurn;
+bool HasHeading(const LayoutObject& object) {
+  return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw);
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
-  visitor.Real("wrong_label", options.wrong_label, 1e-6, 0.9, "how often the detector takes one class for another");
+  visitor.Real("wrong_label", options.wrong_label, 1e-6, 0.9,
+               "how often the detector takes one class for another");
   visitor.Real("mapped_prior", options.mapped_prior, 0.1, 1000,
                "Beta prior of the share of local objects in the map: yes");
   visitor.Real("unmapped_prior", options.unmapped_prior, 0.1, 1000,
                "Beta prior of the share of local objects in the map: no");
-  visitor.Flag("leave_map", options.leave_map, "local objects may lie beyond what the map has seen");
-  visitor.Real("wrong_height", options.wrong_height, 0, 1, "share of objects whose height says nothing");
+  visitor.Flag("leave_map", options.leave_map,
+               "local objects may lie beyond what the map has seen");
+  visitor.Real("wrong_height", options.wrong_height, 0, 1,
+               "share of objects whose height says nothing");
   visitor.Real("min_gain", options.min_gain, -100, 100, "a match that says less is none [nats]");
   visitor.Real("seen_prior", options.seen_prior, 0.1, 1000,
                "Beta prior of the share of mapped objects seen again: yes");
   visitor.Real("unseen_prior", options.unseen_prior, 0.1, 1000,
                "Beta prior of the share of mapped objects seen again: no");
   visitor.Nested("appearance", options.appearance, "colour and embedding as evidence (paper IV-C)");
-}
-
-Vec3 Apply(const YawShift& pose, const Vec3& p) {
-  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  return {c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y(), p.z() + pose.t.z()};
-}
-
-YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  Vec3 mean_from = Vec3::Zero(), mean_to = Vec3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    mean_from += from[i] / static_cast<double>(from.size());
-    mean_to += to[i] / static_cast<double>(from.size());
-  }
-  double dot = 0, cross = 0;
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const Vec3 a = from[i] - mean_from, b = to[i] - mean_to;
-    dot += a.x() * b.x() + a.y() * b.y();
-    cross += a.x() * b.y() - a.y() * b.x();
-  }
-  YawShift pose;
-  pose.yaw = std::atan2(cross, dot);
-  pose.t = mean_to - Apply(pose, mean_from);
-  return pose;
 }
 
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
@@ -117,7 +65,8 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
   PrepareHeadings();
   PrepareHull();
   for (std::size_t n = 0; n <= local.size(); ++n)
-    none_mapped_.push_back(LogBetaBinomial(0, static_cast<double>(n), options_.mapped_prior, options_.unmapped_prior));
+    none_mapped_.push_back(
+        LogBetaBinomial(0, static_cast<double>(n), options_.mapped_prior, options_.unmapped_prior));
 }
 
 void LayoutLikelihood::PrepareLabels() {
@@ -143,9 +92,10 @@ void LayoutLikelihood::PrepareHull() {
   }
 }
 
-// log density of a local object's heading, were the local objects others of the same kind: they then face as the map's
-// objects do, as a whole under whatever turn makes that likeliest. Not under the turn of the pose that is weighed: a
-// pose under which every car faces the wrong way has that against it.
+// log density of a local object's heading, were the local objects others of the same kind: they
+// then face as the map's objects do, as a whole under whatever turn makes that likeliest. Not under
+// the turn of the pose that is weighed: a pose under which every car faces the wrong way has that
+// against it.
 void LayoutLikelihood::PrepareHeadings() {
   std::array<double, kHeadings> background{};  // density of the map's headings [1/rad]
   int headings = 0;
@@ -160,9 +110,11 @@ void LayoutLikelihood::PrepareHeadings() {
         background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
     }
   }
-  for (double& density : background) density = std::log((density + 1 / (2 * M_PI)) / (headings + 1));
+  for (double& density : background)
+    density = std::log((density + 1 / (2 * M_PI)) / (headings + 1));
   const auto under = [&](const LayoutObject& object, int turn) {
-    const int bin = static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
+    const int bin =
+        static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
     return background[(bin + turn) % kHeadings];
   };
   int best = 0;
@@ -173,26 +125,30 @@ void LayoutLikelihood::PrepareHeadings() {
       if (HasHeading(object)) sum += under(object, turn);
     if (sum > likeliest) likeliest = sum, best = turn;
   }
-  for (const LayoutObject& object : local_) chance_heading_.push_back(HasHeading(object) ? under(object, best) : 0.);
+  for (const LayoutObject& object : local_)
+    chance_heading_.push_back(HasHeading(object) ? under(object, best) : 0.);
 }
 
 // How much better the headings agree than chance would have it.
 double LayoutLikelihood::HeadingGain(int i, const LayoutObject& global, double yaw) const {
   const LayoutObject& local = local_[i];
   if (!HasHeading(local) || !HasHeading(global) || local.symmetry != global.symmetry) return 0;
-  return std::log(HeadingDensity(WrapAngle(local.yaw + yaw) - global.yaw, global.symmetry)) - chance_heading_[i];
+  return std::log(HeadingDensity(WrapAngle(local.yaw + yaw) - global.yaw, global.symmetry)) -
+         chance_heading_[i];
 }
 
 double LayoutLikelihood::Appearance(int i, int j) const {
   const LayoutObject &local = local_[i], &global = index_.objects()[j];
-  if ((local.embedding.empty() || global.embedding.empty()) && (local.colour.empty() || global.colour.empty()))
+  if ((local.embedding.empty() || global.embedding.empty()) &&
+      (local.colour.empty() || global.colour.empty()))
     return 0;
   const auto [known, fresh] = appearance_.try_emplace({i, j}, 0.);
   if (fresh) known->second = AppearanceGain(local, global, options_.appearance);
   return known->second;
 }
 
-std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose, bool with_view) const {
+std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose,
+                                                                      bool with_view) const {
   std::vector<Candidate> candidates;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   const double reach2 = index_.reach() * index_.reach();
@@ -208,7 +164,8 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       const int local = static_cast<int>(i);
       const double label = local_[i].label == object.label ? equal_label_[i] : other_label_;
       const double gain = label + HeadingGain(local, object, pose.yaw) + Appearance(local, j);
-      candidates.push_back({local, j, d2, dz * dz, gain, with_view && InView(object.position, pose.t, c, s)});
+      candidates.push_back(
+          {local, j, d2, dz * dz, gain, with_view && InView(object.position, pose.t, c, s)});
     }
   }
   return candidates;
@@ -231,7 +188,8 @@ bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, doubl
   const double dx = global.x() - t.x(), dy = global.y() - t.y();
   const double x = c * dx + s * dy, y = -s * dx + c * dy;
   return std::all_of(hull_.begin(), hull_.end(), [&](const Edge& edge) {
-    return !(edge.along.x() * (y - edge.from.y()) - edge.along.y() * (x - edge.from.x()) < edge.least);
+    return !(edge.along.x() * (y - edge.from.y()) - edge.along.y() * (x - edge.from.x()) <
+             edge.least);
   });
 }
 
@@ -239,19 +197,22 @@ bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, doubl
 int LayoutLikelihood::OnMap(const YawShift& pose) const {
   if (!options_.leave_map) return static_cast<int>(local_.size());
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  return static_cast<int>(std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
-    const Vec3& p = object.position;
-    return index_.Known(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y());
-  }));
+  return static_cast<int>(
+      std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
+        const Vec3& p = object.position;
+        return index_.Known(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y());
+      }));
 }
 
-// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what the shares of
-// mapped and of seen objects say.
-LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
-                                   double sigma) const {
-  const double sigma_z = HeightSigma(sigma), background_z = std::hypot(sigma_z, index_.height_spread());
+// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what
+// the shares of mapped and of seen objects say.
+LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view,
+                                   int on_map, double sigma) const {
+  const double sigma_z = HeightSigma(sigma),
+               background_z = std::hypot(sigma_z, index_.height_spread());
   const double constant = -std::log(2 * M_PI * sigma * sigma * index_.density());
-  const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z), wrong = options_.wrong_height;
+  const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z),
+               wrong = options_.wrong_height;
   const double most_by_height = std::log(wrong + (1 - wrong) * background_z / sigma_z) + 1e-9;
   struct Ranked {
     double gain;
@@ -263,7 +224,8 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
     const double without_height = constant - 0.5 * candidate.d2 / (sigma * sigma);
     if (without_height + most_by_height + candidate.semantic_gain < options_.min_gain) continue;
     const double height_ratio = background_z / sigma_z * std::exp(per_z2 * candidate.z2);
-    const double gain = without_height + std::log(wrong + (1 - wrong) * height_ratio) + candidate.semantic_gain;
+    const double gain =
+        without_height + std::log(wrong + (1 - wrong) * height_ratio) + candidate.semantic_gain;
     if (!(gain < options_.min_gain)) ranked.push_back({gain, &candidate});
   }
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
@@ -281,15 +243,18 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
   std::size_t that_pay = 0;
   for (const auto& [gain, candidate] : ranked) {
     const int local = candidate->local, global = candidate->global;
-    const bool taken = std::any_of(matches.begin(), matches.end(),
-                                   [&](const auto& match) { return match.first == local || match.second == global; });
+    const bool taken = std::any_of(matches.begin(), matches.end(), [&](const auto& match) {
+      return match.first == local || match.second == global;
+    });
     if (taken) continue;
     const double n = static_cast<double>(matches.size());
-    score += gain + std::log((n + options_.mapped_prior) / std::max(0.1, n_local - n - 1 + options_.unmapped_prior));
+    score += gain + std::log((n + options_.mapped_prior) /
+                             std::max(0.1, n_local - n - 1 + options_.unmapped_prior));
     if (candidate->in_view) {
       score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
     } else {
-      score += std::log((n + options_.seen_prior) / (all + options_.seen_prior + options_.unseen_prior));
+      score +=
+          std::log((n + options_.seen_prior) / (all + options_.seen_prior + options_.unseen_prior));
       all += 1;
     }
     matches.push_back({local, global});
@@ -307,7 +272,8 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose, true);
   const int in_view = CountInView(pose);
   const int on_map = OnMap(pose);
-  const double searched = 2 * M_PI * static_cast<double>(index_.objects().size()) / index_.density();
+  const double searched =
+      2 * M_PI * static_cast<double>(index_.objects().size()) / index_.density();
   LayoutFit best;
   best.score = best.evidence = -1e9;
   double score = -1e9, evidence = -1e9;
@@ -317,8 +283,10 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
     const double n = static_cast<double>(fit.matches.size());
     for (const auto& [i, j] : fit.matches) centre += index_.objects()[j].position.head<2>() / n;
     double spread = 1e-3;
-    for (const auto& [i, j] : fit.matches) spread += (index_.objects()[j].position.head<2>() - centre).squaredNorm();
-    const double volume = std::pow(2 * M_PI, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
+    for (const auto& [i, j] : fit.matches)
+      spread += (index_.objects()[j].position.head<2>() - centre).squaredNorm();
+    const double volume =
+        std::pow(2 * M_PI, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
     fit.evidence = fit.score + std::log(volume / searched);
     score = LogAdd(score, fit.score - std::log(4.));
     evidence = LogAdd(evidence, fit.evidence - std::log(4.));

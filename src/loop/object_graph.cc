@@ -14,15 +14,16 @@
 namespace sslcd {
 namespace {
 
-/// The k best in the order (distance, id), where FLANN's own result sets leave equal distances in the order of the
-/// search.
+/// The k best in the order (distance, id), where FLANN's own result sets leave equal distances in
+/// the order of the search.
 class BestK {
  public:
   explicit BestK(std::size_t k) : k_(k) {}
 
   // A hair above the worst, so that the search does not pass by points that are equally far.
   double Reach2() const {
-    return best_.size() == k_ ? best_.back().distance_m * (1 + 1e-12) + 1e-300 : std::numeric_limits<double>::max();
+    return best_.size() == k_ ? best_.back().distance_m * (1 + 1e-12) + 1e-300
+                              : std::numeric_limits<double>::max();
   }
 
   void Visit(double squared_distance, int id, std::size_t) {
@@ -60,7 +61,8 @@ ObjectGraph& ObjectGraph::operator=(ObjectGraph&&) noexcept = default;
 void ObjectGraph::Put(int id, const Vec3& position) {
   if (!position.allFinite())
     throw Error(ErrorKind::kBadInput,
-                "object " + std::to_string(id) + " cannot join the graph: its position is not finite; leave it out");
+                "object " + std::to_string(id) +
+                    " cannot join the graph: its position is not finite; leave it out");
   const Vertices::Forest::Point point{position.x(), position.y(), position.z()};
   const auto known = vertices_->places.find(id);
   if (known != vertices_->places.end()) {
@@ -83,7 +85,8 @@ std::vector<GraphEdge> ObjectGraph::Neighbours(int id, int k) const {
   if (known == vertices_->places.end() || k <= 0) return {};
   std::vector<GraphEdge> edges = Nearest(Vec3(known->second.data()), k + 1);
   // The vertex itself is among them, unless more than k others lie on the same spot.
-  const auto self = std::find_if(edges.begin(), edges.end(), [id](const GraphEdge& edge) { return edge.id == id; });
+  const auto self = std::find_if(edges.begin(), edges.end(),
+                                 [id](const GraphEdge& edge) { return edge.id == id; });
   if (self != edges.end())
     edges.erase(self);
   else

@@ -9,24 +9,31 @@ namespace sslcd {
 namespace {
 
 /// w of every object (IV-A, IV-B).
-std::vector<std::optional<Eigen::VectorXd>> LayoutVectors(const std::vector<LayoutObject>& objects, int k) {
+std::vector<std::optional<Eigen::VectorXd>> LayoutVectors(const std::vector<LayoutObject>& objects,
+                                                          int k) {
   ObjectGraph graph;  // by index: ids of landmarks may repeat in a list that was put together
   for (std::size_t i = 0; i < objects.size(); ++i)
     if (objects[i].position.allFinite()) graph.Put(static_cast<int>(i), objects[i].position);
   std::vector<std::optional<Eigen::VectorXd>> vectors;
-  for (std::size_t i = 0; i < objects.size(); ++i) vectors.push_back(LayoutVector(graph, static_cast<int>(i), k));
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    vectors.push_back(LayoutVector(graph, static_cast<int>(i), k));
   return vectors;
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, PaperMatchOptions& options) {
-  visitor.Integer("neighbours", options.neighbours, 1, 100, "K: nearest neighbours of a vertex (paper IV-A)");
-  visitor.Real("layout_difference", options.layout_difference, 0, 2,
-               "delta: candidates differ less than this in their normalised neighbour distances (IV-B)");
-  visitor.Real("mu", options.mu, 0, 1, "weight of size and position; the rest is colour's and embedding's (IV-C)");
-  visitor.Real("similarity", options.similarity, 1e-9, 2, "tau: similarity s_l that a match needs (IV-C)");
-  visitor.Integer("min_matches", options.min_matches, 1, 1000, "matched objects that make a loop (IV-D: several)");
+  visitor.Integer("neighbours", options.neighbours, 1, 100,
+                  "K: nearest neighbours of a vertex (paper IV-A)");
+  visitor.Real(
+      "layout_difference", options.layout_difference, 0, 2,
+      "delta: candidates differ less than this in their normalised neighbour distances (IV-B)");
+  visitor.Real("mu", options.mu, 0, 1,
+               "weight of size and position; the rest is colour's and embedding's (IV-C)");
+  visitor.Real("similarity", options.similarity, 1e-9, 2,
+               "tau: similarity s_l that a match needs (IV-C)");
+  visitor.Integer("min_matches", options.min_matches, 1, 1000,
+                  "matched objects that make a loop (IV-D: several)");
 }
 
 std::optional<std::vector<ObjectMatch>> PaperMatch(const std::vector<LayoutObject>& local,
@@ -42,7 +49,8 @@ std::optional<std::vector<ObjectMatch>> PaperMatch(const std::vector<LayoutObjec
       if (!w_global[j]) continue;
       const double difference = LayoutDifference(*w_local[i], *w_global[j]);  // Eq. 10
       if (!(difference < options.layout_difference)) continue;
-      const double similarity = SemanticSimilarity(local[i], global[j], options.mu);  // Eqs. 11 to 16
+      // Eqs. 11 to 16
+      const double similarity = SemanticSimilarity(local[i], global[j], options.mu);
       if (!(similarity >= options.similarity) || (best && similarity <= best->similarity)) continue;
       best = ObjectMatch{static_cast<int>(i), static_cast<int>(j), difference, similarity};
     }

@@ -12,21 +12,26 @@ namespace {
 
 Vec3 CentreOf(const std::vector<LayoutObject>& local) {
   Vec3 centre = Vec3::Zero();
-  for (const LayoutObject& object : local) centre += object.position / static_cast<double>(local.size());
+  for (const LayoutObject& object : local)
+    centre += object.position / static_cast<double>(local.size());
   return centre;
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
-  visitor.Real("agree_m", options.agree_m, 0, 10000, "attempts further back on the path do not count any more");
-  visitor.Real("step_m", options.step_m, 0.1, 100, "a hypothesis that jumps by more than this is another one ...");
+  visitor.Real("agree_m", options.agree_m, 0, 10000,
+               "attempts further back on the path do not count any more");
+  visitor.Real("step_m", options.step_m, 0.1, 100,
+               "a hypothesis that jumps by more than this is another one ...");
   visitor.Real("step_rad", options.step_rad, 0.001, 3.2, "... or turns by more");
-  visitor.Integer("max_tracks", options.max_tracks, 1, 10000, "hypotheses that are followed, the best ones");
+  visitor.Integer("max_tracks", options.max_tracks, 1, 10000,
+                  "hypotheses that are followed, the best ones");
 }
 
-void PoseTracks::Update(const LayoutLikelihood& likelihood, const std::vector<PoseHypothesis>& found,
-                        const PoseSearchOptions& search, double path_m, const Prior& prior) {
+void PoseTracks::Update(const LayoutLikelihood& likelihood,
+                        const std::vector<PoseHypothesis>& found, const PoseSearchOptions& search,
+                        double path_m, const Prior& prior) {
   const std::vector<LayoutObject>& local = likelihood.local();
   if (local.empty()) return;
   const Vec3 centre = CentreOf(local);
@@ -36,13 +41,15 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood, const std::vector<Po
   };
   std::vector<int> ids;
   for (const LayoutObject& object : local) ids.push_back(object.id);
-  // Tracks that are as old have seen the same local maps: how many different objects these had is counted once.
+  // Tracks that are as old have seen the same local maps: how many different objects these had is
+  // counted once.
   std::map<std::pair<double, std::size_t>, double> different_since;
   const auto different = [&](const std::vector<PoseTrack::Vote>& votes) {
     const auto [known, fresh] = different_since.insert({{votes.front().path_m, votes.size()}, 0});
     if (fresh) {
       std::vector<int> all;
-      for (const PoseTrack::Vote& vote : votes) all.insert(all.end(), vote.objects.begin(), vote.objects.end());
+      for (const PoseTrack::Vote& vote : votes)
+        all.insert(all.end(), vote.objects.begin(), vote.objects.end());
       std::sort(all.begin(), all.end());
       known->second = static_cast<double>(std::unique(all.begin(), all.end()) - all.begin());
     }
@@ -55,14 +62,16 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood, const std::vector<Po
     track.pose = pose;
     track.fit = fit;
     track.votes.push_back({path_m, fit.score, ids});
-    while (path_m - track.votes.front().path_m > options_.agree_m) track.votes.erase(track.votes.begin());
+    while (path_m - track.votes.front().path_m > options_.agree_m)
+      track.votes.erase(track.votes.begin());
     double scores = 0, objects = 0;
     for (const PoseTrack::Vote& vote : track.votes) {
       scores += vote.score;
       objects += static_cast<double>(vote.objects.size());
     }
     track.prior = prior(pose, fit);
-    track.evidence = track.prior + fit.evidence - fit.score + scores * different(track.votes) / objects;
+    track.evidence =
+        track.prior + fit.evidence - fit.score + scores * different(track.votes) / objects;
     now.push_back(std::move(track));
   };
   for (PoseTrack& track : tracks_) {

@@ -8,7 +8,8 @@ namespace sslcd {
 namespace {
 
 /// Mean dot product over all pairs of sightings.
-std::optional<double> MeanDot(const std::vector<AppearanceView>& a, const std::vector<AppearanceView>& b) {
+std::optional<double> MeanDot(const std::vector<AppearanceView>& a,
+                              const std::vector<AppearanceView>& b) {
   double sum = 0, weights = 0;
   for (const AppearanceView& u : a) {
     for (const AppearanceView& v : b) {
@@ -33,7 +34,8 @@ bool Known(const Vec3& dims) { return dims.allFinite() && (dims.array() > 0).any
 
 PaperCues CompareAsPrinted(const LayoutObject& local, const LayoutObject& global) {
   PaperCues cues;
-  if (Known(local.dims) && Known(global.dims)) cues.scale = Decay((local.dims - global.dims).norm());
+  if (Known(local.dims) && Known(global.dims))
+    cues.scale = Decay((local.dims - global.dims).norm());
   cues.position = Decay((local.position - global.position).norm());
   cues.colour = Decay(MeanDot(local.colour, global.colour));
   cues.embedding = Decay(MeanDot(local.embedding, global.embedding));

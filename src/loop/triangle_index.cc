@@ -12,7 +12,8 @@
 namespace sslcd {
 namespace {
 
-constexpr int kNeighbours = 6;    // enough for triangles that are left when one neighbour of five is missed
+// enough for triangles that are left when one neighbour of five is missed
+constexpr int kNeighbours = 6;
 constexpr float kShortest = 4.f;  // the longest side at least, for the sake of the yaw [m]
 
 using Neighbours = std::array<int, kNeighbours>;  // -1: none
@@ -20,7 +21,9 @@ using Neighbours = std::array<int, kNeighbours>;  // -1: none
 struct Near {
   float d2;
   int object;
-  bool operator<(const Near& other) const { return d2 != other.d2 ? d2 < other.d2 : object < other.object; }
+  bool operator<(const Near& other) const {
+    return d2 != other.d2 ? d2 < other.d2 : object < other.object;
+  }
 };
 
 float SquaredDistance(const LayoutPoint& a, const LayoutPoint& b) {
@@ -56,8 +59,9 @@ ObjectTriangle MakeTriangle(const std::vector<LayoutPoint>& points, int a, int b
     }
   };
   const auto side = [&](int i, int j) { return std::sqrt(SquaredDistance(points[i], points[j])); };
-  std::array<Corner, 3> corners{
-      {{points[a].label, side(b, c), a}, {points[b].label, side(a, c), b}, {points[c].label, side(a, b), c}}};
+  std::array<Corner, 3> corners{{{points[a].label, side(b, c), a},
+                                 {points[b].label, side(a, c), b},
+                                 {points[c].label, side(a, b), c}}};
   std::sort(corners.begin(), corners.end());
   ObjectTriangle triangle;
   for (int i = 0; i < 3; ++i) {
@@ -72,7 +76,8 @@ bool FixesYaw(const ObjectTriangle& triangle) {
   return *std::max_element(triangle.side.begin(), triangle.side.end()) >= kShortest;
 }
 
-std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points, const std::vector<Neighbours>& near) {
+std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points,
+                                      const std::vector<Neighbours>& near) {
   std::vector<ObjectTriangle> triangles;
   for (int a = 0; a < static_cast<int>(points.size()); ++a) {
     for (int i = 0; i < kNeighbours && near[a][i] >= 0; ++i) {
@@ -103,7 +108,8 @@ void Propose(int a, const Neighbours& near, std::vector<Vertices>& proposed) {
 Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) {
   const std::vector<LayoutPoint>& points = index.points();
   const double start = std::sqrt(kNeighbours / (3. * index.density()));  // about twice as many
-  for (double radius = std::min(start, index.max_pair());; radius = std::min(2 * radius, index.max_pair())) {
+  for (double radius = std::min(start, index.max_pair());;
+       radius = std::min(2 * radius, index.max_pair())) {
     found.clear();
     const Vec2 centre(points[i].x, points[i].y), reach(radius, radius);
     index.VisitBox(centre - reach, centre + reach, [&](int j) {
@@ -117,7 +123,8 @@ Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) 
 std::vector<Neighbours> NearestOfAll(const LayoutIndex& index) {
   std::vector<Neighbours> near;
   std::vector<Near> found;
-  for (int i = 0; i < static_cast<int>(index.points().size()); ++i) near.push_back(NearestOf(index, i, found));
+  for (int i = 0; i < static_cast<int>(index.points().size()); ++i)
+    near.push_back(NearestOf(index, i, found));
   return near;
 }
 
@@ -155,10 +162,11 @@ struct TriangleIndex::State {
   std::vector<Neighbours> near;                  // ... and whose triangles there are
   std::map<std::array<int, 3>, Forest> forests;  // by labels
 
-  // Those whose neighbours may have changed, apart from the changed ones themselves: they are near where these were or
-  // near where they are.
+  // Those whose neighbours may have changed, apart from the changed ones themselves: they are near
+  // where these were or near where they are.
   template <class Visitor>
-  void VisitAffected(const LayoutIndex& index, int changed, const LayoutPoint& place, Visitor&& visit) const {
+  void VisitAffected(const LayoutIndex& index, int changed, const LayoutPoint& place,
+                     Visitor&& visit) const {
     const Vec2 centre(place.x, place.y), reach(index.max_pair(), index.max_pair());
     index.VisitBox(centre - reach, centre + reach, [&](int i) {
       if (i >= static_cast<int>(near.size())) return;
@@ -174,8 +182,11 @@ struct TriangleIndex::State {
     std::vector<ObjectTriangle> triangles;
     for (const Vertices& v : proposed) {
       if (v[2] >= static_cast<int>(near.size())) continue;
-      const auto proposes = [&](int a, int b, int c) { return Contains(near[a], b) && Contains(near[a], c); };
-      if (!proposes(v[0], v[1], v[2]) && !proposes(v[1], v[0], v[2]) && !proposes(v[2], v[0], v[1])) continue;
+      const auto proposes = [&](int a, int b, int c) {
+        return Contains(near[a], b) && Contains(near[a], c);
+      };
+      if (!proposes(v[0], v[1], v[2]) && !proposes(v[1], v[0], v[2]) && !proposes(v[2], v[0], v[1]))
+        continue;
       const ObjectTriangle triangle = MakeTriangle(points, v[0], v[1], v[2]);
       if (FixesYaw(triangle)) triangles.push_back(triangle);
     }
@@ -201,7 +212,8 @@ void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {
   const auto add = [&](int i) { affected.push_back(i); };
   for (const int i : changed) {
     if (i < static_cast<int>(s.points.size())) s.VisitAffected(index, i, s.points[i], add);
-    if (i < static_cast<int>(index.points().size())) s.VisitAffected(index, i, index.points()[i], add);
+    if (i < static_cast<int>(index.points().size()))
+      s.VisitAffected(index, i, index.points()[i], add);
   }
   MakeUnique(affected);
 
@@ -226,10 +238,14 @@ void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {
   const std::vector<ObjectTriangle> after = s.Existing(proposed);
 
   std::vector<ObjectTriangle> gone, come;
-  std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(gone));
-  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(come));
-  for (const ObjectTriangle& triangle : gone) s.forests[triangle.label].Remove(triangle.side, triangle);
-  for (const ObjectTriangle& triangle : come) s.forests[triangle.label].Add(triangle.side, triangle);
+  std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
+                      std::back_inserter(gone));
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                      std::back_inserter(come));
+  for (const ObjectTriangle& triangle : gone)
+    s.forests[triangle.label].Remove(triangle.side, triangle);
+  for (const ObjectTriangle& triangle : come)
+    s.forests[triangle.label].Add(triangle.side, triangle);
 }
 
 void TriangleIndex::Find(const ObjectTriangle& triangle, double radius_m, std::size_t limit,

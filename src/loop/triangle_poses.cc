@@ -19,8 +19,8 @@ constexpr std::size_t kMaxFound = 2000;  // by one triangle
 constexpr std::size_t kMaxPoses = 3000;  // that are scored
 
 // Three points laid on three others; none if they do not fit to within `tolerance`.
-std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from, const std::array<LayoutPoint, 3>& to,
-                                float tolerance) {
+std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,
+                                const std::array<LayoutPoint, 3>& to, float tolerance) {
   LayoutPoint p, q;  // the centres
   for (int i = 0; i < 3; ++i) {
     p.x += from[i].x / 3, p.y += from[i].y / 3, p.z += from[i].z / 3;
@@ -51,22 +51,25 @@ std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from, const st
 }
 
 // All ways to lay `local` on `global` that respect labels and lengths.
-void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points, const ObjectTriangle& global,
-         const std::vector<LayoutPoint>& map, float tolerance, std::vector<CoarsePose>& poses) {
+void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points,
+         const ObjectTriangle& global, const std::vector<LayoutPoint>& map, float tolerance,
+         std::vector<CoarsePose>& poses) {
   constexpr int kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (const auto& order : kOrders) {
     bool fits = true;
     for (int i = 0; i < 3; ++i)
-      fits &= local.label[i] == global.label[order[i]] && std::abs(local.side[i] - global.side[order[i]]) <= tolerance;
+      fits &= local.label[i] == global.label[order[i]] &&
+              std::abs(local.side[i] - global.side[order[i]]) <= tolerance;
     if (!fits) continue;
     std::array<LayoutPoint, 3> from, to;
-    for (int i = 0; i < 3; ++i) from[i] = points[local.vertex[i]], to[i] = map[global.vertex[order[i]]];
+    for (int i = 0; i < 3; ++i)
+      from[i] = points[local.vertex[i]], to[i] = map[global.vertex[order[i]]];
     if (const auto pose = Align(from, to, tolerance)) poses.push_back(*pose);
   }
 }
 
-/// How many poses are near a pose: counters of cells hashed without regard to collisions, in two grids, so that
-/// neighbours on two sides of a cell's edge meet in one of them.
+/// How many poses are near a pose: counters of cells hashed without regard to collisions, in two
+/// grids, so that neighbours on two sides of a cell's edge meet in one of them.
 class Votes {
  public:
   explicit Votes(std::size_t poses) {
@@ -76,7 +79,9 @@ class Votes {
   void Add(const CoarsePose& pose) {
     for (int grid = 0; grid < 2; ++grid) ++counts_[grid][Cell(pose, grid)];
   }
-  int Near(const CoarsePose& pose) const { return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]); }
+  int Near(const CoarsePose& pose) const {
+    return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]);
+  }
 
  private:
   std::size_t Cell(const CoarsePose& pose, int grid) const {
@@ -97,20 +102,23 @@ class Votes {
 
 }  // namespace
 
-std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
-                                      const PoseSearchOptions& options) {
+std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
+                                      const LayoutIndex& index, const PoseSearchOptions& options) {
   const float tolerance = static_cast<float>(options.pair_noise_m);
   const std::vector<ObjectTriangle> triangles = NeighbourTriangles(points);
   const std::size_t used = std::min(triangles.size(), kMaxTriangles);
-  std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(triangles.size())));
-  while (std::gcd(step, triangles.size()) > 1) ++step;  // so that any few of them are spread over the local map
+  std::size_t step = std::max<std::size_t>(
+      1, static_cast<std::size_t>(0.618 * static_cast<double>(triangles.size())));
+  // so that any few of them are spread over the local map
+  while (std::gcd(step, triangles.size()) > 1) ++step;
   std::vector<CoarsePose> poses;
   std::vector<const ObjectTriangle*> found;
   for (std::size_t k = 0; k < used && (k < kMinTriangles || poses.size() < kEnoughPoses); ++k) {
     const ObjectTriangle& triangle = triangles[k * step % triangles.size()];
     found.clear();
     index.triangles()->Find(triangle, options.pair_noise_m, kMaxFound, found);
-    for (const ObjectTriangle* other : found) Lay(triangle, points, *other, index.points(), tolerance, poses);
+    for (const ObjectTriangle* other : found)
+      Lay(triangle, points, *other, index.points(), tolerance, poses);
   }
   if (poses.size() <= kMaxPoses) return poses;
 

@@ -8,10 +8,10 @@
 
 namespace sslcd {
 
-/// Poses that triangles of the local map propose, laid on those of equal sides in the global one, without a score: if
-/// there are many, those that most triangles agree on. `points` are the local ones, their centre in the origin. The
-/// number of poses is bounded whatever the map's size.
-std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
-                                      const PoseSearchOptions& options);
+/// Poses that triangles of the local map propose, laid on those of equal sides in the global one,
+/// without a score: if there are many, those that most triangles agree on. `points` are the local
+/// ones, their centre in the origin. The number of poses is bounded whatever the map's size.
+std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
+                                      const LayoutIndex& index, const PoseSearchOptions& options);
 
 }  // namespace sslcd

@@ -13,7 +13,8 @@ struct Weighted {
 };
 
 double WeightedMedian(std::vector<Weighted> samples) {
-  std::sort(samples.begin(), samples.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+  std::sort(samples.begin(), samples.end(),
+            [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
   double total = 0;
   for (const Weighted& sample : samples) total += sample.weight;
   double seen = 0;
@@ -33,7 +34,8 @@ Vec3 FuseDims(const std::vector<Sighting>& sightings) {
     std::vector<Weighted> samples;
     for (const Sighting& sighting : sightings) {
       const double range = sighting.T_cam_object.translation().norm();
-      const double sigma = 1 + range / 20.;  // LiDAR and stereo sizes alike scatter twice as much at 20 m as at 0
+      // LiDAR and stereo sizes alike scatter twice as much at 20 m as at 0
+      const double sigma = 1 + range / 20.;
       samples.push_back({sighting.dims[axis], sighting.score / (sigma * sigma)});
     }
     const double centre = WeightedMedian(samples);

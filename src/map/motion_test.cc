@@ -28,7 +28,8 @@ Matrix4 ProcessNoise(double dt, double acceleration) {
   return Q;
 }
 
-// Gaussian log density up to a constant. The distance is capped: one wild detection decides nothing.
+// Gaussian log density up to a constant. The distance is capped: one wild detection decides
+// nothing.
 double LogLikelihood(const Eigen::Vector2d& innovation, const Matrix2& covariance) {
   const double distance = innovation.dot(covariance.inverse() * innovation);
   return -0.5 * (std::min(distance, 16.) + std::log(covariance.determinant()));
@@ -39,17 +40,25 @@ double LogLikelihood(const Eigen::Vector2d& innovation, const Matrix2& covarianc
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options) {
   visitor.Real("speed_prior_mps", options.speed_prior_mps, 0.01, 100,
                "standard deviation of an unknown object's speed");
-  visitor.Real("acceleration_mps2", options.acceleration_mps2, 0.01, 100, "acceleration of driving objects");
-  visitor.Real("wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
-               "how far a parked object may seem to wander in one second, because the camera drifts");
-  visitor.Real("decide_at", options.decide_at, 0.1, 100, "log Bayes factor at which an object is called driving");
-  visitor.Real("min_travel_m", options.min_travel_m, 0, 1000, "nothing is called driving that has not come so far");
-  visitor.Real("min_speed_mps", options.min_speed_mps, 0, 100, "nothing is called driving that is slower");
+  visitor.Real("acceleration_mps2", options.acceleration_mps2, 0.01, 100,
+               "acceleration of driving objects");
+  visitor.Real(
+      "wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
+      "how far a parked object may seem to wander in one second, because the camera drifts");
+  visitor.Real("decide_at", options.decide_at, 0.1, 100,
+               "log Bayes factor at which an object is called driving");
+  visitor.Real("min_travel_m", options.min_travel_m, 0, 1000,
+               "nothing is called driving that has not come so far");
+  visitor.Real("min_speed_mps", options.min_speed_mps, 0, 100,
+               "nothing is called driving that is slower");
   visitor.Real("max_parked_speed_mps", options.max_parked_speed_mps, 0, 100,
                "an object is called parked once its speed is surely below this");
-  visitor.Real("settle_s", options.settle_s, 0, 1e6, "a driving object that stands for so long is a new parked one");
-  visitor.Real("memory", options.memory, 0.1, 1000, "limit of the log Bayes factor; small: quick to change its mind");
-  visitor.Real("forget_after_s", options.forget_after_s, 0.01, 1e6, "an object unseen for longer is tested anew");
+  visitor.Real("settle_s", options.settle_s, 0, 1e6,
+               "a driving object that stands for so long is a new parked one");
+  visitor.Real("memory", options.memory, 0.1, 1000,
+               "limit of the log Bayes factor; small: quick to change its mind");
+  visitor.Real("forget_after_s", options.forget_after_s, 0.01, 1e6,
+               "an object unseen for longer is tested anew");
 }
 
 void MotionTest::Add(const Point& position, const Covariance& covariance, double stamp,
@@ -59,9 +68,10 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
     const Prediction driving = PredictDriving(stamp, options);
     const Matrix2 parked_innovation = parked.covariance + covariance;
     const Matrix2 driving_innovation = driving.covariance + covariance;
-    const Eigen::Vector2d parked_error = position - parked.position, driving_error = position - driving.position;
-    log_bayes_factor_ +=
-        LogLikelihood(driving_error, driving_innovation) - LogLikelihood(parked_error, parked_innovation);
+    const Eigen::Vector2d parked_error = position - parked.position,
+                          driving_error = position - driving.position;
+    log_bayes_factor_ += LogLikelihood(driving_error, driving_innovation) -
+                         LogLikelihood(parked_error, parked_innovation);
     log_bayes_factor_ = std::clamp(log_bayes_factor_, -options.memory, options.memory);
 
     const Matrix2 parked_gain = parked.covariance * parked_innovation.inverse();
@@ -69,8 +79,8 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
     parked_covariance_ = (Matrix2::Identity() - parked_gain) * parked.covariance;
 
     const double dt = stamp - stamp_;
-    const Matrix4 predicted =
-        Transition(dt) * state_covariance_ * Transition(dt).transpose() + ProcessNoise(dt, options.acceleration_mps2);
+    const Matrix4 predicted = Transition(dt) * state_covariance_ * Transition(dt).transpose() +
+                              ProcessNoise(dt, options.acceleration_mps2);
     const Eigen::Matrix<double, 4, 2> gain = predicted.leftCols<2>() * driving_innovation.inverse();
     state_ = Transition(dt) * state_ + gain * driving_error;
     state_covariance_ = predicted - gain * predicted.topRows<2>();
@@ -87,7 +97,8 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
   }
   stamp_ = stamp;
   if (state_.tail<2>().norm() > options.min_speed_mps) standing_since_ = stamp;
-  if (stamp_ - standing_since_ >= options.settle_s) {  // a journey begins where the object last stood
+  // A journey begins where the object last stood.
+  if (stamp_ - standing_since_ >= options.settle_s) {
     start_ = parked_;
     start_covariance_ = parked_covariance_;
     start_stamp_ = stamp_;
@@ -98,7 +109,8 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
 Motion MotionTest::Verdict(const MotionTestOptions& options) const {
   const Eigen::Vector2d travel = state_.head<2>() - start_;
   const double distance = travel.norm(), elapsed = stamp_ - start_stamp_;
-  const Eigen::Vector2d direction = distance > 0 ? Eigen::Vector2d(travel / distance) : Eigen::Vector2d(1, 0);
+  const Eigen::Vector2d direction =
+      distance > 0 ? Eigen::Vector2d(travel / distance) : Eigen::Vector2d(1, 0);
   const Matrix2 uncertainty = start_covariance_ + Matrix2(state_covariance_.topLeftCorner<2, 2>());
   const double sigma = std::sqrt(direction.dot(uncertainty * direction));
   const bool far_enough = distance > std::max(options.min_travel_m, 2 * sigma);
@@ -107,21 +119,24 @@ Motion MotionTest::Verdict(const MotionTestOptions& options) const {
 
   const Matrix2 speed_covariance = state_covariance_.bottomRightCorner<2, 2>();
   const double speed = state_.tail<2>().norm() + std::sqrt(0.5 * speed_covariance.trace());
-  if (speed < options.max_parked_speed_mps && (log_bayes_factor_ <= 0 || !fast_enough)) return Motion::kParked;
+  if (speed < options.max_parked_speed_mps && (log_bayes_factor_ <= 0 || !fast_enough))
+    return Motion::kParked;
   return Motion::kUndecided;
 }
 
-MotionTest::Prediction MotionTest::PredictParked(double stamp, const MotionTestOptions& options) const {
+MotionTest::Prediction MotionTest::PredictParked(double stamp,
+                                                 const MotionTestOptions& options) const {
   const double dt = std::max(0., stamp - stamp_);
-  const double wander =
-      options.wander_m_per_sqrt_s * options.wander_m_per_sqrt_s * std::min(dt, options.forget_after_s);
+  const double wander = options.wander_m_per_sqrt_s * options.wander_m_per_sqrt_s *
+                        std::min(dt, options.forget_after_s);
   return {parked_, parked_covariance_ + wander * Matrix2::Identity()};
 }
 
-MotionTest::Prediction MotionTest::PredictDriving(double stamp, const MotionTestOptions& options) const {
+MotionTest::Prediction MotionTest::PredictDriving(double stamp,
+                                                  const MotionTestOptions& options) const {
   const double dt = std::clamp(stamp - stamp_, 0., options.forget_after_s);
-  const Matrix4 covariance =
-      Transition(dt) * state_covariance_ * Transition(dt).transpose() + ProcessNoise(dt, options.acceleration_mps2);
+  const Matrix4 covariance = Transition(dt) * state_covariance_ * Transition(dt).transpose() +
+                             ProcessNoise(dt, options.acceleration_mps2);
   return {state_.head<2>() + dt * state_.tail<2>(), covariance.topLeftCorner<2, 2>()};
 }
 

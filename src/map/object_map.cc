@@ -29,7 +29,8 @@ double Viewpoint(const Pose& T_cam_object) {
 void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
   visitor.Integer("confirm_sightings", options.confirm_sightings, 1, 1000,
                   "sightings that turn a tentative landmark into a confirmed one");
-  visitor.Real("birth_score", options.birth_score, 0, 1, "a detection less certain than this makes no new landmark");
+  visitor.Real("birth_score", options.birth_score, 0, 1,
+               "a detection less certain than this makes no new landmark");
   visitor.Real("stale_after_s", options.stale_after_s, 0, 1e6,
                "a tentative or driving object unseen for longer is given up");
   visitor.Real("search_radius_m", options.search_radius_m, 0.1, 1000,
@@ -37,15 +38,18 @@ void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
   visitor.Real("memory_m", options.memory_m, 0, 1e6,
                "a landmark out of sight for so much path is found again by loop closure only");
   visitor.Real("caution", options.caution, 1, 100,
-               "factor on the learnt detection sigmas in gates and in the motion test, for errors that drift");
+               "factor on the learnt detection sigmas in gates and in the motion test, for errors "
+               "that drift");
   visitor.Real("min_noise_scale", options.min_noise_scale, 0, 100,
                "noise scale added in gates and in the motion test, for errors with long tails");
-  visitor.Flag("learn_noise", options.learn_noise, "learn the detector's noise scale from its detections' scatter");
+  visitor.Flag("learn_noise", options.learn_noise,
+               "learn the detector's noise scale from its detections' scatter");
   visitor.Nested("motion", options.motion, "parked or driving");
 }
 
-ObjectMap::ObjectMap(const GravityFrame& gravity, const LabelTable& labels, const DetectionNoise& noise,
-                     const AssociationOptions& association, const MapOptions& options)
+ObjectMap::ObjectMap(const GravityFrame& gravity, const LabelTable& labels,
+                     const DetectionNoise& noise, const AssociationOptions& association,
+                     const MapOptions& options)
     : gravity_(gravity),
       labels_(labels),
       noise_(noise),
@@ -54,7 +58,8 @@ ObjectMap::ObjectMap(const GravityFrame& gravity, const LabelTable& labels, cons
       noise_scale_(NoiseScale::Uniform(noise.initial_scale)) {}
 
 MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
-                              const std::vector<Detection>& detections, const Camera* camera, double travelled_m) {
+                              const std::vector<Detection>& detections, const Camera* camera,
+                              double travelled_m) {
   const View view{frame, stamp, travelled_m, T_world_cam, camera};
   for (const int id : open_) Reindex(landmarks_.at(id), stamp);
 
@@ -84,21 +89,23 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
 }
 
 std::vector<LandmarkId> ObjectMap::Match(double stamp, const Pose& T_world_cam,
-                                         const std::vector<Detection>& detections, const Camera* camera,
+                                         const std::vector<Detection>& detections,
+                                         const Camera* camera,
                                          const std::function<bool(const MapLandmark&)>& may) const {
   const View view{0, stamp, 0., T_world_cam, camera};
   const std::vector<AssociationQuery> queries = QueriesOf(detections, view);
   std::vector<int> ids;
   for (const int id : CandidateIds(queries))
-    if (landmarks_.at(id).state == LandmarkState::kConfirmed && (!may || may(landmarks_.at(id)))) ids.push_back(id);
+    if (landmarks_.at(id).state == LandmarkState::kConfirmed && (!may || may(landmarks_.at(id))))
+      ids.push_back(id);
   std::vector<LandmarkId> matched;
   for (const int id : MatchIds(queries, ids, view)) matched.push_back({id});
   return matched;
 }
 
 // The landmark of each query among `ids`; -1 for none.
-std::vector<int> ObjectMap::MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids,
-                                     const View& view) const {
+std::vector<int> ObjectMap::MatchIds(const std::vector<AssociationQuery>& queries,
+                                     std::vector<int> ids, const View& view) const {
   std::vector<AssociationCandidate> candidates;
   for (const int id : ids) candidates.push_back(CandidateOf(landmarks_.at(id), view));
   std::vector<int> match = Associate(queries, candidates, association_);
@@ -106,7 +113,8 @@ std::vector<int> ObjectMap::MatchIds(const std::vector<AssociationQuery>& querie
   return match;
 }
 
-std::vector<AssociationQuery> ObjectMap::QueriesOf(const std::vector<Detection>& detections, const View& view) const {
+std::vector<AssociationQuery> ObjectMap::QueriesOf(const std::vector<Detection>& detections,
+                                                   const View& view) const {
   std::vector<AssociationQuery> queries;
   for (const Detection& detection : detections) queries.push_back(QueryOf(detection, view));
   return queries;
@@ -149,9 +157,11 @@ AssociationCandidate ObjectMap::CandidateOf(const MapLandmark& landmark, const V
     if (Movable(landmark)) candidate.beliefs.push_back(driving_belief);
   }
   candidate.height = landmark.pose.position.dot(gravity_.up);
-  const Pose T_cam_object = view.T_world_cam.inverse() * ToPose({position, landmark.pose.yaw}, gravity_);
+  const Pose T_cam_object =
+      view.T_world_cam.inverse() * ToPose({position, landmark.pose.yaw}, gravity_);
   candidate.viewpoint_rad = Viewpoint(T_cam_object);
-  if (view.camera != nullptr) candidate.projected_box = ProjectCuboid(T_cam_object, landmark.dims, *view.camera);
+  if (view.camera != nullptr)
+    candidate.projected_box = ProjectCuboid(T_cam_object, landmark.dims, *view.camera);
   candidate.colour = &landmark.colour;
   candidate.embedding = &landmark.embedding;
   return candidate;
@@ -160,7 +170,8 @@ AssociationCandidate ObjectMap::CandidateOf(const MapLandmark& landmark, const V
 std::vector<int> ObjectMap::CandidateIds(const std::vector<AssociationQuery>& queries) const {
   std::vector<int> ids;
   for (const AssociationQuery& query : queries) {
-    const auto near = index_.Near(query.place.position.x(), query.place.position.y(), options_.search_radius_m);
+    const auto near =
+        index_.Near(query.place.position.x(), query.place.position.y(), options_.search_radius_m);
     ids.insert(ids.end(), near.begin(), near.end());
   }
   std::sort(ids.begin(), ids.end());
@@ -173,8 +184,9 @@ void ObjectMap::Create(const AssociationQuery& query, const View& view) {
   landmark.label = query.detection->label;
   landmark.symmetry = labels_[landmark.label].symmetry;
   landmark.pose = ToUpright(view.T_world_cam * query.detection->T_cam_object, gravity_);
-  const Gallery::Mode mode =
-      association_.method == AssociationOptions::Method::kPaper ? Gallery::Mode::kMean : Gallery::Mode::kByViewpoint;
+  const Gallery::Mode mode = association_.method == AssociationOptions::Method::kPaper
+                                 ? Gallery::Mode::kMean
+                                 : Gallery::Mode::kByViewpoint;
   landmark.colour = Gallery(mode);
   landmark.embedding = Gallery(mode);
   const LandmarkId id = Insert(std::move(landmark));
@@ -193,18 +205,20 @@ LandmarkId ObjectMap::Insert(MapLandmark landmark) {
 
 void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, const View& view) {
   const Detection& detection = *query.detection;
-  if (options_.learn_noise && landmark.sightings.size() >= 3 && landmark.state == LandmarkState::kConfirmed)
+  if (options_.learn_noise && landmark.sightings.size() >= 3 &&
+      landmark.state == LandmarkState::kConfirmed)
     LearnNoise(landmark, detection, view);
 
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
   landmark.colour.Add(detection.colour, query.viewpoint_rad);
   landmark.embedding.Add(detection.embedding, query.viewpoint_rad);
-  landmark.sightings.push_back(
-      {view.frame, view.stamp, detection.row, detection.score, detection.T_cam_object, detection.dims});
+  landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score,
+                                detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
   landmark.last_seen_at = view.travelled;
 
-  // Running estimate until bundle adjustment takes over: the motion test's own position, the mean of height and yaw.
+  // Running estimate until bundle adjustment takes over: the motion test's own position, the mean
+  // of height and yaw.
   const double share = 1. / landmark.sightings.size();
   const UprightPose seen = ToUpright(view.T_world_cam * detection.T_cam_object, gravity_);
   const bool driving = landmark.state == LandmarkState::kDynamic;
@@ -214,14 +228,18 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.pose.position = place.x() * gravity_.forward + place.y() * gravity_.left +
                            (height + share * (query.height - height)) * gravity_.up;
   landmark.pose.yaw =
-      driving ? seen.yaw : WrapAngle(landmark.pose.yaw + share * WrapAngle(seen.yaw - landmark.pose.yaw, M_PI));
+      driving
+          ? seen.yaw
+          : WrapAngle(landmark.pose.yaw + share * WrapAngle(seen.yaw - landmark.pose.yaw, M_PI));
   landmark.dims = FuseDims(landmark.sightings);
   Reindex(landmark, view.stamp);
 }
 
-// Tracks the median of each component's normalised error: the scale goes up a little when the error is above it, down
-// when below (Robbins and Monro), so that it settles where half of all errors lie on either side.
-void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detection, const View& view) {
+// Tracks the median of each component's normalised error: the scale goes up a little when the error
+// is above it, down when below (Robbins and Monro), so that it settles where half of all errors lie
+// on either side.
+void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detection,
+                           const View& view) {
   constexpr double kRate = 0.03, kMedianOfGaussian = 0.6745;
   const Vec3 point_cam = detection.T_cam_object.translation();
   const Pose T_cam_object = view.T_world_cam.inverse() * ToPose(landmark.pose, gravity_);
@@ -241,9 +259,11 @@ void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detecti
 }
 
 void ObjectMap::Judge(MapLandmark& landmark, MapUpdate& update) {
-  const Motion motion = Movable(landmark) ? landmark.motion.Verdict(options_.motion) : Motion::kParked;
+  const Motion motion =
+      Movable(landmark) ? landmark.motion.Verdict(options_.motion) : Motion::kParked;
   if (landmark.state == LandmarkState::kDynamic) {
-    // A driving object that stands is a new object of the world: it may become part of the map, without its past.
+    // A driving object that stands is a new object of the world: it may become part of the map,
+    // without its past.
     const double since = landmark.motion.StandingSince();
     if (landmark.motion.Stamp() - since < options_.motion.settle_s) return;
     landmark.motion.Restart();

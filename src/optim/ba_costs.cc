@@ -13,14 +13,18 @@ void StoreAmbient(const Eigen::Matrix<double, kRows, 6>& J, const double* pose, 
   PoseManifold().MinusJacobian(pose, minus.data());
   Eigen::Map<Eigen::Matrix<double, kRows, 7, Eigen::RowMajor>> ambient(jacobian);
   // Rotation and translation do not mix: two products of half the size.
-  ambient.template leftCols<4>() = J.template rightCols<3>().lazyProduct(minus.bottomLeftCorner<3, 4>());
-  ambient.template rightCols<3>() = J.template leftCols<3>().lazyProduct(minus.topRightCorner<3, 3>());
+  ambient.template leftCols<4>() =
+      J.template rightCols<3>().lazyProduct(minus.bottomLeftCorner<3, 4>());
+  ambient.template rightCols<3>() =
+      J.template leftCols<3>().lazyProduct(minus.topRightCorner<3, 3>());
 }
 
 }  // namespace
 
 ObjectCost::ObjectCost(const ObjectResidual& residual)
-    : forward_(residual.gravity.forward), left_(residual.gravity.left), yaw_period_(residual.yaw_period) {
+    : forward_(residual.gravity.forward),
+      left_(residual.gravity.left),
+      yaw_period_(residual.yaw_period) {
   const DetectionSigmas& sigmas = residual.sigmas;
   const Vec3 weight(1 / sigmas.radial, 1 / sigmas.lateral, 1 / sigmas.vertical);
   whiten_ = weight.asDiagonal() * RayFrame(residual.T_cam_object.translation());
@@ -32,21 +36,26 @@ ObjectCost::ObjectCost(const ObjectResidual& residual)
 bool ObjectCost::Evaluate(double const* const* blocks, double* residual, double** jacobians) const {
   const Pose T_world_cam = lie::SE3ConstMap<double>(blocks[0]);
   const Eigen::Matrix3d R = T_world_cam.so3().matrix();
-  const Vec3 in_camera = R.transpose() * (Vec3(blocks[1][0], blocks[1][1], blocks[1][2]) - T_world_cam.translation());
+  const Vec3 in_camera =
+      R.transpose() * (Vec3(blocks[1][0], blocks[1][1], blocks[1][2]) - T_world_cam.translation());
   Eigen::Map<Eigen::Vector4d> r(residual);
   r.head<3>() = measured_ - whiten_ * in_camera;
   const Vec3 heading = R * heading_cam_;
   const double ahead = heading.dot(forward_), aside = heading.dot(left_);
-  r[3] = yaw_weight_ > 0 ? yaw_weight_ * WrapAngle(std::atan2(aside, ahead) - blocks[1][3], yaw_period_) : 0.;
+  r[3] = yaw_weight_ > 0
+             ? yaw_weight_ * WrapAngle(std::atan2(aside, ahead) - blocks[1][3], yaw_period_)
+             : 0.;
   if (jacobians == nullptr) return true;
   if (jacobians[0] != nullptr) {
     Eigen::Matrix<double, 4, 6> J;
     J.topLeftCorner<3, 3>() = whiten_;
-    for (int i = 0; i < 3; ++i) J.block<1, 3>(i, 3) = in_camera.cross(Vec3(whiten_.row(i))).transpose();
+    for (int i = 0; i < 3; ++i)
+      J.block<1, 3>(i, 3) = in_camera.cross(Vec3(whiten_.row(i))).transpose();
     J.bottomLeftCorner<1, 3>().setZero();
     const Vec3 yaw_gradient = (ahead * left_ - aside * forward_) / (ahead * ahead + aside * aside);
     J.bottomRightCorner<1, 3>().setZero();
-    if (yaw_weight_ > 0) J.block<1, 3>(3, 3) = yaw_weight_ * heading_cam_.cross(R.transpose() * yaw_gradient);
+    if (yaw_weight_ > 0)
+      J.block<1, 3>(3, 3) = yaw_weight_ * heading_cam_.cross(R.transpose() * yaw_gradient);
     StoreAmbient<4>(J, blocks[0], jacobians[0]);
   }
   if (jacobians[1] != nullptr) {
@@ -60,9 +69,11 @@ bool ObjectCost::Evaluate(double const* const* blocks, double* residual, double*
 
 OdometryCost::OdometryCost(const OdometryResidual& residual) : residual_(residual) {}
 
-bool OdometryCost::Evaluate(double const* const* blocks, double* residual, double** jacobians) const {
+bool OdometryCost::Evaluate(double const* const* blocks, double* residual,
+                            double** jacobians) const {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Pose T_world_from = lie::SE3ConstMap<double>(blocks[0]), T_world_to = lie::SE3ConstMap<double>(blocks[1]);
+  const Pose T_world_from = lie::SE3ConstMap<double>(blocks[0]),
+             T_world_to = lie::SE3ConstMap<double>(blocks[1]);
   const Vec3 metric = std::exp(*blocks[2]) * residual_.T_from_to.translation();
   const Pose B = T_world_from.inverse() * T_world_to;
   const Vec6 e = (Pose(residual_.T_from_to.so3(), metric).inverse() * B).Log();

@@ -66,22 +66,26 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
     double* object = objects_[sighting.object].data();
     if (options.residual == BaOptions::Residual::kPaper) {
       const PaperObjectResidual residual{sighting.T_cam_object, problem.gravity};
-      ceres_.AddResidualBlock(AutoDiff<PaperObjectResidual, 6, 7, 4>(residual), nullptr, camera, object);
+      ceres_.AddResidualBlock(AutoDiff<PaperObjectResidual, 6, 7, 4>(residual), nullptr, camera,
+                              object);
       continue;
     }
-    // By the range as estimated: by the one measured, what errs to the near side would count more than what errs to the
-    // far side, and the map would shrink.
+    // By the range as estimated: by the one measured, what errs to the near side would count more
+    // than what errs to the far side, and the map would shrink.
     const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
-    const double range = (T_world_cam.inverse() * problem.objects[sighting.object].pose.position).norm();
+    const double range =
+        (T_world_cam.inverse() * problem.objects[sighting.object].pose.position).norm();
     DetectionSigmas sigmas = SigmasAt(range, problem.noise, problem.noise_scale);
     sigmas.radial *= options.correlation;
     sigmas.lateral *= options.correlation;
     sigmas.vertical *= options.correlation;
     sigmas.yaw *= options.correlation;
-    // Detectors take front for back now and then, so even a car's heading is only trusted up to half a turn here.
+    // Detectors take front for back now and then, so even a car's heading is only trusted up to
+    // half a turn here.
     const double period = problem.objects[sighting.object].symmetry == Symmetry::kFull ? 0. : M_PI;
     const ObjectResidual residual{sighting.T_cam_object, sigmas, period, problem.gravity};
-    ceres_.AddResidualBlock(new ObjectCost(residual), options.loss_scale > 0 ? &loss_ : nullptr, camera, object);
+    ceres_.AddResidualBlock(new ObjectCost(residual), options.loss_scale > 0 ? &loss_ : nullptr,
+                            camera, object);
   }
 }
 
@@ -89,9 +93,10 @@ void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
   for (const BaOdometry& edge : problem.odometry) {
     const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options.odometry);
     const Vec3 up = problem.cameras[edge.to].T_world_cam.so3().inverse() * problem.gravity.up;
-    const OdometryResidual residual{edge.T_from_to, WhiteningOf(sigmas, problem.odometry_factors, up)};
-    ceres_.AddResidualBlock(new OdometryCost(residual), nullptr, cameras_[edge.from].data(), cameras_[edge.to].data(),
-                            &log_scale_);
+    const OdometryResidual residual{edge.T_from_to,
+                                    WhiteningOf(sigmas, problem.odometry_factors, up)};
+    ceres_.AddResidualBlock(new OdometryCost(residual), nullptr, cameras_[edge.from].data(),
+                            cameras_[edge.to].data(), &log_scale_);
   }
 }
 
@@ -117,9 +122,11 @@ void BaTerms::AddSlopes(const BaProblem& problem) {
     const double path = std::exp(problem.log_scale) * edge.T_from_to.translation().norm();  // [m]
     if (path <= 0) continue;
     // Cameras on one slope share what is known of it.
-    const double sigma = problem.slope.sigma_rad * std::sqrt(std::max(1., problem.slope.length_m / path));
+    const double sigma =
+        problem.slope.sigma_rad * std::sqrt(std::max(1., problem.slope.length_m / path));
     const SlopeResidual residual{up_in_cam, sigma};
-    ceres_.AddResidualBlock(AutoDiff<SlopeResidual, 3, 7, 3>(residual), nullptr, cameras_[edge.to].data(), up_.data());
+    ceres_.AddResidualBlock(AutoDiff<SlopeResidual, 3, 7, 3>(residual), nullptr,
+                            cameras_[edge.to].data(), up_.data());
   }
 }
 
@@ -156,7 +163,8 @@ void BaTerms::Store(BaProblem& problem) const {
     problem.cameras[i].T_world_cam.normalise();
   }
   for (std::size_t k = 0; k < objects_.size(); ++k)
-    problem.objects[k].pose = {Vec3(objects_[k][0], objects_[k][1], objects_[k][2]), WrapAngle(objects_[k][3])};
+    problem.objects[k].pose = {Vec3(objects_[k][0], objects_[k][1], objects_[k][2]),
+                               WrapAngle(objects_[k][3])};
   problem.log_scale = log_scale_;
 }
 

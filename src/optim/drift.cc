@@ -15,9 +15,12 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Cauchy: weight in the normal equations of a residual with this mean square. `scale` 0: none.
-double Weight(double mean_square, double scale) { return scale > 0 ? 1 / (1 + mean_square / (scale * scale)) : 1; }
+double Weight(double mean_square, double scale) {
+  return scale > 0 ? 1 / (1 + mean_square / (scale * scale)) : 1;
+}
 
-/// Gauss-Newton's normal equations for the perturbation [rho, phi] of D, on the right, at the objects' centre.
+/// Gauss-Newton's normal equations for the perturbation [rho, phi] of D, on the right, at the
+/// objects' centre.
 struct NormalEquations {
   Mat6 H = Mat6::Zero();
   Vector6 b = Vector6::Zero();
@@ -25,7 +28,8 @@ struct NormalEquations {
   int rows = 0;
 
   template <int N>
-  void Add(const Eigen::Matrix<double, N, 6>& J, const Eigen::Matrix<double, N, 1>& r, double loss_scale) {
+  void Add(const Eigen::Matrix<double, N, 6>& J, const Eigen::Matrix<double, N, 1>& r,
+           double loss_scale) {
     const double weight = Weight(r.squaredNorm() / N, loss_scale);
     H += weight * J.transpose() * J;
     b += weight * J.transpose() * r;
@@ -50,12 +54,15 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
         Eigen::RowVector3d(-h.y(), h.x(), 0) / (h.head<2>().squaredNorm() * match.sigma_yaw);
     Eigen::Matrix<double, 1, 6> J_yaw;
     J_yaw << Eigen::RowVector3d::Zero(), -slope * R * Rotation::hat(u);
-    equations.Add<1>(J_yaw, Eigen::Matrix<double, 1, 1>(YawError(match, state) / match.sigma_yaw), problem.loss_scale);
+    equations.Add<1>(J_yaw, Eigen::Matrix<double, 1, 1>(YawError(match, state) / match.sigma_yaw),
+                     problem.loss_scale);
   }
-  // The vertical stays the vertical, within tilt_sigma_rad. In 4 DoF these two rows meet no free column.
+  // The vertical stays the vertical, within tilt_sigma_rad. In 4 DoF these two rows meet no free
+  // column.
   const Vec3 up = R.transpose() * Vec3::UnitZ();
   Eigen::Matrix<double, 2, 6> J_tilt;
-  J_tilt << Eigen::Matrix<double, 2, 3>::Zero(), Mat3(Rotation::hat(up)).topRows<2>() / options.tilt_sigma_rad;
+  J_tilt << Eigen::Matrix<double, 2, 3>::Zero(),
+      Mat3(Rotation::hat(up)).topRows<2>() / options.tilt_sigma_rad;
   equations.Add<2>(J_tilt, up.head<2>() / options.tilt_sigma_rad, 0);
   if (!options.six_dof) {  // roll and pitch on their own: the prior alone is what is known of them
     for (const int i : {3, 4}) {
@@ -69,12 +76,13 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
 }
 
 /// The centred, gravity-aligned answer in the world's axes.
-void Store(const Problem& problem, const State& state, const Mat6& covariance, const GravityFrame& gravity,
-           DriftResult& result) {
+void Store(const Problem& problem, const State& state, const Mat6& covariance,
+           const GravityFrame& gravity, DriftResult& result) {
   const Pose T_gravity_global_local(state.R, state.t - state.R * problem.centre);
   const Pose T_world_gravity(Rotation::FromMatrix(gravity.Basis()), Vec3(Vec3::Zero()));
   result.T_global_local = T_world_gravity * T_gravity_global_local * T_world_gravity.inverse();
-  const Mat6 A = (T_world_gravity * Pose::Trans(problem.centre)).Adj();  // from the centre's frame to the world's
+  // from the centre's frame to the world's
+  const Mat6 A = (T_world_gravity * Pose::Trans(problem.centre)).Adj();
   result.covariance = A * covariance * A.transpose();
 }
 
@@ -88,7 +96,8 @@ bool MostHeadingsAgree(const Problem& problem, const State& state, double inlier
   return 2 * agree > headings;
 }
 
-void CountInliers(const Problem& problem, const State& state, double inlier_sigmas, DriftResult& result) {
+void CountInliers(const Problem& problem, const State& state, double inlier_sigmas,
+                  DriftResult& result) {
   double squares = 0;
   for (const Match& match : problem.matches) {
     const Vec3 error = PositionError(match, problem, state);
@@ -102,11 +111,14 @@ void CountInliers(const Problem& problem, const State& state, double inlier_sigm
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, DriftOptions& options) {
-  visitor.Flag("six_dof", options.six_dof, "also correct roll and pitch; false: yaw and shift only");
-  visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-6, 1, "how far the local map's vertical may be off");
+  visitor.Flag("six_dof", options.six_dof,
+               "also correct roll and pitch; false: yaw and shift only");
+  visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-6, 1,
+               "how far the local map's vertical may be off");
   visitor.Real("loss_scale", options.loss_scale, 0, 1e6,
                "Cauchy loss on each pair's position and heading, in sigmas; 0: none");
-  visitor.Real("inlier_sigmas", options.inlier_sigmas, 0.1, 1e3, "position error up to which a pair counts as inlier");
+  visitor.Real("inlier_sigmas", options.inlier_sigmas, 0.1, 1e3,
+               "position error up to which a pair counts as inlier");
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 1e-3, 3,
                "positions that fix the yaw worse than this leave it to the headings");
   visitor.Integer("max_iterations", options.max_iterations, 1, 1000, "Gauss-Newton iterations");
@@ -119,11 +131,13 @@ DriftPair MakeDriftPair(const LayoutObject& local, const LayoutObject& global) {
   DriftPair pair;
   pair.T_world_local = pose(local);
   pair.T_world_global = pose(global);
-  pair.symmetry = std::isnan(local.yaw) || std::isnan(global.yaw) ? Symmetry::kFull : local.symmetry;
+  pair.symmetry =
+      std::isnan(local.yaw) || std::isnan(global.yaw) ? Symmetry::kFull : local.symmetry;
   return pair;
 }
 
-DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& gravity, const DriftOptions& options) {
+DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& gravity,
+                       const DriftOptions& options) {
   DriftResult result;
   result.reason = Check(pairs);
   if (!result.reason.empty()) return result;
@@ -144,7 +158,8 @@ DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& 
   const NormalEquations equations = Linearise(problem, state, options);
   const Eigen::LDLT<Mat6> H(equations.H);
   const Mat6 covariance = H.solve(Mat6::Identity());
-  if (!covariance.allFinite() || !H.isPositive() || !(covariance(5, 5) <= std::pow(options.max_yaw_sigma_rad, 2))) {
+  if (!covariance.allFinite() || !H.isPositive() ||
+      !(covariance(5, 5) <= std::pow(options.max_yaw_sigma_rad, 2))) {
     result.reason = "the matched objects do not fix the yaw";
     return result;
   }

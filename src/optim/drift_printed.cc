@@ -14,7 +14,9 @@ std::optional<Pose> SolveDriftAsPrinted(const std::vector<DriftPair>& pairs) {
     Mat6 H = Mat6::Zero();
     Vector6 b = Vector6::Zero();
     for (const DriftPair& pair : pairs) {
-      const auto r = (T_drift.inverse() * (pair.T_world_local.inverse() * pair.T_world_global)).Log();  // Eq. 18
+      // Eq. 18
+      const auto r =
+          (T_drift.inverse() * (pair.T_world_local.inverse() * pair.T_world_global)).Log();
       // T_drift Exp(d) puts Exp(-d) in front: dr/dd = -J_l^-1(r).
       const Mat6 J = -Pose::LeftJacobianInverse(r);
       H += J.transpose() * J;

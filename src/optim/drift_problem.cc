@@ -20,7 +20,8 @@ double Cost(const Problem& problem, const State& state) {
   for (const Match& match : problem.matches) {
     const Vec3 e = PositionError(match, problem, state).cwiseQuotient(match.sigma);
     cost += 3 * Loss(e.squaredNorm() / 3, problem.loss_scale);
-    if (match.period > 0) cost += Loss(std::pow(YawError(match, state) / match.sigma_yaw, 2), problem.loss_scale);
+    if (match.period > 0)
+      cost += Loss(std::pow(YawError(match, state) / match.sigma_yaw, 2), problem.loss_scale);
   }
   return cost;
 }
@@ -37,8 +38,8 @@ State WithYaw(double yaw, const Problem& problem) {
   return state;
 }
 
-/// Weighted Procrustes about the vertical: the argument of the sum is the yaw, its modulus how sharply the positions
-/// fix it (the concentration of a von Mises distribution, about 1/sigma^2).
+/// Weighted Procrustes about the vertical: the argument of the sum is the yaw, its modulus how
+/// sharply the positions fix it (the concentration of a von Mises distribution, about 1/sigma^2).
 std::complex<double> Procrustes(const Problem& problem) {
   Vec3 middle = Vec3::Zero();
   double weights = 0;
@@ -70,7 +71,8 @@ std::string Check(const std::vector<DriftPair>& pairs) {
   return "";
 }
 
-Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity, double loss_scale) {
+Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity,
+                    double loss_scale) {
   const Mat3 to_gravity = gravity.Basis().transpose();
   Problem problem{{}, Vec3(Vec3::Zero()), loss_scale};
   double weights = 0;
@@ -93,7 +95,8 @@ Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gra
 Mat3 UprightInverse(double yaw) { return Rotation::RotZ(-yaw).matrix(); }
 
 Vec3 PositionError(const Match& match, const Problem& problem, const State& state) {
-  return UprightInverse(match.yaw_global) * (state.R * Vec3(match.local - problem.centre) + state.t - match.global);
+  return UprightInverse(match.yaw_global) *
+         (state.R * Vec3(match.local - problem.centre) + state.t - match.global);
 }
 
 Vec3 Heading(const Match& match, const State& state) {
@@ -105,7 +108,8 @@ double YawError(const Match& match, const State& state) {
   return WrapAngle(std::atan2(heading.y(), heading.x()) - match.yaw_global, match.period);
 }
 
-std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad, std::string& reason) {
+std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
+                               std::string& reason) {
   std::vector<double> yaws;
   const std::complex<double> positions = Procrustes(problem);
   const bool fixed_by_positions = std::abs(positions) * max_yaw_sigma_rad * max_yaw_sigma_rad >= 1;
@@ -119,8 +123,10 @@ std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
       yaws.push_back(match.yaw_global - match.yaw_local + turn);
   }
   if (!fixed_by_positions && !fixed_by_headings) {
-    reason = any_heading ? "the yaw is open by half a turn: objects on one spot, whose front and back are alike"
-                         : "nothing fixes the yaw: objects on one spot, without a heading";
+    reason =
+        any_heading
+            ? "the yaw is open by half a turn: objects on one spot, whose front and back are alike"
+            : "nothing fixes the yaw: objects on one spot, without a heading";
     return std::nullopt;
   }
   State best;

@@ -23,7 +23,8 @@ struct Match {
   double weight() const { return 1 / (sigma.x() * sigma.x()); }
 };
 
-/// D as p_global = R (p_local - centre) + t: turned about the middle of the objects, not about a far-away origin.
+/// D as p_global = R (p_local - centre) + t: turned about the middle of the objects, not about a
+/// far-away origin.
 struct State {
   Rotation R;
   Vec3 t;
@@ -38,7 +39,8 @@ struct Problem {
 /// What is wrong with the input; empty: nothing.
 std::string Check(const std::vector<DriftPair>& pairs);
 
-Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity, double loss_scale);
+Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity,
+                    double loss_scale);
 
 /// Rows: the axes of an object with this yaw.
 Mat3 UprightInverse(double yaw);
@@ -57,7 +59,9 @@ struct Start {
   bool by_positions = false;  ///< the positions fix the yaw, whatever the headings say
 };
 
-/// The best of the Procrustes solution and every pair's own yaw difference; or none, and the reason.
-std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad, std::string& reason);
+/// The best of the Procrustes solution and every pair's own yaw difference; or none, and the
+/// reason.
+std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
+                               std::string& reason);
 
 }  // namespace sslcd::drift

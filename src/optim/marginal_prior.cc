@@ -18,14 +18,18 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 }  // namespace
 
 MarginalPriorCost::MarginalPriorCost(const BaPrior& prior) : prior_(prior) {
-  for (std::size_t i = 0; i < prior.cameras.size(); ++i) mutable_parameter_block_sizes()->push_back(7);
-  for (std::size_t k = 0; k < prior.objects.size(); ++k) mutable_parameter_block_sizes()->push_back(4);
+  for (std::size_t i = 0; i < prior.cameras.size(); ++i)
+    mutable_parameter_block_sizes()->push_back(7);
+  for (std::size_t k = 0; k < prior.objects.size(); ++k)
+    mutable_parameter_block_sizes()->push_back(4);
   mutable_parameter_block_sizes()->push_back(1);
   set_num_residuals(static_cast<int>(prior.J.rows()));
 }
 
-bool MarginalPriorCost::Evaluate(double const* const* blocks, double* residuals, double** jacobians) const {
-  const int cameras = static_cast<int>(prior_.cameras.size()), objects = static_cast<int>(prior_.objects.size());
+bool MarginalPriorCost::Evaluate(double const* const* blocks, double* residuals,
+                                 double** jacobians) const {
+  const int cameras = static_cast<int>(prior_.cameras.size()),
+            objects = static_cast<int>(prior_.objects.size());
   const int rows = static_cast<int>(prior_.J.rows());
   Eigen::VectorXd difference(prior_.J.cols());
   int column = 0;
@@ -62,13 +66,16 @@ struct Quadratic {
   Eigen::VectorXd b;
 };
 
-// Eliminates the first `dropped` states: Schur complement, with a pseudo-inverse because the data may leave some free.
+// Eliminates the first `dropped` states: Schur complement, with a pseudo-inverse because the data
+// may leave some free.
 Quadratic Eliminate(const Quadratic& q, int dropped) {
   const int kept = static_cast<int>(q.H.rows()) - dropped;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q.H.topLeftCorner(dropped, dropped));
   const double floor = 1e-12 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
-  const Eigen::VectorXd inverse = eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
-  const Eigen::MatrixXd H_inverse = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
+  const Eigen::MatrixXd H_inverse =
+      eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   const Eigen::MatrixXd coupling = q.H.bottomLeftCorner(kept, dropped) * H_inverse;
   return {q.H.bottomRightCorner(kept, kept) - coupling * q.H.topRightCorner(dropped, kept),
           q.b.tail(kept) - coupling * q.b.head(dropped)};
@@ -87,13 +94,14 @@ void SquareRoot(const Quadratic& q, BaPrior& prior) {
 
 }  // namespace
 
-BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, const std::vector<int>& objects,
-                    const BaOptions& options) {
-  const std::set<int> gone_cameras(cameras.begin(), cameras.end()), gone_objects(objects.begin(), objects.end());
+BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
+                    const std::vector<int>& objects, const BaOptions& options) {
+  const std::set<int> gone_cameras(cameras.begin(), cameras.end()),
+      gone_objects(objects.begin(), objects.end());
   BaTerms terms(problem, options);
 
-  // Residuals that touch what goes, and the states that those residuals touch: what stays of them is the prior's
-  // subject.
+  // Residuals that touch what goes, and the states that those residuals touch: what stays of them
+  // is the prior's subject.
   std::set<ceres::ResidualBlockId> residuals;
   const auto collect = [&](double* block) {
     std::vector<ceres::ResidualBlockId> touching;
@@ -102,7 +110,8 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, c
   };
   for (const int i : gone_cameras) collect(terms.camera(i));
   for (const int k : gone_objects) collect(terms.object(k));
-  collect(terms.log_scale());  // the scale's own prior; odometry that stays is taken out again below
+  // the scale's own prior; odometry that stays is taken out again below
+  collect(terms.log_scale());
   std::set<double*> gone, touched;
   for (const int i : gone_cameras) gone.insert(terms.camera(i));
   for (const int k : gone_objects) gone.insert(terms.object(k));
@@ -113,8 +122,10 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, c
     std::vector<double*> blocks;
     terms.ceres().GetParameterBlocksForResidualBlock(id, &blocks);
     const bool scale_only = blocks.size() == 1 && blocks[0] == terms.log_scale();
-    const bool is_prior = !problem.prior.empty() && blocks.back() == terms.log_scale() && blocks.size() != 3;
-    const bool touches_gone = std::any_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
+    const bool is_prior =
+        !problem.prior.empty() && blocks.back() == terms.log_scale() && blocks.size() != 3;
+    const bool touches_gone =
+        std::any_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
     if (!scale_only && !is_prior && !touches_gone) return true;
     touched.insert(blocks.begin(), blocks.end());
     return false;
@@ -126,7 +137,8 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, c
   int dropped = 0;
   for (const int i : gone_cameras) blocks.push_back(terms.camera(i)), dropped += 6;
   for (const int k : gone_objects)
-    blocks.push_back(terms.object(k)), dropped += problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4;
+    blocks.push_back(terms.object(k)),
+        dropped += problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4;
   for (std::size_t i = 0; i < problem.cameras.size(); ++i) {
     if (gone_cameras.count(i) || !touched.count(terms.camera(i))) continue;
     blocks.push_back(terms.camera(i));
@@ -152,12 +164,15 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, c
   if (!terms.ceres().Evaluate(evaluate, nullptr, &r, nullptr, &sparse)) return {};
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)
-    for (int at = sparse.rows[row]; at < sparse.rows[row + 1]; ++at) J(row, sparse.cols[at]) = sparse.values[at];
+    for (int at = sparse.rows[row]; at < sparse.rows[row + 1]; ++at)
+      J(row, sparse.cols[at]) = sparse.values[at];
   const Eigen::Map<const Eigen::VectorXd> residual(r.data(), r.size());
   SquareRoot(Eliminate({J.transpose() * J, J.transpose() * residual}, dropped), prior);
 
-  // Objects without yaw take part with three columns; give them the zero fourth one that BaPrior's layout has.
-  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(prior.J.rows(), 6 * prior.cameras.size() + 4 * prior.objects.size() + 1);
+  // Objects without yaw take part with three columns; give them the zero fourth one that BaPrior's
+  // layout has.
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(
+      prior.J.rows(), 6 * prior.cameras.size() + 4 * prior.objects.size() + 1);
   int from = 0, to = 0;
   const auto copy = [&](int columns, int room) {
     wide.middleCols(to, columns) = prior.J.middleCols(from, columns);

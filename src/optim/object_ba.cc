@@ -16,14 +16,18 @@ namespace {
 ceres::Solver::Options SolverOptions(const BaOptions& options) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  // Eigen's sparse Cholesky: SuiteSparse's supernodes gain nothing on blocks this small, and it may start threads.
+  // Eigen's sparse Cholesky: SuiteSparse's supernodes gain nothing on blocks this small, and it may
+  // start threads.
   solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
   solver.num_threads = 1;  // sums in a fixed order: same bytes on every machine size
   solver.logging_type = ceres::SILENT;
-  solver.function_tolerance = 1e-5;          // steps that gain less change no state by anything that counts
-  solver.initial_trust_region_radius = 1e6;  // weak modes (a long chain's bend) take many steps under more damping
-  if (options.solver == BaOptions::Solver::kGaussNewton) {  // Levenberg-Marquardt with the damping off
+  // steps that gain less change no state by anything that counts
+  solver.function_tolerance = 1e-5;
+  // weak modes (a long chain's bend) take many steps under more damping
+  solver.initial_trust_region_radius = 1e6;
+  // Gauss-Newton is Levenberg-Marquardt with the damping off.
+  if (options.solver == BaOptions::Solver::kGaussNewton) {
     solver.initial_trust_region_radius = 1e32;
     solver.max_trust_region_radius = 1e33;
     solver.min_lm_diagonal = 1e-32;
@@ -50,13 +54,16 @@ bool Finite(const BaProblem& problem) {
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
-  visitor.Enum("residual", options.residual, {"robust", "paper"}, "whitened and symmetric, or Eq. 8 as printed");
+  visitor.Enum("residual", options.residual, {"robust", "paper"},
+               "whitened and symmetric, or Eq. 8 as printed");
   visitor.Enum("solver", options.solver, {"levenberg_marquardt", "gauss_newton"},
                "gauss_newton is the paper's: damping off");
   visitor.Integer("max_iterations", options.max_iterations, 1, 1000, "iterations of one solve");
-  visitor.Real("loss_scale", options.loss_scale, 0, 1e6, "robust: scale of the Cauchy loss on a sighting; 0: none");
-  visitor.Real("correlation", options.correlation, 1, 100,
-               "robust: factor on detection sigmas, because the errors of successive frames are alike");
+  visitor.Real("loss_scale", options.loss_scale, 0, 1e6,
+               "robust: scale of the Cauchy loss on a sighting; 0: none");
+  visitor.Real(
+      "correlation", options.correlation, 1, 100,
+      "robust: factor on detection sigmas, because the errors of successive frames are alike");
   visitor.Nested("odometry", options.odometry, "how far the odometry is off");
 }
 
@@ -90,8 +97,9 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
     const BaObject& object = problem.objects[sighting.object];
     const double range = sighting.T_cam_object.translation().norm();
     const double period = object.symmetry == Symmetry::kFull ? 0. : M_PI;
-    const ObjectResidual residual{sighting.T_cam_object, SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)),
-                                  period, problem.gravity};
+    const ObjectResidual residual{sighting.T_cam_object,
+                                  SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)), period,
+                                  problem.gravity};
     const Vec3& p = object.pose.position;
     const double state[4] = {p.x(), p.y(), p.z(), object.pose.yaw};
     double r[4];
@@ -101,7 +109,8 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
   NoiseScale scale = problem.noise_scale;
   double* const components[4] = {&scale.radial, &scale.lateral, &scale.vertical, &scale.yaw};
   for (int i = 0; i < 4; ++i)
-    if (errors[i].size() >= 20) *components[i] = std::clamp(Median(errors[i]) / kMedianOfGaussian, 0.5, 40.);
+    if (errors[i].size() >= 20)
+      *components[i] = std::clamp(Median(errors[i]) / kMedianOfGaussian, 0.5, 40.);
   return scale;
 }
 

@@ -6,10 +6,13 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
-  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10, "translation error of any two frames");
-  visitor.Real("translation_walk", noise.translation_walk, 0, 10, "horizontal random walk, m per sqrt(m)");
+  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10,
+               "translation error of any two frames");
+  visitor.Real("translation_walk", noise.translation_walk, 0, 10,
+               "horizontal random walk, m per sqrt(m)");
   visitor.Real("vertical_walk", noise.vertical_walk, 0, 10, "vertical random walk, m per sqrt(m)");
-  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1, "rotation error of any two frames");
+  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1,
+               "rotation error of any two frames");
   visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
   visitor.Real("rotation_turn", noise.rotation_turn, 0, 1, "rotation error per turn, rad per rad");
   visitor.Real("scale_prior", noise.scale_prior, 0, 1,
@@ -25,8 +28,10 @@ OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
           std::hypot(walked, noise.rotation_turn * turn)};
 }
 
-OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors, const Vec3& up) {
-  const Eigen::Matrix3d vertical = up * up.transpose(), horizontal = Eigen::Matrix3d::Identity() - vertical;
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,
+                              const Vec3& up) {
+  const Eigen::Matrix3d vertical = up * up.transpose(),
+                        horizontal = Eigen::Matrix3d::Identity() - vertical;
   return {horizontal / (factors.horizontal * sigmas.horizontal) + vertical / sigmas.vertical,
           (horizontal + vertical / factors.heading) / sigmas.rotation};
 }

@@ -60,14 +60,16 @@ CondensedGraph::CondensedGraph(const PoseGraph& graph, const std::vector<std::pa
         covariance = adjoint * covariance * adjoint.transpose() + link.covariance;
         T *= link.T_before_here;
       }
-      condensed_.edges.push_back(
-          {graph.vertices[v].id, graph.vertices[chain.links.back().vertex].id, T, Inverse(covariance)});
+      condensed_.edges.push_back({graph.vertices[v].id,
+                                  graph.vertices[chain.links.back().vertex].id, T,
+                                  Inverse(covariance)});
     }
   }
 }
 
 CondensedGraph::Chain CondensedGraph::Follow(int start, int edge, const PoseGraph& full,
-                                             const std::vector<std::pair<int, int>>& ends, const Neighbours& neighbours,
+                                             const std::vector<std::pair<int, int>>& ends,
+                                             const Neighbours& neighbours,
                                              std::vector<bool>& used) const {
   Chain chain{start, {}, false};
   int at = start;
@@ -77,7 +79,8 @@ CondensedGraph::Chain CondensedGraph::Follow(int start, int edge, const PoseGrap
     Link link{ends[edge].second, measured.T_from_to, Inverse(measured.information)};
     if (ends[edge].first != at) {  // against the edge: (T Exp(a))^-1 = T^-1 Exp(-Adj(T) a)
       const Matrix6 adjoint = measured.T_from_to.Adj();
-      link = {at = ends[edge].first, measured.T_from_to.inverse(), adjoint * link.covariance * adjoint.transpose()};
+      link = {at = ends[edge].first, measured.T_from_to.inverse(),
+              adjoint * link.covariance * adjoint.transpose()};
     }
     at = link.vertex;
     chain.links.push_back(link);
@@ -95,7 +98,8 @@ CondensedGraph::Chain CondensedGraph::Follow(int start, int edge, const PoseGrap
 
 void CondensedGraph::Expand(PoseGraph& full) const {
   for (std::size_t v = 0; v < kept_.size(); ++v)
-    if (kept_[v] >= 0) full.vertices[v].T_world_vertex = condensed_.vertices[kept_[v]].T_world_vertex;
+    if (kept_[v] >= 0)
+      full.vertices[v].T_world_vertex = condensed_.vertices[kept_[v]].T_world_vertex;
   for (const Chain& chain : chains_) {
     // Adjoint of each link's end seen from the chain's end, and the covariance of the whole.
     std::vector<Matrix6> adjoints(chain.links.size());

@@ -10,8 +10,8 @@ namespace {
 using Ends = std::vector<std::pair<int, int>>;
 using Rows3 = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-// Minimises sum_e w_e |x_to - A_e x_from - b_e|^2 over vectors or matrices x_v of `Size` rows and three columns;
-// anchored ones are given. Collects the normal equations edge by edge.
+// Minimises sum_e w_e |x_to - A_e x_from - b_e|^2 over vectors or matrices x_v of `Size` rows and
+// three columns; anchored ones are given. Collects the normal equations edge by edge.
 template <int Size>
 class LinearGraph {
  public:
@@ -25,7 +25,8 @@ class LinearGraph {
   }
 
   /// x holds the values of anchored vertices.
-  void Add(int from, int to, double weight, const Block& A, const Value& b, const std::vector<Value>& x) {
+  void Add(int from, int to, double weight, const Block& A, const Value& b,
+           const std::vector<Value>& x) {
     Couple(from, from, weight * A.transpose() * A, x);
     Couple(from, to, -weight * A.transpose(), x);
     Couple(to, from, -weight * A, x);
@@ -78,18 +79,21 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& M) {
 }  // namespace
 
 std::optional<std::vector<Pose>> ChordalStart(const PoseGraph& graph, const Ends& ends,
-                                              const std::vector<double>& weights, const std::vector<bool>& anchored) {
+                                              const std::vector<double>& weights,
+                                              const std::vector<bool>& anchored) {
   const auto weight = [&](std::size_t e, int block) {
     return weights[e] * graph.edges[e].information.diagonal().segment<3>(3 * block).mean();
   };
   // R_j = R_i R_ij, transposed so that the unknowns stand on the right: R_j^T = R_ij^T R_i^T.
   std::vector<Eigen::Matrix3d> rotations;
-  for (const auto& vertex : graph.vertices) rotations.push_back(vertex.T_world_vertex.so3().matrix().transpose());
+  for (const auto& vertex : graph.vertices)
+    rotations.push_back(vertex.T_world_vertex.so3().matrix().transpose());
   LinearGraph<3> rotation_graph(anchored);
   for (std::size_t e = 0; e < ends.size(); ++e) {
     if (weights[e] == 0) continue;
-    rotation_graph.Add(ends[e].first, ends[e].second, weight(e, 1), graph.edges[e].T_from_to.so3().matrix().transpose(),
-                       Eigen::Matrix3d::Zero(), rotations);
+    rotation_graph.Add(ends[e].first, ends[e].second, weight(e, 1),
+                       graph.edges[e].T_from_to.so3().matrix().transpose(), Eigen::Matrix3d::Zero(),
+                       rotations);
   }
   if (!rotation_graph.Solve(rotations)) return std::nullopt;
   for (Eigen::Matrix3d& R : rotations) R = NearestRotation(R);
@@ -97,13 +101,14 @@ std::optional<std::vector<Pose>> ChordalStart(const PoseGraph& graph, const Ends
   // t_j = t_i + R_i t_ij: the three components have the same matrix, so a point is a row.
   using Row3 = Eigen::Matrix<double, 1, 3>;
   std::vector<Row3> translations;
-  for (const auto& vertex : graph.vertices) translations.push_back(vertex.T_world_vertex.translation().transpose());
+  for (const auto& vertex : graph.vertices)
+    translations.push_back(vertex.T_world_vertex.translation().transpose());
   LinearGraph<1> translation_graph(anchored);
   for (std::size_t e = 0; e < ends.size(); ++e) {
     if (weights[e] == 0) continue;
     const Row3 step = graph.edges[e].T_from_to.translation().transpose() * rotations[ends[e].first];
-    translation_graph.Add(ends[e].first, ends[e].second, weight(e, 0), Eigen::Matrix<double, 1, 1>(1.), step,
-                          translations);
+    translation_graph.Add(ends[e].first, ends[e].second, weight(e, 0),
+                          Eigen::Matrix<double, 1, 1>(1.), step, translations);
   }
   if (!translation_graph.Solve(translations)) return std::nullopt;
 
@@ -111,7 +116,8 @@ std::optional<std::vector<Pose>> ChordalStart(const PoseGraph& graph, const Ends
   for (std::size_t v = 0; v < rotations.size(); ++v) {
     poses.push_back(graph.vertices[v].T_world_vertex);
     if (anchored[v]) continue;
-    poses[v] = Pose(lie::SO3<double>::FromMatrix(rotations[v].transpose()), translations[v].transpose());
+    poses[v] =
+        Pose(lie::SO3<double>::FromMatrix(rotations[v].transpose()), translations[v].transpose());
   }
   return poses;
 }

@@ -34,7 +34,8 @@ PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph:
   PoseGraph::Edge edge = measured;
   if (freedom == PoseFreedom::kFull) return edge;
   const auto &R_from = T_world_from.so3(), &R_to = T_world_to.so3();
-  // The twist about up of the turn from `to` as measured to `to` as it stands is the measurement's yaw error.
+  // The twist about up of the turn from `to` as measured to `to` as it stands is the measurement's
+  // yaw error.
   const auto q = (R_to * (R_from * measured.T_from_to.so3()).inverse()).unit_quaternion();
   const double yaw = 2 * std::atan2(q.vec().dot(up), q.w());
   edge.T_from_to.so3() = R_from.inverse() * lie::SO3<double>::Exp(-yaw * up) * R_to;
@@ -44,7 +45,8 @@ PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph:
   if (freedom == PoseFreedom::kPlanar) {
     const Vec3 step = T_world_to.translation() - T_world_from.translation();
     edge.T_from_to.translation() +=
-        R_from.inverse() * Vec3(up * up.dot(step - R_from * Vec3(measured.T_from_to.translation())));
+        R_from.inverse() *
+        Vec3(up * up.dot(step - R_from * Vec3(measured.T_from_to.translation())));
     edge.information.topLeftCorner<3, 3>() += kCertain * vertical;
   }
   return edge;
@@ -56,7 +58,8 @@ EdgeCost::EdgeCost(const PoseGraph::Edge& edge, const double* weight)
       weight_(weight) {}
 
 bool EdgeCost::Evaluate(double const* const* poses, double* residual, double** jacobians) const {
-  const Pose T_world_from = lie::SE3ConstMap<double>(poses[0]), T_world_to = lie::SE3ConstMap<double>(poses[1]);
+  const Pose T_world_from = lie::SE3ConstMap<double>(poses[0]),
+             T_world_to = lie::SE3ConstMap<double>(poses[1]);
   const Pose B = T_world_from.inverse() * T_world_to;
   const Pose::Tangent e = (T_to_from_ * B).Log();
   const Matrix6 S = std::sqrt(*weight_) * sqrt_information_;
@@ -84,14 +87,16 @@ bool UprightManifold::Plus(const double* x, const double* delta, double* x_plus_
 }
 
 bool UprightManifold::PlusJacobian(const double* x, double* jacobian) const {
-  // Translation and yaw of the world in the pose's own tangent space: rho = R^T d, phi = R^T up yaw.
+  // Translation and yaw of the world in the pose's own tangent space: rho = R^T d, phi = R^T up
+  // yaw.
   const Eigen::Matrix3d to_pose = lie::SE3ConstMap<double>(x).so3().matrix().transpose() * basis_;
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(6, TangentSize());
   directions.topLeftCorner(3, translations_) = to_pose.leftCols(translations_);
   directions.bottomRightCorner(3, 1) = to_pose.col(2);
   Matrix76 plus;
   PoseManifold().PlusJacobian(x, plus.data());
-  Eigen::Map<Eigen::Matrix<double, 7, Eigen::Dynamic, Eigen::RowMajor>>(jacobian, 7, TangentSize()) = plus * directions;
+  Eigen::Map<Eigen::Matrix<double, 7, Eigen::Dynamic, Eigen::RowMajor>>(
+      jacobian, 7, TangentSize()) = plus * directions;
   return true;
 }
 
@@ -110,8 +115,8 @@ bool UprightManifold::MinusJacobian(const double* x, double* jacobian) const {
   directions.bottomRightCorner(1, 3) = to_pose.col(2).transpose();
   Matrix67 minus;
   PoseManifold().MinusJacobian(x, minus.data());
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>>(jacobian, TangentSize(), 7) =
-      directions * minus;
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>>(jacobian, TangentSize(),
+                                                                        7) = directions * minus;
   return true;
 }
 

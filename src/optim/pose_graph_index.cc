@@ -52,7 +52,8 @@ PoseGraphIndex IndexPoseGraph(const PoseGraph& graph) {
   return index;
 }
 
-std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>& ends, const std::vector<bool>& use) {
+std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>& ends,
+                            const std::vector<bool>& use) {
   std::vector<int> root(vertices);
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&root](int i) {
@@ -65,7 +66,8 @@ std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>
     root[std::max(a, b)] = std::min(a, b);  // the root is the part's first vertex
   }
   std::vector<int> component(vertices);
-  for (int i = 0, count = 0; i < vertices; ++i) component[i] = find(i) == i ? count++ : component[find(i)];
+  for (int i = 0, count = 0; i < vertices; ++i)
+    component[i] = find(i) == i ? count++ : component[find(i)];
   return component;
 }
 

@@ -15,11 +15,12 @@ struct PoseGraphIndex {
   std::string trouble;                    ///< why the graph cannot be used; empty: it can
 };
 
-/// Looks the vertices up and checks the graph: ids unique and there, numbers finite, information positive definite.
+/// Looks the vertices up and checks the graph: ids unique and there, numbers finite, information
+/// positive definite.
 PoseGraphIndex IndexPoseGraph(const PoseGraph& graph);
 
-/// Number of each vertex's connected part, counted from 0 in vertex order. Edges with use[i] false do not connect; an
-/// empty `use` means all.
+/// Number of each vertex's connected part, counted from 0 in vertex order. Edges with use[i] false
+/// do not connect; an empty `use` means all.
 std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>& ends,
                             const std::vector<bool>& use = {});
 

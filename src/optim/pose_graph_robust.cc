@@ -13,13 +13,14 @@
 namespace sslcd {
 namespace {
 
-constexpr int kInnerIterations =
-    20;  // per weight update; the next one starts where this one ended and takes one or two
+// Per weight update; the next one starts where this one ended and takes one or two.
+constexpr int kInnerIterations = 20;
 
-double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends, std::size_t e) {
+double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
+                std::size_t e) {
   const PoseGraph::Edge& edge = graph.edges[e];
-  const Vec6 error =
-      EdgeError(edge, graph.vertices[ends[e].first].T_world_vertex, graph.vertices[ends[e].second].T_world_vertex);
+  const Vec6 error = EdgeError(edge, graph.vertices[ends[e].first].T_world_vertex,
+                               graph.vertices[ends[e].second].T_world_vertex);
   return error.dot(edge.information * error);
 }
 
@@ -52,9 +53,11 @@ class Gnc {
 
   void Graduate() {
     double mu = limit_ / std::max(2 * Worst() - limit_, 1e-3 * limit_);
-    for (bool undecided = true; undecided && rounds_ < options_.max_rounds; mu *= options_.mu_factor) {
+    for (bool undecided = true; undecided && rounds_ < options_.max_rounds;
+         mu *= options_.mu_factor) {
       SetWeights([&](double loop_chi2) { return Weight(loop_chi2, mu, limit_); });
-      undecided = std::any_of(weights_.begin(), weights_.end(), [](double w) { return w > 0 && w < 1; });
+      undecided =
+          std::any_of(weights_.begin(), weights_.end(), [](double w) { return w > 0 && w < 1; });
       Solve();
       ++rounds_;
     }
@@ -62,7 +65,8 @@ class Gnc {
 
   /// No more misfit than that many true loops bring along, and no loop that stands out.
   bool AllAgree() const {
-    const auto loops = std::count_if(graph_.edges.begin(), graph_.edges.end(), [](const auto& e) { return e.loop; });
+    const auto loops = std::count_if(graph_.edges.begin(), graph_.edges.end(),
+                                     [](const auto& e) { return e.loop; });
     const double expected = static_cast<double>(loops) * DegreesOfFreedom(options_.graph.freedom);
     return Worst() <= limit_ && std::accumulate(chi2_.begin(), chi2_.end(), 0.) <= expected;
   }
@@ -70,7 +74,8 @@ class Gnc {
   /// What is minimised: a loop beyond the limit costs the limit.
   double Cost() const {
     double cost = 0;
-    for (std::size_t e = 0; e < chi2_.size(); ++e) cost += graph_.edges[e].loop ? std::min(chi2_[e], limit_) : chi2_[e];
+    for (std::size_t e = 0; e < chi2_.size(); ++e)
+      cost += graph_.edges[e].loop ? std::min(chi2_[e], limit_) : chi2_[e];
     return cost;
   }
 
@@ -102,8 +107,9 @@ class Gnc {
   int rounds_ = 0;
 };
 
-// Moves all vertices of a graph that starts at its trusted edges' geometry. GNC ends in a local minimum at times, so
-// it is run from all loops and from none, and the lower cost wins; where all loops agree nothing needs deciding.
+// Moves all vertices of a graph that starts at its trusted edges' geometry. GNC ends in a local
+// minimum at times, so it is run from all loops and from none, and the lower cost wins; where all
+// loops agree nothing needs deciding.
 int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, double limit) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
   Gnc from_all(condensed.graph(), options, limit), from_none = from_all;
@@ -150,8 +156,10 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
   visitor.Real("inlier_probability", options.inlier_probability, 0.5, 1 - 1e-9,
                "a true loop passes with this probability");
   visitor.Real("drift_factor", options.drift_factor, 1, 1e6,
-               "a loop is ruled out where odometry would have to be this many times worse than its information says");
-  visitor.Real("mu_factor", options.mu_factor, 1.01, 100, "how fast the loops' cost turns from convex to truncated");
+               "a loop is ruled out where odometry would have to be this many times worse than its "
+               "information says");
+  visitor.Real("mu_factor", options.mu_factor, 1.01, 100,
+               "how fast the loops' cost turns from convex to truncated");
   visitor.Integer("max_rounds", options.max_rounds, 1, 10000, "weight updates");
 }
 
@@ -162,33 +170,36 @@ double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
   return chi2_limit * options.drift_factor * options.drift_factor;
 }
 
-// Judges all loops by where `work` stands, those that were ruled out, too, and solves with the ones kept; a few times,
-// until nothing changes. `graph` takes over what `work` has found.
-void Decide(PoseGraph& work, const RobustPoseGraphOptions& options, const std::vector<std::pair<int, int>>& ends,
-            PoseGraph& graph, RobustPoseGraphSummary& summary) {
+// Judges all loops by where `work` stands, those that were ruled out, too, and solves with the ones
+// kept; a few times, until nothing changes. `graph` takes over what `work` has found.
+void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
+            const std::vector<std::pair<int, int>>& ends, PoseGraph& graph,
+            RobustPoseGraphSummary& summary) {
   for (int i = 0; i < 5 && KeepConsistent(work, ends, summary); ++i) {
     summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
     if (!summary.graph.usable) break;
   }
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
-    if (graph.edges[e].loop) ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
+    if (graph.edges[e].loop)
+      ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
   summary.graph.initial_chi2 = Chi2(graph, summary.edge_weight);
   if (!summary.graph.usable) return;
   graph.vertices = work.vertices;
   summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
 }
 
-// From where a former solve has left the vertices, with what it has kept. False if this refuses more loops than a few
-// new ones can be, or if the new ones bend the trusted edges more than one true loop may: then everything has to be
-// decided anew.
-bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const std::vector<double>& kept_before,
-               RobustPoseGraphSummary& summary) {
+// From where a former solve has left the vertices, with what it has kept. False if this refuses
+// more loops than a few new ones can be, or if the new ones bend the trusted edges more than one
+// true loop may: then everything has to be decided anew.
+bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
+               const std::vector<double>& kept_before, RobustPoseGraphSummary& summary) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // its loops come first, in order
   std::vector<std::size_t> loops;
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
     if (graph.edges[e].loop) loops.push_back(e);
   const auto refused = [&](const std::vector<double>& weights) {
-    return std::count_if(loops.begin(), loops.end(), [&](std::size_t e) { return weights[e] == 0; });
+    return std::count_if(loops.begin(), loops.end(),
+                         [&](std::size_t e) { return weights[e] == 0; });
   };
   RobustPoseGraphSummary decided = summary;
   std::vector<double> weights(condensed.graph().edges.size(), 1.);
@@ -198,7 +209,8 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options, const st
   const auto ends = IndexPoseGraph(condensed.graph()).ends;
   const auto misfit_of_trusted = [&] {
     double sum = 0;
-    for (std::size_t e = loops.size(); e < ends.size(); ++e) sum += EdgeChi2(condensed.graph(), ends, e);
+    for (std::size_t e = loops.size(); e < ends.size(); ++e)
+      sum += EdgeChi2(condensed.graph(), ends, e);
     return sum;
   };
   const double misfit_before = misfit_of_trusted();
@@ -232,12 +244,15 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
     summary.graph.message = "not optimised: " + index.trouble;
     return summary;
   }
-  summary.chi2_limit = Chi2Quantile(options.inlier_probability, DegreesOfFreedom(options.graph.freedom));
-  PoseGraph work = graph;  // measurements as the vertices' freedom allows them, so that a loop is judged by these alone
+  summary.chi2_limit =
+      Chi2Quantile(options.inlier_probability, DegreesOfFreedom(options.graph.freedom));
+  // measurements as the vertices' freedom allows them, so that a loop is judged by these alone
+  PoseGraph work = graph;
   for (std::size_t e = 0; e < work.edges.size(); ++e) {
     const auto [from, to] = index.ends[e];
-    work.edges[e] = EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
-                               work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
+    work.edges[e] =
+        EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
+                   work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
   }
   if (kept_before.size() == graph.edges.size() && SolveWarm(work, options, kept_before, summary)) {
     Decide(work, options, index.ends, graph, summary);
@@ -251,7 +266,8 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
   const double ruled_out = RuledOut(summary.chi2_limit, options);
   for (std::size_t e = 0; e < work.edges.size(); ++e) {
     const PoseGraph::Edge& edge = work.edges[e];
-    if (!edge.loop || tree.Disagreement(edge, index.ends[e].first, index.ends[e].second) <= ruled_out)
+    if (!edge.loop ||
+        tree.Disagreement(edge, index.ends[e].first, index.ends[e].second) <= ruled_out)
       candidates.edges.push_back(edge);
   }
   summary.rounds = SolveTruncated(candidates, options, summary.chi2_limit);

@@ -38,12 +38,12 @@ std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& compon
   return anchored;
 }
 
-// A chordal start pays where the poses are this much further from the measurements than noise explains, or where one
-// of them is turned this far: beyond, a linearised rotation leads astray.
+// A chordal start pays where the poses are this much further from the measurements than noise
+// explains, or where one of them is turned this far: beyond, a linearised rotation leads astray.
 constexpr double kFarFromMeasurements = 10, kFarTurned = 0.5;
 
-bool IsFar(double chi2, const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
-           const std::vector<Pose>& poses) {
+bool IsFar(double chi2, const PoseGraph& graph, const Ends& ends,
+           const std::vector<double>& weights, const std::vector<Pose>& poses) {
   if (chi2 > kFarFromMeasurements * 6 * static_cast<double>(graph.edges.size())) return true;
   for (std::size_t e = 0; e < ends.size(); ++e) {
     const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
@@ -70,12 +70,14 @@ int DegreesOfFreedom(PoseFreedom freedom) {
 }
 
 void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options) {
-  visitor.Enum("freedom", options.freedom, {"full", "upright", "planar"},
-               "what a pose may do: 6 DoF; 4 (translation and yaw); 3 (horizontal translation and yaw)");
+  visitor.Enum(
+      "freedom", options.freedom, {"full", "upright", "planar"},
+      "what a pose may do: 6 DoF; 4 (translation and yaw); 3 (horizontal translation and yaw)");
   visitor.Enum("start", options.start, {"auto", "given", "chordal"},
                "start from the given poses, from a chordal initialisation, or from the better one");
   visitor.Integer("max_iterations", options.max_iterations, 1, 10000, "iterations of one solve");
-  visitor.Real("tolerance", options.tolerance, 0, 1, "stop when an iteration lowers chi2 by less than this fraction");
+  visitor.Real("tolerance", options.tolerance, 0, 1,
+               "stop when an iteration lowers chi2 by less than this fraction");
 }
 
 Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose& T_world_to) {
@@ -85,7 +87,8 @@ Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose
 double Chi2(const PoseGraph& graph, const std::vector<double>& weights) {
   const PoseGraphIndex index = IndexPoseGraph(graph);
   if (!index.trouble.empty()) throw Error(ErrorKind::kBadInput, "pose graph: " + index.trouble);
-  return Chi2Of(graph, index.ends, weights.empty() ? std::vector<double>(graph.edges.size(), 1.) : weights,
+  return Chi2Of(graph, index.ends,
+                weights.empty() ? std::vector<double>(graph.edges.size(), 1.) : weights,
                 PosesOf(graph));
 }
 
@@ -94,26 +97,30 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   PoseGraphSummary summary;
   const PoseGraphIndex index = IndexPoseGraph(graph);
   if (!index.trouble.empty() || graph.edges.empty()) {
-    summary.message = index.trouble.empty() ? "nothing to optimise: no edges" : "not optimised: " + index.trouble;
+    summary.message =
+        index.trouble.empty() ? "nothing to optimise: no edges" : "not optimised: " + index.trouble;
     return summary;
   }
   std::vector<double> weights = given_weights;
   weights.resize(graph.edges.size(), 1.);
   std::vector<bool> use;
   for (const double weight : weights) use.push_back(weight > 0);
-  const std::vector<int> component = Components(static_cast<int>(graph.vertices.size()), index.ends, use);
+  const std::vector<int> component =
+      Components(static_cast<int>(graph.vertices.size()), index.ends, use);
   summary.components = 1 + *std::max_element(component.begin(), component.end());
   const std::vector<bool> anchored = Anchors(graph, component);
 
   std::vector<Pose> poses = PosesOf(graph);
   summary.initial_chi2 = Chi2Of(graph, index.ends, weights, poses);
-  const bool try_chordal = options.start == PoseGraphStart::kChordal ||
-                           (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
-                            IsFar(summary.initial_chi2, graph, index.ends, weights, poses));
+  const bool try_chordal =
+      options.start == PoseGraphStart::kChordal ||
+      (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
+       IsFar(summary.initial_chi2, graph, index.ends, weights, poses));
   if (try_chordal) {
     const auto chordal = ChordalStart(graph, index.ends, weights, anchored);
-    summary.chordal = chordal && (options.start == PoseGraphStart::kChordal ||
-                                  Chi2Of(graph, index.ends, weights, *chordal) < summary.initial_chi2);
+    summary.chordal =
+        chordal && (options.start == PoseGraphStart::kChordal ||
+                    Chi2Of(graph, index.ends, weights, *chordal) < summary.initial_chi2);
     if (summary.chordal) poses = *chordal;
   }
 
@@ -132,13 +139,15 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
     if (weights[e] == 0) continue;
     Pose& from = poses[index.ends[e].first];
     Pose& to = poses[index.ends[e].second];
-    const PoseGraph::Edge edge = EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
+    const PoseGraph::Edge edge =
+        EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
     problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
   }
   ceres::Solver::Summary result;
   ceres::Solve(CeresOptions(options), &problem, &result);
   summary.usable = result.IsSolutionUsable();
-  summary.converged = result.termination_type == ceres::CONVERGENCE || result.termination_type == ceres::USER_SUCCESS;
+  summary.converged = result.termination_type == ceres::CONVERGENCE ||
+                      result.termination_type == ceres::USER_SUCCESS;
   summary.iterations = static_cast<int>(result.iterations.size()) - 1;
   summary.message = result.message;
   if (!summary.usable) return summary;

@@ -55,7 +55,8 @@ TrustedTree::TrustedTree(const PoseGraph& graph, const std::vector<std::pair<int
 
 double TrustedTree::Disagreement(const PoseGraph::Edge& edge, int from, int to) const {
   int a = from, b = to;  // both upwards until they meet
-  while (a != b && a >= 0 && b >= 0) (depth_[a] >= depth_[b] ? a : b) = parent_[depth_[a] >= depth_[b] ? a : b];
+  while (a != b && a >= 0 && b >= 0)
+    (depth_[a] >= depth_[b] ? a : b) = parent_[depth_[a] >= depth_[b] ? a : b];
   if (a != b) return 0;
   const Matrix6 adjoint = poses_[to].inverse().Adj();
   const Matrix6 way = covariance_[from] + covariance_[to] - 2 * covariance_[a];

@@ -10,7 +10,8 @@ namespace {
 using Jacobian76 = Eigen::Matrix<double, 7, 6, Eigen::RowMajor>;
 using Jacobian67 = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
 
-// d(q Exp(phi))/dphi at 0 = q * [phi/2, 0]: columns of the quaternion's left multiplication, halved.
+// d(q Exp(phi))/dphi at 0 = q * [phi/2, 0]: columns of the quaternion's left multiplication,
+// halved.
 Eigen::Matrix<double, 4, 3> QuaternionPlusJacobian(const double* q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   Eigen::Matrix<double, 4, 3> J;
@@ -22,7 +23,8 @@ Eigen::Matrix<double, 4, 3> QuaternionPlusJacobian(const double* q) {
 
 bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
   const lie::SE3<double> T = lie::SE3Map<const double>(x);
-  lie::SE3<double> moved = T * lie::SE3<double>::Exp(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(delta));
+  lie::SE3<double> moved =
+      T * lie::SE3<double>::Exp(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(delta));
   moved.normalise();
   std::copy_n(moved.data(), 7, x_plus_delta);
   return true;
@@ -47,7 +49,8 @@ bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) co
 bool PoseManifold::MinusJacobian(const double* x, double* jacobian) const {
   Eigen::Map<Jacobian67> J(jacobian);
   J.setZero();
-  // The columns of the quaternion's Jacobian are orthogonal and of length 1/2: its left inverse is 4 J^T.
+  // The columns of the quaternion's Jacobian are orthogonal and of length 1/2: its left inverse is
+  // 4 J^T.
   J.block<3, 4>(3, 0) = 4. * QuaternionPlusJacobian(x).transpose();
   const lie::SE3<double> T = lie::SE3Map<const double>(x);
   J.block<3, 3>(0, 4) = T.so3().matrix().transpose();

@@ -14,9 +14,9 @@ namespace {
 void CheckColourImage(const ImageView& image) {
   CheckImage(image, "colour image");
   if (image.channels != 3)
-    throw Error(ErrorKind::kBadInput,
-                "colour image: it has " + std::to_string(image.channels) +
-                    " channel(s), the colour signature needs 3 (B G R); leave the images out or give colour ones");
+    throw Error(ErrorKind::kBadInput, "colour image: it has " + std::to_string(image.channels) +
+                                          " channel(s), the colour signature needs 3 (B G R); "
+                                          "leave the images out or give colour ones");
 }
 
 /// Whole pixels [first, last) of the central part of an interval.
@@ -34,7 +34,8 @@ PixelRange CentralPixels(double low, double high, double share, int image_size) 
           static_cast<int>(std::ceil(std::clamp(middle + half, 0., size)))};
 }
 
-Eigen::Matrix3Xf SamplePixels(const ImageView& image, const Box2d& box, const ColourOptions& options) {
+Eigen::Matrix3Xf SamplePixels(const ImageView& image, const Box2d& box,
+                              const ColourOptions& options) {
   const PixelRange columns = CentralPixels(box.left, box.right, options.box_share, image.width);
   const PixelRange rows = CentralPixels(box.top, box.bottom, options.box_share, image.height);
   if (columns.size() <= 0 || rows.size() <= 0) return {};
@@ -84,7 +85,8 @@ std::vector<float> SoftAssignment(const ColourSignature& signature, double softn
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(palette.size());
   for (const ColourCluster& cluster : signature) {
     Eigen::VectorXd distances(palette.size());
-    for (std::size_t i = 0; i < palette.size(); ++i) distances[i] = (cluster.centre - palette[i]).squaredNorm();
+    for (std::size_t i = 0; i < palette.size(); ++i)
+      distances[i] = (cluster.centre - palette[i]).squaredNorm();
     // Relative to the nearest entry, so that a small softness cannot make them all zero.
     const Eigen::VectorXd likeness =
         (-0.5 / (softness * softness) * (distances.array() - distances.minCoeff())).exp().matrix();
@@ -126,39 +128,47 @@ Vec3 HsvColour(double red, double green, double blue) {
   return {30 * sextant, value > 0 ? 255 * chroma / value : 0., 255 * value};
 }
 
-ColourSignature ExtractColour(const ImageView& image, const Box2d& box, const ColourOptions& options) {
+ColourSignature ExtractColour(const ImageView& image, const Box2d& box,
+                              const ColourOptions& options) {
   CheckColourImage(image);
   const Eigen::Matrix3Xf pixels = SamplePixels(image, box, options);
-  const KMeansResult clusters =
-      KMeans(pixels, {options.clusters, options.iterations, static_cast<std::uint64_t>(options.seed)});
+  const KMeansResult clusters = KMeans(
+      pixels, {options.clusters, options.iterations, static_cast<std::uint64_t>(options.seed)});
   ColourSignature signature;
   for (std::size_t i = 0; i < clusters.sizes.size(); ++i) {
     signature.push_back({clusters.centres.col(static_cast<Eigen::Index>(i)).cast<double>(),
                          clusters.sizes[i] / static_cast<double>(pixels.cols())});
   }
-  std::stable_sort(signature.begin(), signature.end(),
-                   [](const ColourCluster& a, const ColourCluster& b) { return a.weight > b.weight; });
+  std::stable_sort(
+      signature.begin(), signature.end(),
+      [](const ColourCluster& a, const ColourCluster& b) { return a.weight > b.weight; });
   return signature;
 }
 
 std::vector<float> ColourVector(const ColourSignature& signature, const ColourOptions& options) {
   if (signature.empty()) return {};
-  if (options.method == ColourOptions::Method::kRobust) return SoftAssignment(signature, options.softness);
+  if (options.method == ColourOptions::Method::kRobust)
+    return SoftAssignment(signature, options.softness);
   std::vector<float> shares(std::max<std::size_t>(options.clusters, signature.size()), 0.f);
-  for (std::size_t i = 0; i < signature.size(); ++i) shares[i] = static_cast<float>(signature[i].weight);
+  for (std::size_t i = 0; i < signature.size(); ++i)
+    shares[i] = static_cast<float>(signature[i].weight);
   return shares;
 }
 
-std::vector<float> ColourVector(const ImageView& image, const Box2d& box, const ColourOptions& options) {
+std::vector<float> ColourVector(const ImageView& image, const Box2d& box,
+                                const ColourOptions& options) {
   return ColourVector(ExtractColour(image, box, options), options);
 }
 
 void DescribeFields(FieldVisitor& visitor, ColourOptions& options) {
   visitor.Enum("method", options.method, {"robust", "paper"},
                "hue-safe colours and a shared palette, or plain HSV shares");
-  visitor.Integer("clusters", options.clusters, 1, 64, "dominant colours per object (K of K-means++)");
-  visitor.Integer("max_pixels", options.max_pixels, 1, 1000000, "pixels looked at per object, at most");
-  visitor.Real("box_share", options.box_share, 0.05, 1, "central part of the box that is looked at, per side");
+  visitor.Integer("clusters", options.clusters, 1, 64,
+                  "dominant colours per object (K of K-means++)");
+  visitor.Integer("max_pixels", options.max_pixels, 1, 1000000,
+                  "pixels looked at per object, at most");
+  visitor.Real("box_share", options.box_share, 0.05, 1,
+               "central part of the box that is looked at, per side");
   visitor.Integer("iterations", options.iterations, 1, 1000, "K-means iterations, at most");
   visitor.Integer("seed", options.seed, 0, 1000000000, "seed of K-means++");
   visitor.Real("softness", options.softness, 0.01, 10,

@@ -10,7 +10,8 @@ namespace {
 bool IsFinite(const Detection& detection) {
   const double* pose = detection.T_cam_object.data();
   return std::isfinite(detection.score) && detection.dims.allFinite() &&
-         std::all_of(pose, pose + Pose::kParameters, [](double value) { return std::isfinite(value); });
+         std::all_of(pose, pose + Pose::kParameters,
+                     [](double value) { return std::isfinite(value); });
 }
 
 bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
@@ -20,7 +21,8 @@ bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
 }
 
 /// The counter that this detection belongs to.
-int& Classify(const Detection& detection, const DetectionFilterOptions& options, FilterReport& report) {
+int& Classify(const Detection& detection, const DetectionFilterOptions& options,
+              FilterReport& report) {
   if (!IsFinite(detection)) return report.not_finite;
   if (detection.score < options.min_score) return report.low_score;
   if (detection.T_cam_object.translation().norm() > options.max_range_m) return report.too_far;
@@ -39,7 +41,8 @@ FilterReport& FilterReport::operator+=(const FilterReport& other) {
   return *this;
 }
 
-FilterReport FilterDetections(std::vector<Detection>& detections, const DetectionFilterOptions& options) {
+FilterReport FilterDetections(std::vector<Detection>& detections,
+                              const DetectionFilterOptions& options) {
   FilterReport report;
   const auto drop = [&](const Detection& detection) {
     int& counter = Classify(detection, options, report);
@@ -53,7 +56,8 @@ FilterReport FilterDetections(std::vector<Detection>& detections, const Detectio
 
 void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options) {
   visitor.Real("min_score", options.min_score, 0, 1, "detections with a lower score are dropped");
-  visitor.Real("max_range_m", options.max_range_m, 0.1, 1e4, "detections farther from the camera are dropped");
+  visitor.Real("max_range_m", options.max_range_m, 0.1, 1e4,
+               "detections farther from the camera are dropped");
   visitor.Real("min_length_m", options.min_length_m, 0, 1e3, "shortest object");
   visitor.Real("max_length_m", options.max_length_m, 0, 1e3, "longest object");
   visitor.Real("min_width_m", options.min_width_m, 0, 1e3, "narrowest object");

@@ -30,7 +30,8 @@ Eigen::Matrix3Xf Seed(const Eigen::Matrix3Xf& points, const KMeansOptions& optio
   constexpr int kDraws = 4;  // 2 + log(K), as in the paper
   std::mt19937_64 engine(options.seed);
   Eigen::Matrix3Xf centres(3, std::max(options.clusters, 1));
-  centres.col(0) = points.col(static_cast<Eigen::Index>(engine() % static_cast<std::uint64_t>(points.cols())));
+  centres.col(0) =
+      points.col(static_cast<Eigen::Index>(engine() % static_cast<std::uint64_t>(points.cols())));
   Distances nearest = SquaredDistances(points, centres.col(0));
   for (Eigen::Index k = 1; k < centres.cols(); ++k) {
     const double total = nearest.cast<double>().sum();
@@ -49,7 +50,8 @@ Eigen::Matrix3Xf Seed(const Eigen::Matrix3Xf& points, const KMeansOptions& optio
 }
 
 /// Index of the nearest centre for each point; returns whether any changed.
-bool Assign(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xf& centres, std::vector<int>& cluster_of) {
+bool Assign(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xf& centres,
+            std::vector<int>& cluster_of) {
   bool changed = false;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     Eigen::Index nearest = 0;
@@ -61,7 +63,8 @@ bool Assign(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xf& centres, std
 }
 
 /// Means of the clusters; those that ran empty are left out.
-void Update(const Eigen::Matrix3Xf& points, const std::vector<int>& cluster_of, KMeansResult& result) {
+void Update(const Eigen::Matrix3Xf& points, const std::vector<int>& cluster_of,
+            KMeansResult& result) {
   const Eigen::Index count = result.centres.cols();
   Eigen::Matrix3Xd sums = Eigen::Matrix3Xd::Zero(3, count);
   std::vector<int> sizes(count, 0);
@@ -90,7 +93,8 @@ KMeansResult KMeans(const Eigen::Matrix3Xf& points, const KMeansOptions& options
     if (!Assign(points, result.centres, cluster_of)) break;
     const Eigen::Index before = result.centres.cols();
     Update(points, cluster_of, result);
-    if (result.centres.cols() != before) std::fill(cluster_of.begin(), cluster_of.end(), -1);  // renumbered
+    // renumbered
+    if (result.centres.cols() != before) std::fill(cluster_of.begin(), cluster_of.end(), -1);
   }
   Assign(points, result.centres, cluster_of);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {

@@ -8,7 +8,8 @@
 namespace sslcd {
 namespace {
 
-/// Corner i has the sign pattern of the bits of i, so an edge joins two corners that differ in one bit.
+/// Corner i has the sign pattern of the bits of i, so an edge joins two corners that differ in one
+/// bit.
 std::array<Vec3, 8> Corners(const Pose& T_cam_object, const Vec3& dims, const Camera& camera) {
   std::array<Vec3, 8> corners;
   for (int i = 0; i < 8; ++i) {
@@ -23,7 +24,8 @@ class Bounds {
   void Add(const Vec3& point, const Camera& camera) {
     const double u = camera.fx * point.x() / point.z() + camera.cx;
     const double v = camera.fy * point.y() / point.z() + camera.cy;
-    box_ = {std::min(box_.left, u), std::min(box_.top, v), std::max(box_.right, u), std::max(box_.bottom, v)};
+    box_ = {std::min(box_.left, u), std::min(box_.top, v), std::max(box_.right, u),
+            std::max(box_.bottom, v)};
   }
   const Box2d& box() const { return box_; }
 
@@ -34,11 +36,14 @@ class Bounds {
 
 }  // namespace
 
-std::optional<Box2d> ProjectCuboid(const Pose& T_cam_object, const Vec3& dims, const Camera& camera, double near_m) {
+std::optional<Box2d> ProjectCuboid(const Pose& T_cam_object, const Vec3& dims, const Camera& camera,
+                                   double near_m) {
   const std::array<Vec3, 8> corners = Corners(T_cam_object, dims, camera);
-  if (!std::all_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.allFinite(); })) return std::nullopt;
+  if (!std::all_of(corners.begin(), corners.end(), [](const Vec3& c) { return c.allFinite(); }))
+    return std::nullopt;
 
-  // The cut cuboid is convex; its vertices are the corners in front of the plane and the edges' points on it.
+  // The cut cuboid is convex; its vertices are the corners in front of the plane and the edges'
+  // points on it.
   Bounds bounds;
   for (int i = 0; i < 8; ++i) {
     const Vec3& a = corners[i];

@@ -18,13 +18,15 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 }  // namespace
 
-LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames, PlaceMatcher matcher)
+LoopCloser::LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames,
+                       PlaceMatcher matcher)
     : options_(options),
       map_(map),
       frames_(frames),
       matcher_(std::move(matcher)),
       passes_(map, frames, options.noise, options.loop.layout.split_m,
-              options.mode == Options::Mode::kPaper ? Gallery::Mode::kMean : Gallery::Mode::kByViewpoint),
+              options.mode == Options::Mode::kPaper ? Gallery::Mode::kMean
+                                                    : Gallery::Mode::kByViewpoint),
       tracks_(options.loop.tracks) {}
 
 std::vector<LoopClosure> LoopCloser::closures() const {
@@ -41,15 +43,17 @@ std::vector<LoopClosure> LoopCloser::closures() const {
 }
 
 bool LoopCloser::Closed() const {
-  return std::any_of(attempts_.begin(), attempts_.end(),
-                     [](const Attempt& attempt) { return attempt.loop.row.decision == LoopDecision::kAccepted; });
+  return std::any_of(attempts_.begin(), attempts_.end(), [](const Attempt& attempt) {
+    return attempt.loop.row.decision == LoopDecision::kAccepted;
+  });
 }
 
 PathGraph LoopCloser::Path() const {
   PathGraph path;
   for (const Attempt& attempt : attempts_)
     if (attempt.loop.row.decision == LoopDecision::kAccepted)
-      path.AddShortcut(frames_[attempt.loop.query].travelled, frames_[attempt.loop.match].travelled);
+      path.AddShortcut(frames_[attempt.loop.query].travelled,
+                       frames_[attempt.loop.match].travelled);
   return path;
 }
 
@@ -89,15 +93,17 @@ bool LoopCloser::DetectAndCorrect(const Look& look, double scale, TimingTable& t
 }
 
 int LoopCloser::FrameAt(double path_m) const {
-  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
-                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  const auto at =
+      std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                       [](const FrameRecord& frame, double m) { return frame.travelled < m; });
   return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
 }
 
 bool LoopCloser::ClosedNear(double path_m) const {
   return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
     return attempt.loop.row.decision == LoopDecision::kAccepted &&
-           std::abs(frames_[attempt.loop.query].travelled - path_m) < 0.5 * options_.loop.layout.every_m;
+           std::abs(frames_[attempt.loop.query].travelled - path_m) <
+               0.5 * options_.loop.layout.every_m;
   });
 }
 
@@ -109,18 +115,21 @@ bool LoopCloser::Known(const LoopMeasurement& loop) const {
   });
 }
 
-// What was missed at first for want of evidence is found where a later loop has made the trajectory right: the prior is
-// narrow there, and few objects suffice. Only what is believed becomes an attempt.
+// What was missed at first for want of evidence is found where a later loop has made the trajectory
+// right: the prior is narrow there, and few objects suffice. Only what is believed becomes an
+// attempt.
 void LoopCloser::LookAgain(double scale, TimingTable& timing) {
   path_ = Path();
   tracks_.Forget();
   const std::size_t first_looks = attempts_.size();
   const LoopOptions& o = options_.loop;
   for (double here = o.lag_m; here < frames_.back().travelled; here += o.layout.every_m)
-    if (!ClosedNear(here - o.lag_m)) DetectAndCorrect({here, o.lag_m, o.layout.hindsight_m, o.lag_m}, scale, timing);
-  attempts_.erase(std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first_looks), attempts_.end(),
-                                 [](const Attempt& attempt) { return !attempt.believed; }),
-                  attempts_.end());
+    if (!ClosedNear(here - o.lag_m))
+      DetectAndCorrect({here, o.lag_m, o.layout.hindsight_m, o.lag_m}, scale, timing);
+  attempts_.erase(
+      std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first_looks), attempts_.end(),
+                     [](const Attempt& attempt) { return !attempt.believed; }),
+      attempts_.end());
 }
 
 // True: something new is believed.
@@ -143,24 +152,28 @@ const LayoutIndex& LoopCloser::OldMap(double old_until_m) {
 bool LoopCloser::Detect(const Look& look) {
   const LoopOptions& o = options_.loop;
   const double old_until = look.OldUntil(o.layout.gap_m);
-  const PassLayout local = passes_.Between(look.here_m - look.local_m, look.here_m, o.layout.min_sightings);
+  const PassLayout local =
+      passes_.Between(look.here_m - look.local_m, look.here_m, o.layout.min_sightings);
   const LayoutIndex& index = OldMap(old_until);
   const int few = o.match.search.min_matches;
   if (static_cast<int>(std::min(local.objects.size(), index.objects().size())) < few) return false;
 
   const LayoutLikelihood likelihood(local.objects, index, o.match.likelihood);
-  PoseSearchOptions search = o.match.search;  // the tracks of earlier attempts need not be found again
+  // the tracks of earlier attempts need not be found again
+  PoseSearchOptions search = o.match.search;
   search.refine = std::min(search.refine, o.tracks.max_tracks);
   std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
   PoseHypothesis as_believed;  // the camera may be where it believes to be
   as_believed.fit = likelihood.Refine(as_believed.pose, 4);
-  if (static_cast<int>(as_believed.fit.matches.size()) >= few) found.insert(found.begin(), as_believed);
+  if (static_cast<int>(as_believed.fit.matches.size()) >= few)
+    found.insert(found.begin(), as_believed);
   tracks_.Update(likelihood, found, search, look.here_m,
                  OdometryPrior(passes_, path_.From(look.here_m), local, index, o.prior));
   if (tracks_.tracks().empty()) return false;
 
   const PoseTrack& best = tracks_.tracks()[0];
-  const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma, old_until};
+  const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma,
+                             old_until};
   auto loop = Meter().Measure(common, look.here_m - look.lag_m, look.beyond_m);
   if (!loop || Known(*loop)) return false;
   Attempt& attempt = AddAttempt(std::move(*loop));
@@ -224,14 +237,15 @@ bool LoopCloser::Agree() const {
   return std::all_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
     if (!attempt.believed || attempt.in_graph) return true;
     const LoopClosure& row = attempt.loop.row;
-    const Pose T = frames_[attempt.loop.match].T_world_cam.inverse() * frames_[attempt.loop.query].T_world_cam;
+    const Pose T =
+        frames_[attempt.loop.match].T_world_cam.inverse() * frames_[attempt.loop.query].T_world_cam;
     const Vec6 error = (row.T_match_query.inverse() * T).Log();
     return error.dot(Mat6(row.covariance).ldlt().solve(error)) < limit;
   });
 }
 
-// Solves the pose graph with all loops ever believed, which decides anew about each of them, and moves trajectory and
-// map.
+// Solves the pose graph with all loops ever believed, which decides anew about each of them, and
+// moves trajectory and map.
 void LoopCloser::Correct(double here_m, double scale) {
   std::vector<Attempt*> loops;
   std::vector<LoopEdge> edges;
@@ -245,12 +259,14 @@ void LoopCloser::Correct(double here_m, double scale) {
   if (options_.mode == Options::Mode::kPaper) {
     if (!SolvePoseGraph(graph.graph, options_.loop.graph.graph).usable) return;
   } else {
-    const RobustPoseGraphSummary summary = SolveRobust(graph.graph, options_.loop.graph, graph.kept_before);
+    const RobustPoseGraphSummary summary =
+        SolveRobust(graph.graph, options_.loop.graph, graph.kept_before);
     if (!summary.graph.usable) return;
     for (std::size_t i = 0; i < loops.size(); ++i) {
       const bool kept = summary.edge_weight[graph.first_loop + i] > 0;
       LoopClosure& row = loops[i]->loop.row;
-      if (kept && row.decision != LoopDecision::kAccepted) row.reason = "other loops agree after all";
+      if (kept && row.decision != LoopDecision::kAccepted)
+        row.reason = "other loops agree after all";
       if (!kept) row.reason = "contradicts other loops";
       row.decision = kept ? LoopDecision::kAccepted : LoopDecision::kAmbiguous;
     }
@@ -281,7 +297,8 @@ bool LoopCloser::Fuse() {
   if (heirs.empty()) return false;
   passes_.Rename(heirs);
   for (Attempt& attempt : attempts_)
-    for (auto& [local, global] : attempt.pairs) local = HeirOf(local, heirs), global = HeirOf(global, heirs);
+    for (auto& [local, global] : attempt.pairs)
+      local = HeirOf(local, heirs), global = HeirOf(global, heirs);
   return true;
 }
 
@@ -303,7 +320,8 @@ void LoopCloser::Review() {
   for (Attempt& attempt : attempts_) {
     LoopClosure& row = attempt.loop.row;
     if (row.decision != LoopDecision::kAccepted) continue;
-    const Pose T = frames_[attempt.loop.match].T_world_cam.inverse() * frames_[attempt.loop.query].T_world_cam;
+    const Pose T =
+        frames_[attempt.loop.match].T_world_cam.inverse() * frames_[attempt.loop.query].T_world_cam;
     const Pose error = row.T_match_query.inverse() * T;
     if (error.translation().norm() < o.probation_m && error.so3().Log().norm() < o.probation_rad) {
       MeasureAnew(attempt);
@@ -314,22 +332,25 @@ void LoopCloser::Review() {
   }
 }
 
-// At first the two maps were bent by the odometry between their objects. They are not any more, and what was seen on
-// both passes is one landmark. For the host only: this loop itself has straightened them, so what decides about it
-// remains what was measured at first.
+// At first the two maps were bent by the odometry between their objects. They are not any more, and
+// what was seen on both passes is one landmark. For the host only: this loop itself has
+// straightened them, so what decides about it remains what was measured at first.
 void LoopCloser::MeasureAnew(Attempt& attempt) const {
   attempt.anew.reset();
   if (attempt.sigma_m <= 0) return;
   const LoopLayoutOptions& o = options_.loop.layout;
   const Look& look = attempt.look;
-  const PassLayout local = passes_.Between(look.here_m - look.local_m, look.here_m, o.min_sightings);
+  const PassLayout local =
+      passes_.Between(look.here_m - look.local_m, look.here_m, o.min_sightings);
   CommonObjects common{local, {}, attempt.sigma_m, look.OldUntil(o.gap_m)};
   for (std::size_t i = 0; i < local.objects.size(); ++i) {
     const LandmarkId id{local.objects[i].id};
-    if (passes_.PlaceBefore(id, common.old_until_m, o.min_sightings)) common.pairs.push_back({static_cast<int>(i), id});
+    if (passes_.PlaceBefore(id, common.old_until_m, o.min_sightings))
+      common.pairs.push_back({static_cast<int>(i), id});
   }
   auto now = Meter().MeasureBetween(attempt.loop.query, attempt.loop.match, common);
-  if (now && now->heading_sigma < options_.loop.belief.max_heading_sigma_rad) attempt.anew = std::move(now->row);
+  if (now && now->heading_sigma < options_.loop.belief.max_heading_sigma_rad)
+    attempt.anew = std::move(now->row);
 }
 
 }  // namespace sslcd

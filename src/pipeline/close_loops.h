@@ -17,12 +17,13 @@
 
 namespace sslcd {
 
-/// Paper IV, as it runs with the keyframes: the objects seen lately are matched with those of older passes; loops that
-/// are believed become edges of the pose graph, and trajectory and map follow. Works on the mapper's own map and
-/// frames.
+/// Paper IV, as it runs with the keyframes: the objects seen lately are matched with those of older
+/// passes; loops that are believed become edges of the pose graph, and trajectory and map follow.
+/// Works on the mapper's own map and frames.
 class LoopCloser {
  public:
-  LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames, PlaceMatcher matcher = {});
+  LoopCloser(const Options& options, ObjectMap& map, std::vector<FrameRecord>& frames,
+             PlaceMatcher matcher = {});
 
   /// The newest frame, while it still knows how its detections look. To be called with each frame.
   void AddFrame() { passes_.Update(); }
@@ -30,18 +31,20 @@ class LoopCloser {
   /// Frames from this one on are about to move, as those of the sliding window do.
   void MovedFrom(int frame) { passes_.MovedFrom(frame); }
 
-  /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or map have changed.
+  /// Looks for a loop if the camera has come far enough since the last time. True: trajectory or
+  /// map have changed.
   bool AddKeyframe(double scale, TimingTable& timing);
 
-  /// After the last frame: nothing more is to come that could surround the latest cameras with objects. Then looks at
-  /// the whole run again, with hindsight.
+  /// After the last frame: nothing more is to come that could surround the latest cameras with
+  /// objects. Then looks at the whole run again, with hindsight.
   void Finish(double scale, TimingTable& timing);
 
-  /// After everything was refined and associated anew: takes back loops that the trajectory does not go through, and
-  /// measures the others again.
+  /// After everything was refined and associated anew: takes back loops that the trajectory does
+  /// not go through, and measures the others again.
   void Review();
 
-  /// Measures accepted loops anew where a tie between views close by does so better than their objects.
+  /// Measures accepted loops anew where a tie between views close by does so better than their
+  /// objects.
   void MeasureByViews(const std::vector<ViewTie>& ties, double scale);
 
   /// Has any loop been accepted?
@@ -61,7 +64,8 @@ class LoopCloser {
   struct Look {
     double here_m = 0, lag_m = 0;  // the path so far; the query camera stood so far back
     double local_m = 0;            // the local map
-    double beyond_m = 0;  // the query camera may have stood so far before the first or after the last matched object
+    // the query camera may have stood so far before the first or after the last matched object
+    double beyond_m = 0;
     double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
   };
   struct Attempt {

@@ -8,7 +8,9 @@
 namespace sslcd {
 namespace {
 
-double Uncertainty(const Pose::Matrix6& covariance) { return covariance.topLeftCorner<3, 3>().trace(); }
+double Uncertainty(const Pose::Matrix6& covariance) {
+  return covariance.topLeftCorner<3, 3>().trace();
+}
 
 }  // namespace
 
@@ -20,11 +22,13 @@ RelativePose LoopCloser::OdometryBetween(int from, int to, double scale) const {
   return step;
 }
 
-// From the match camera along its pass to a tie, across, and along the other pass to the query camera. The loop itself
-// if its objects know better.
+// From the match camera along its pass to a tie, across, and along the other pass to the query
+// camera. The loop itself if its objects know better.
 void LoopCloser::MeasureByViews(const std::vector<ViewTie>& ties, double scale) {
   constexpr double kNear = 30;  // [m] of path on both passes together
-  const auto path = [this](int a, int b) { return std::abs(frames_[a].travelled - frames_[b].travelled); };
+  const auto path = [this](int a, int b) {
+    return std::abs(frames_[a].travelled - frames_[b].travelled);
+  };
   for (Attempt& attempt : attempts_) {
     if (attempt.loop.row.decision != LoopDecision::kAccepted) continue;
     const int match = attempt.loop.match, query = attempt.loop.query;
@@ -34,7 +38,8 @@ void LoopCloser::MeasureByViews(const std::vector<ViewTie>& ties, double scale) 
     for (const ViewTie& tie : ties) {
       if (path(match, tie.from) + path(query, tie.to) > kNear) continue;
       const RelativePose by_views =
-          Compose(Compose(OdometryBetween(match, tie.from, scale), tie.pose), OdometryBetween(tie.to, query, scale));
+          Compose(Compose(OdometryBetween(match, tie.from, scale), tie.pose),
+                  OdometryBetween(tie.to, query, scale));
       if (!(Uncertainty(by_views.covariance) < Uncertainty(best.covariance))) continue;
       best = by_views;
       better = true;
@@ -45,8 +50,8 @@ void LoopCloser::MeasureByViews(const std::vector<ViewTie>& ties, double scale) 
     row.covariance = best.covariance;
     row.by_views = true;
     const Pose& T_world_match = frames_[match].T_world_cam;
-    row.viewpoint_change_rad =
-        std::abs(WrapAngle(Meter().Heading(T_world_match * best.T_a_b) - Meter().Heading(T_world_match)));
+    row.viewpoint_change_rad = std::abs(
+        WrapAngle(Meter().Heading(T_world_match * best.T_a_b) - Meter().Heading(T_world_match)));
     attempt.anew = std::move(row);
   }
 }

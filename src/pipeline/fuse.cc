@@ -21,7 +21,8 @@ class Fusion {
  public:
   Fusion(ObjectMap& map, std::vector<FrameRecord>& frames, const Options& options)
       : map_(map), frames_(frames), options_(options) {
-    for (const FrameRecord& record : frames) rotation_of_frame_[record.frame] = record.T_world_cam.so3().matrix();
+    for (const FrameRecord& record : frames)
+      rotation_of_frame_[record.frame] = record.T_world_cam.so3().matrix();
   }
   // Frames follow at the end: whoever lost its id is found under its heir's.
   ~Fusion() {
@@ -43,14 +44,16 @@ class Fusion {
     if (a.sightings + b.sightings > 0 && step.allFinite()) pose.position += step;
     // Front and back may be mistaken for each other; a vote decides about that later.
     if (a.yaw + b.yaw > 0)
-      pose.yaw = WrapAngle(pose.yaw + b.yaw / (a.yaw + b.yaw) * WrapAngle(dropped.pose.yaw - pose.yaw, M_PI));
+      pose.yaw = WrapAngle(pose.yaw +
+                           b.yaw / (a.yaw + b.yaw) * WrapAngle(dropped.pose.yaw - pose.yaw, M_PI));
     map_.Fuse(keep, drop);
     map_.SetPose(keep, pose);
     heirs_[drop.value] = keep;
   }
 
-  // Could both be one object that the detector's errors have put in two places? Those errors turn with the viewing ray
-  // and are alike from frame to frame: a mean over sightings is off by as much as one of them.
+  // Could both be one object that the detector's errors have put in two places? Those errors turn
+  // with the viewing ray and are alike from frame to frame: a mean over sightings is off by as much
+  // as one of them.
   bool InOnePlace(const MapLandmark& a, const MapLandmark& b) const {
     constexpr double kChiSquare99 = 9.21;  // two components
     const GravityFrame& gravity = map_.gravity();
@@ -71,7 +74,8 @@ class Fusion {
       if (R == rotation_of_frame_.end()) continue;
       const Vec3& seen = sighting.T_cam_object.translation();
       const DetectionSigmas sigmas = SigmasAt(seen.norm(), options_.noise, scale);
-      sum.position += R->second * PositionCovariance(seen, sigmas).inverse() * R->second.transpose();
+      sum.position +=
+          R->second * PositionCovariance(seen, sigmas).inverse() * R->second.transpose();
       sum.yaw += landmark.symmetry == Symmetry::kFull ? 0. : 1 / (sigmas.yaw * sigmas.yaw);
       ++sum.sightings;
     }
@@ -98,21 +102,24 @@ class Fusion {
 };
 
 bool KeepsItsName(const MapLandmark& a, const MapLandmark& b) {
-  const bool a_stands = a.state == LandmarkState::kConfirmed, b_stands = b.state == LandmarkState::kConfirmed;
+  const bool a_stands = a.state == LandmarkState::kConfirmed,
+             b_stands = b.state == LandmarkState::kConfirmed;
   return a_stands != b_stands ? a_stands : a.sightings.size() >= b.sightings.size();
 }
 
 }  // namespace
 
 LandmarkId HeirOf(LandmarkId id, const Heirs& heirs) {
-  for (auto next = heirs.find(id.value); next != heirs.end(); next = heirs.find(id.value)) id = next->second;
+  for (auto next = heirs.find(id.value); next != heirs.end(); next = heirs.find(id.value))
+    id = next->second;
   return id;
 }
 
 bool SeenTogether(const MapLandmark& a, const MapLandmark& b) {
   constexpr double kSlip = 0.1;
   std::size_t together = 0;
-  for (auto i = a.sightings.begin(), j = b.sightings.begin(); i != a.sightings.end() && j != b.sightings.end();) {
+  for (auto i = a.sightings.begin(), j = b.sightings.begin();
+       i != a.sightings.end() && j != b.sightings.end();) {
     together += i->frame == j->frame ? 1 : 0;
     i->frame < j->frame ? ++i : ++j;
   }
@@ -120,16 +127,19 @@ bool SeenTogether(const MapLandmark& a, const MapLandmark& b) {
 }
 
 Heirs FuseMatched(ObjectMap& map, std::vector<FrameRecord>& frames,
-                  const std::vector<std::pair<LandmarkId, LandmarkId>>& pairs, const Options& options) {
+                  const std::vector<std::pair<LandmarkId, LandmarkId>>& pairs,
+                  const Options& options) {
   Heirs heirs;
   {
     Fusion fusion(map, frames, options);
     const auto& all = map.landmarks();
     for (const auto& [first, second] : pairs) {
-      const auto a = all.find(HeirOf(first, fusion.heirs()).value), b = all.find(HeirOf(second, fusion.heirs()).value);
+      const auto a = all.find(HeirOf(first, fusion.heirs()).value),
+                 b = all.find(HeirOf(second, fusion.heirs()).value);
       if (a == all.end() || b == all.end() || a == b) continue;
       const MapLandmark &one = a->second, &other = b->second;
-      const bool drives = one.state == LandmarkState::kDynamic || other.state == LandmarkState::kDynamic;
+      const bool drives =
+          one.state == LandmarkState::kDynamic || other.state == LandmarkState::kDynamic;
       if (drives || one.label != other.label || SeenTogether(one, other)) continue;
       KeepsItsName(one, other) ? fusion.Fuse(one.id, other.id) : fusion.Fuse(other.id, one.id);
     }
@@ -143,15 +153,18 @@ Heirs FuseDuplicates(ObjectMap& map, std::vector<FrameRecord>& frames, const Opt
   std::vector<LandmarkId> order;
   for (const auto& [id, landmark] : map.landmarks())
     if (landmark.state == LandmarkState::kConfirmed) order.push_back({id});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](LandmarkId a, LandmarkId b) { return map.at(a).sightings.size() > map.at(b).sightings.size(); });
+  std::stable_sort(order.begin(), order.end(), [&](LandmarkId a, LandmarkId b) {
+    return map.at(a).sightings.size() > map.at(b).sightings.size();
+  });
   const Stretches stretches(map, frames, options.map.memory_m);
   Fusion fusion(map, frames, options);
   for (const LandmarkId keep : order) {
     if (map.landmarks().count(keep.value) == 0) continue;
-    for (const LandmarkId other : map.Near(map.at(keep).pose.position, options.refine.duplicate_m)) {
+    for (const LandmarkId other :
+         map.Near(map.at(keep).pose.position, options.refine.duplicate_m)) {
       const MapLandmark &one = map.at(keep), &twin = map.at(other);
-      if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != one.label) continue;
+      if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != one.label)
+        continue;
       if (twin.sightings.size() > one.sightings.size() || !fusion.InOnePlace(one, twin)) continue;
       if (SeenTogether(one, twin) || !stretches.Tied(one, twin)) continue;
       fusion.Fuse(keep, other);

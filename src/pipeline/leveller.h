@@ -7,16 +7,18 @@
 
 namespace sslcd {
 
-/// Keeps drifting odometry upright. Without gravity measurements roll and pitch drift like everything else, by 15
-/// degrees and more over kilometres of LiDAR odometry; a map that is tilted against another one no longer looks like it
-/// from above. But a camera on the ground stands upright on average, up to the slope of the ground: where the mean over
-/// a stretch of path tilts further than any slope, the excess is drift and is turned back, bit by bit.
+/// Keeps drifting odometry upright. Without gravity measurements roll and pitch drift like
+/// everything else, by 15 degrees and more over kilometres of LiDAR odometry; a map that is tilted
+/// against another one no longer looks like it from above. But a camera on the ground stands
+/// upright on average, up to the slope of the ground: where the mean over a stretch of path tilts
+/// further than any slope, the excess is drift and is turned back, bit by bit.
 class Leveller {
  public:
-  Leveller(const GravityFrame& gravity, const LevelOptions& options) : gravity_(gravity), options_(options) {}
+  Leveller(const GravityFrame& gravity, const LevelOptions& options)
+      : gravity_(gravity), options_(options) {}
 
-  /// The next pose of the odometry, levelled. The first camera tells which of its directions is up: it stands upright
-  /// up to a slope, too.
+  /// The next pose of the odometry, levelled. The first camera tells which of its directions is up:
+  /// it stands upright up to a slope, too.
   Pose Level(const Pose& T_odom_cam);
 
  private:

@@ -16,17 +16,20 @@ struct LoopEdge {
 
 /// The pose graph of paper IV-D, Eqs. 20 and 21, with the loops that these lack.
 struct LoopGraph {
-  std::vector<int> keyframes;       ///< the vertices: indices of frames, ascending; ends of loops are among them
-  PoseGraph graph;                  ///< odometry between keyframes, then the loops in the order given
+  /// the vertices: indices of frames, ascending; ends of loops are among them
+  std::vector<int> keyframes;
+  /// odometry between keyframes, then the loops in the order given
+  PoseGraph graph;
   std::size_t first_loop = 0;       ///< among the edges
   std::vector<double> kept_before;  ///< per edge, for SolveRobust
 };
 
 /// `scale`: metres per odometry metre. `up`: unit vector against gravity. [world]
-LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vector<LoopEdge>& loops, double scale,
-                         const Vec3& up, const LoopOptions& options);
+LoopGraph BuildLoopGraph(const std::vector<FrameRecord>& frames, const std::vector<LoopEdge>& loops,
+                         double scale, const Vec3& up, const LoopOptions& options);
 
-/// How the layout around a camera moves with it: yaw about its place. Heights are the layout's own and stay.
+/// How the layout around a camera moves with it: yaw about its place. Heights are the layout's own
+/// and stay.
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity);
 
 }  // namespace sslcd

@@ -24,21 +24,23 @@ std::pair<double, double> SeenBetween(const CommonObjects& common) {
 
 }  // namespace
 
-std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair<int, int>>& matches,
-                                                     const LayoutIndex& global) {
+std::vector<std::pair<int, LandmarkId>> OldLandmarks(
+    const std::vector<std::pair<int, int>>& matches, const LayoutIndex& global) {
   std::vector<std::pair<int, LandmarkId>> pairs;
   for (const auto& [i, j] : matches) pairs.push_back({i, {global.objects()[j].id}});
   return pairs;
 }
 
-std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m, double beyond_m) const {
+std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m,
+                                                  double beyond_m) const {
   constexpr double kFurtherBack = 10.;  // [m]
   const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
   if (!drift.usable) return std::nullopt;
   const auto [first_m, last_m] = SeenBetween(common);
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < 3; ++i) {
-    const int query = FrameAt(std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
+    const int query =
+        FrameAt(std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
     const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
     auto now = match < 0 ? std::nullopt : MeasureBetween(query, match, common);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
@@ -53,7 +55,8 @@ std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
     DriftPair& pair = pairs.emplace_back();
     pair.T_world_local = ToPose(common.local.places[i], gravity_);
     pair.T_world_global =
-        ToPose(passes_.PlaceBefore(old, common.old_until_m, options_.layout.min_sightings).value(), gravity_);
+        ToPose(passes_.PlaceBefore(old, common.old_until_m, options_.layout.min_sightings).value(),
+               gravity_);
     pair.symmetry = common.local.objects[i].symmetry;
     pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;
     pair.sigma_yaw_rad = kYawSigma;
@@ -61,7 +64,8 @@ std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
   return pairs;
 }
 
-std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, const CommonObjects& common) const {
+std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
+                                                         const CommonObjects& common) const {
   const Pose level_query = Levelling(query), level_match = Levelling(match);
   std::vector<DriftPair> pairs = Pairs(common);
   LoopMeasurement loop;
@@ -78,7 +82,8 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, c
   const DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
   if (!drift.usable) return std::nullopt;
 
-  const Pose &T_world_query = frames_[query].T_world_cam, &T_world_match = frames_[match].T_world_cam;
+  const Pose &T_world_query = frames_[query].T_world_cam,
+             &T_world_match = frames_[match].T_world_cam;
   const Pose corrected = level_match.inverse() * drift.T_global_local * level_query * T_world_query;
   loop.query = query;
   loop.match = match;
@@ -103,8 +108,9 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match, c
 }
 
 int LoopMeter::FrameAt(double path_m) const {
-  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
-                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  const auto at =
+      std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                       [](const FrameRecord& frame, double m) { return frame.travelled < m; });
   return static_cast<int>(std::min(at, frames_.end() - 1) - frames_.begin());
 }
 
@@ -119,7 +125,8 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
       const PassObject& pass = passes_.passes()[i];
       if (pass.last_m >= common.old_until_m) continue;
       for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
-        const double distance = (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
+        const double distance =
+            (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
         if (distance < nearest) nearest = distance, best = f;
       }
     }
@@ -132,7 +139,8 @@ double LoopMeter::Bent(int frame, double seen_m) const {
   constexpr double kRange = 10.;  // from which an object is seen [m]
   const Pose step = frames_[frame].T_odom_cam.inverse() * frames_[FrameAt(seen_m)].T_odom_cam;
   const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
-  return std::hypot(sigmas.horizontal, sigmas.rotation * (0.5 * step.translation().norm() + kRange));
+  return std::hypot(sigmas.horizontal,
+                    sigmas.rotation * (0.5 * step.translation().norm() + kRange));
 }
 
 // Turns the world about a camera so that the cameras around it stand upright on average.
@@ -147,7 +155,8 @@ Pose LoopMeter::Levelling(int frame) const {
     }
   const Vec3 axis = up.cross(gravity_.up);
   if (axis.norm() < 1e-9) return {};
-  const auto turn = lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
+  const auto turn =
+      lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
   const Vec3 pivot = frames_[frame].T_world_cam.translation();
   return {turn, pivot - turn * pivot};
 }

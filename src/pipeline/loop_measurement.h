@@ -28,29 +28,32 @@ struct CommonObjects {
 };
 
 /// Matches by their indices -> index of local, old landmark.
-std::vector<std::pair<int, LandmarkId>> OldLandmarks(const std::vector<std::pair<int, int>>& matches,
-                                                     const LayoutIndex& global);
+std::vector<std::pair<int, LandmarkId>> OldLandmarks(
+    const std::vector<std::pair<int, int>>& matches, const LayoutIndex& global);
 
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
 ///
-/// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps, though, so that
-/// drift holds in their midst and not at their ends: the query camera is one among its matched objects, or not
-/// far from them, the match camera the old one nearest to its corrected pose, and objects seen far from the two
-/// along the path count less. Both maps are levelled first: the ground at one place has one slope, whatever odometry
-/// says.
+/// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps,
+/// though, so that drift holds in their midst and not at their ends: the query camera is one among
+/// its matched objects, or not far from them, the match camera the old one nearest to its corrected
+/// pose, and objects seen far from the two along the path count less. Both maps are levelled first:
+/// the ground at one place has one slope, whatever odometry says.
 class LoopMeter {
  public:
-  LoopMeter(const GravityFrame& gravity, const std::vector<FrameRecord>& frames, const PassMap& passes,
-            const LoopOptions& options)
+  LoopMeter(const GravityFrame& gravity, const std::vector<FrameRecord>& frames,
+            const PassMap& passes, const LoopOptions& options)
       : gravity_(gravity), frames_(frames), passes_(passes), options_(options) {}
 
-  /// Tries the camera at `query_m` of path and, while the heading remains too uncertain, cameras further back; none
-  /// that stood more than `beyond_m` before the first common object or after the last one. What odometry may do over
-  /// that stretch counts in the covariance. None where the objects fix no pose.
-  std::optional<LoopMeasurement> Measure(const CommonObjects& common, double query_m, double beyond_m) const;
+  /// Tries the camera at `query_m` of path and, while the heading remains too uncertain, cameras
+  /// further back; none that stood more than `beyond_m` before the first common object or after the
+  /// last one. What odometry may do over that stretch counts in the covariance. None where the
+  /// objects fix no pose.
+  std::optional<LoopMeasurement> Measure(const CommonObjects& common, double query_m,
+                                         double beyond_m) const;
 
   /// Of two cameras, given by their indices.
-  std::optional<LoopMeasurement> MeasureBetween(int query, int match, const CommonObjects& common) const;
+  std::optional<LoopMeasurement> MeasureBetween(int query, int match,
+                                                const CommonObjects& common) const;
 
   /// Which way a camera looks, horizontally. [rad]
   double Heading(const Pose& T_world_cam) const;

@@ -19,43 +19,56 @@ LoopOptions::LoopOptions() {
 
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
   visitor.Real("every_m", options.every_m, 0.1, 1000, "an attempt every so many metres of path");
-  visitor.Real("local_m", options.local_m, 1, 10000, "the local map: objects seen on the last so many metres of path");
+  visitor.Real("local_m", options.local_m, 1, 10000,
+               "the local map: objects seen on the last so many metres of path");
   visitor.Real("hindsight_m", options.hindsight_m, 0, 10000,
-               "... when the whole run is looked at again at its end, after a loop was closed; 0: it is not");
-  visitor.Real("gap_m", options.gap_m, 0, 10000,
-               "the global map: objects on passes that ended so many metres before the local map begins");
-  visitor.Real("split_m", options.split_m, 0, 10000, "an object unseen for so much path is on another pass");
-  visitor.Integer("min_sightings", options.min_sightings, 1, 1000, "objects seen less often on a pass take no part");
+               "... when the whole run is looked at again at its end, after a loop was closed; 0: "
+               "it is not");
+  visitor.Real(
+      "gap_m", options.gap_m, 0, 10000,
+      "the global map: objects on passes that ended so many metres before the local map begins");
+  visitor.Real("split_m", options.split_m, 0, 10000,
+               "an object unseen for so much path is on another pass");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
+                  "objects seen less often on a pass take no part");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options) {
-  visitor.Real("drift_share", options.drift_share, 0, 1, "how far odometry may be off: position, share of the path");
-  visitor.Real("drift_yaw", options.drift_yaw, 0, 1, "how far odometry may be off: yaw, rad per sqrt(m)");
+  visitor.Real("drift_share", options.drift_share, 0, 1,
+               "how far odometry may be off: position, share of the path");
+  visitor.Real("drift_yaw", options.drift_yaw, 0, 1,
+               "how far odometry may be off: yaw, rad per sqrt(m)");
   visitor.Real("surprise", options.surprise, 1e-9, 1, "share of loops for which these do not hold");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options) {
   visitor.Real("min_margin", options.min_margin, -100, 1000,
-               "log odds of a pose against all others and against 'nowhere' from which it is believed [nats]");
+               "log odds of a pose against all others and against 'nowhere' from which it is "
+               "believed [nats]");
   visitor.Real("min_own_evidence", options.min_own_evidence, -100, 1000,
                "how much better than chance an attempt's own objects agree [nats]");
-  visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3, "the heading is known this well");
-  visitor.Real("max_apart_m", options.max_apart_m, 0, 1000, "the two cameras stood this near to each other");
+  visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3,
+               "the heading is known this well");
+  visitor.Real("max_apart_m", options.max_apart_m, 0, 1000,
+               "the two cameras stood this near to each other");
   visitor.Real("probation_m", options.probation_m, 0, 1000,
                "a loop is taken back where the refined trajectory differs by more than this ...");
   visitor.Real("probation_rad", options.probation_rad, 0, 4, "... or this");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
-  visitor.Flag("enabled", options.enabled,
-               "where there are stereo images, cameras of different passes are tied by the ground both see");
+  visitor.Flag(
+      "enabled", options.enabled,
+      "where there are stereo images, cameras of different passes are tied by the ground both see");
   visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
   visitor.Real("ahead_m", options.ahead_m, 0, 100,
-               "the two look at one spot, so far ahead of each; for images, the tools choose it by the camera ...");
+               "the two look at one spot, so far ahead of each; for images, the tools choose it by "
+               "the camera ...");
   visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
   visitor.Real("gap_m", options.gap_m, 1, 10000, "so much path lies between the two at least ...");
   visitor.Real("reach_m", options.reach_m, 0, 10000,
-               "... and with closed loops as shortcuts so much at most, or what a better odometry takes ...");
+               "... and with closed loops as shortcuts so much at most, or what a better odometry "
+               "takes ...");
   visitor.Real("guess_m", options.guess_m, 0, 10, "... to be this far off (loop.odometry)");
 }
 
@@ -67,18 +80,24 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Nested("prior", options.prior, "what odometry says about a loop");
   visitor.Nested("belief", options.belief, "when a loop is believed, and taken back");
   visitor.Nested("views", options.views, "ties between images of different passes");
-  visitor.Real("lag_m", options.lag_m, 0, 1000, "the query camera stood so far back, amidst the matched objects");
-  visitor.Real("sigma_m", options.sigma_m, 0, 100, "error of every loop on top of what its matches say");
-  visitor.Real("sigma_rad", options.sigma_rad, 0, 3, "error of every loop on top of what its matches say");
-  visitor.Real("fuse_m", options.fuse_m, 0, 100, "matched landmarks further apart than this do not become one");
+  visitor.Real("lag_m", options.lag_m, 0, 1000,
+               "the query camera stood so far back, amidst the matched objects");
+  visitor.Real("sigma_m", options.sigma_m, 0, 100,
+               "error of every loop on top of what its matches say");
+  visitor.Real("sigma_rad", options.sigma_rad, 0, 3,
+               "error of every loop on top of what its matches say");
+  visitor.Real("fuse_m", options.fuse_m, 0, 100,
+               "matched landmarks further apart than this do not become one");
   visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
-  visitor.Real("keyframe_m", options.keyframe_m, 0, 1000, "a vertex of the pose graph every so many metres of path");
+  visitor.Real("keyframe_m", options.keyframe_m, 0, 1000,
+               "a vertex of the pose graph every so many metres of path");
   visitor.Nested("odometry", options.odometry, "how far the odometry between these is off");
   visitor.Flag("learn_odometry", options.learn_odometry,
                "at the end of a run its closed loops tell how far the odometry is off");
   visitor.Nested("graph", options.graph, "pose graph (paper IV-D, Eqs. 20, 21)");
   visitor.Integer("adjust_keyframes", options.adjust_keyframes, 0, 1000000,
-                  "runs of so many keyframes at most have all cameras and objects adjusted after each correction");
+                  "runs of so many keyframes at most have all cameras and objects adjusted after "
+                  "each correction");
   visitor.Nested("paper", options.paper, "mode: paper: the matching as printed");
 }
 

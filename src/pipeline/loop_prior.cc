@@ -14,9 +14,11 @@ constexpr double kStartMetres = 1., kStartRad = 0.02;
 
 }  // namespace
 
-PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances, const PassLayout& local,
-                                const LayoutIndex& index, const LoopPriorOptions& options) {
-  const double searched = 2 * M_PI * static_cast<double>(index.objects().size()) / index.density();  // [m^2 rad]
+PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances,
+                                const PassLayout& local, const LayoutIndex& index,
+                                const LoopPriorOptions& options) {
+  // [m^2 rad]
+  const double searched = 2 * M_PI * static_cast<double>(index.objects().size()) / index.density();
   return [=, &passes, &local, &index](const YawShift& pose, const LayoutFit& fit) {
     if (fit.matches.empty()) return 0.;
     std::vector<double> paths;
@@ -28,7 +30,8 @@ PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distance
     }
     const double path = Median(std::move(paths));
     const double sigma_yaw = std::hypot(kStartRad, options.drift_yaw * std::sqrt(path));
-    const double sigma = std::hypot(kStartMetres, options.drift_share * path, sigma_yaw * path / std::sqrt(3.));
+    const double sigma =
+        std::hypot(kStartMetres, options.drift_share * path, sigma_yaw * path / std::sqrt(3.));
     const double moved = (Apply(pose, centre) - centre).head<2>().norm() / sigma;
     const double turned = WrapAngle(pose.yaw) / sigma_yaw;
     const double density = std::exp(-0.5 * (moved * moved + turned * turned)) /

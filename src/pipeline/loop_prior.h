@@ -7,10 +7,11 @@
 
 namespace sslcd {
 
-/// Log odds of a pose before any object is looked at: would odometry have to be off by more than the path, shortcuts
-/// taken, explains? Against poses strewn evenly over the searched map, as LayoutFit::evidence is.
-/// Refers to passes, layout and index while it is used.
-PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances, const PassLayout& local,
-                                const LayoutIndex& index, const LoopPriorOptions& options);
+/// Log odds of a pose before any object is looked at: would odometry have to be off by more than
+/// the path, shortcuts taken, explains? Against poses strewn evenly over the searched map, as
+/// LayoutFit::evidence is. Refers to passes, layout and index while it is used.
+PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances,
+                                const PassLayout& local, const LayoutIndex& index,
+                                const LoopPriorOptions& options);
 
 }  // namespace sslcd

@@ -14,7 +14,9 @@
 namespace sslcd {
 namespace {
 
-Pose Scaled(const Pose& T, double log_scale) { return Pose(T.so3(), T.translation() * std::exp(log_scale)); }
+Pose Scaled(const Pose& T, double log_scale) {
+  return Pose(T.so3(), T.translation() * std::exp(log_scale));
+}
 
 // A camera's step according to the odometry, made metric.
 Pose Step(const FrameRecord& from, const Pose& T_odom_cam, double log_scale) {
@@ -37,30 +39,36 @@ double Mapper::scale() const { return std::exp(log_scale_); }
 FrameReport Mapper::AddFrame(const Frame& frame) {
   const Vec6 log = frame.T_odom_cam.Log();
   if (!std::isfinite(log.sum()) || !std::isfinite(frame.stamp))
-    throw Error(ErrorKind::kBadInput, "frame " + std::to_string(frame.index) + ": its pose or stamp is not finite");
+    throw Error(ErrorKind::kBadInput,
+                "frame " + std::to_string(frame.index) + ": its pose or stamp is not finite");
   if (!frames_.empty() && frame.stamp <= frames_.back().stamp)
     throw Error(ErrorKind::kBadInput, "frame " + std::to_string(frame.index) + ": its stamp " +
-                                          std::to_string(frame.stamp) + " s is not after the one before it");
+                                          std::to_string(frame.stamp) +
+                                          " s is not after the one before it");
   FrameReport report;
   const Pose T_odom_cam = leveller_->Level(frame.T_odom_cam);
   double travelled = 0;
   if (!frames_.empty()) {
     const FrameRecord& before = frames_.back();
-    travelled = before.travelled + (T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
+    travelled =
+        before.travelled + (T_odom_cam.translation() - before.T_odom_cam.translation()).norm();
   }
-  FrameRecord record{frame.index, frame.stamp, travelled, T_odom_cam, Predict(T_odom_cam), frame.detections, {}};
+  FrameRecord record{frame.index,         frame.stamp,      travelled, T_odom_cam,
+                     Predict(T_odom_cam), frame.detections, {}};
   {
     const ScopedTimer timer(timing_, "data association");
     report.filter = FilterDetections(record.detections, options_.filter);
     const Camera* camera = context_.camera ? &*context_.camera : nullptr;
-    report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections, camera, travelled);
+    report.map = map_.AddFrame(frame.index, frame.stamp, record.T_world_cam, record.detections,
+                               camera, travelled);
     record.matched = report.map.matched;
   }
   report.keyframe = IsKeyframe(T_odom_cam);
   frames_.push_back(std::move(record));
   if (options_.loop.enabled) loops_->AddFrame();
   for (Detection& detection :
-       frames_.back().detections) {  // kept for associating anew at the end: what was seen, not how it looked
+       frames_.back()
+           .detections) {  // kept for associating anew at the end: what was seen, not how it looked
     detection.colour.clear();
     detection.embedding.clear();
   }
@@ -102,16 +110,18 @@ BaProblem Mapper::WindowProblem() const {
     problem.cameras.push_back({record.frame, record.T_world_cam});
     if (i == 0) continue;
     const FrameRecord& before = frames_[window_[i - 1]];
-    problem.odometry.push_back(
-        {static_cast<int>(i) - 1, static_cast<int>(i), before.T_odom_cam.inverse() * record.T_odom_cam});
+    problem.odometry.push_back({static_cast<int>(i) - 1, static_cast<int>(i),
+                                before.T_odom_cam.inverse() * record.T_odom_cam});
   }
 
   std::set<int> ids(prior_.object_ids.begin(), prior_.object_ids.end());
   for (const int keyframe : window_) {
     for (const LandmarkId id : frames_[keyframe].matched) {
       const auto known = map_.landmarks().find(id.value);
-      if (known == map_.landmarks().end() || known->second.state != LandmarkState::kConfirmed) continue;
-      if (static_cast<int>(known->second.sightings.size()) >= options_.window.min_sightings) ids.insert(id.value);
+      if (known == map_.landmarks().end() || known->second.state != LandmarkState::kConfirmed)
+        continue;
+      if (static_cast<int>(known->second.sightings.size()) >= options_.window.min_sightings)
+        ids.insert(id.value);
     }
   }
   for (const int id : ids) {
@@ -120,9 +130,11 @@ BaProblem Mapper::WindowProblem() const {
     problem.objects.push_back({id, landmark.symmetry, landmark.pose});
     for (std::size_t i = 0; i < window_.size(); ++i) {
       const int frame = problem.cameras[i].frame;
-      const auto at = std::lower_bound(landmark.sightings.begin(), landmark.sightings.end(), frame,
-                                       [](const Sighting& sighting, int f) { return sighting.frame < f; });
-      if (at != landmark.sightings.end() && at->frame == frame && landmark.state == LandmarkState::kConfirmed)
+      const auto at =
+          std::lower_bound(landmark.sightings.begin(), landmark.sightings.end(), frame,
+                           [](const Sighting& sighting, int f) { return sighting.frame < f; });
+      if (at != landmark.sightings.end() && at->frame == frame &&
+          landmark.state == LandmarkState::kConfirmed)
         problem.sightings.push_back({static_cast<int>(i), object, at->T_cam_object});
     }
   }
@@ -135,22 +147,25 @@ BaSummary Mapper::OptimiseWindow() {
   const BaSummary summary = SolveBa(problem, options_.ba);
   problem.hold_first = false;
   if (summary.usable) {
-    for (std::size_t i = 0; i < window_.size(); ++i) frames_[window_[i]].T_world_cam = problem.cameras[i].T_world_cam;
+    for (std::size_t i = 0; i < window_.size(); ++i)
+      frames_[window_[i]].T_world_cam = problem.cameras[i].T_world_cam;
     for (const BaObject& object : problem.objects)
-      if (map_.landmarks().at(object.id).state == LandmarkState::kConfirmed) map_.SetPose({object.id}, object.pose);
+      if (map_.landmarks().at(object.id).state == LandmarkState::kConfirmed)
+        map_.SetPose({object.id}, object.pose);
     log_scale_ = problem.log_scale;
   }
   if (static_cast<int>(window_.size()) >= options_.window.keyframes) SlideWindow(problem);
   return summary;
 }
 
-// The oldest camera leaves, and with it the objects that no camera of the window sees any more; what they said of the
-// others stays as a prior.
+// The oldest camera leaves, and with it the objects that no camera of the window sees any more;
+// what they said of the others stays as a prior.
 void Mapper::SlideWindow(const BaProblem& problem) {
   std::vector<int> gone_objects;
   for (int k = 0; k < static_cast<int>(problem.objects.size()); ++k) {
-    const bool seen = std::any_of(problem.sightings.begin(), problem.sightings.end(),
-                                  [k](const BaSighting& s) { return s.object == k && s.camera > 0; });
+    const bool seen =
+        std::any_of(problem.sightings.begin(), problem.sightings.end(),
+                    [k](const BaSighting& s) { return s.object == k && s.camera > 0; });
     if (!seen) gone_objects.push_back(k);
   }
   prior_ = Marginalise(problem, {0}, gone_objects, options_.ba);
@@ -163,7 +178,8 @@ void Mapper::SlideWindow(const BaProblem& problem) {
 void Mapper::Propagate(std::size_t from_record) {
   const std::size_t to = window_.empty() ? frames_.size() : window_.front();
   for (std::size_t i = from_record + 1; i < to; ++i)
-    frames_[i].T_world_cam = frames_[i - 1].T_world_cam * Step(frames_[i - 1], frames_[i].T_odom_cam, log_scale_);
+    frames_[i].T_world_cam =
+        frames_[i - 1].T_world_cam * Step(frames_[i - 1], frames_[i].T_odom_cam, log_scale_);
 }
 
 BaSummary Mapper::Refine() {
@@ -185,7 +201,8 @@ BaSummary Mapper::Refine() {
   }
   view_ties_.clear();
   BaSummary summary = adjust();
-  const bool align = options_.loop.enabled && options_.loop.views.enabled && options_.mode != Options::Mode::kPaper;
+  const bool align = options_.loop.enabled && options_.loop.views.enabled &&
+                     options_.mode != Options::Mode::kPaper;
   if (!context_.view_aligner || !align) return summary;
   {
     const ScopedTimer timer(timing_, "view alignment");

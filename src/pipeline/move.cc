@@ -9,8 +9,8 @@
 namespace sslcd {
 namespace {
 
-// Path travelled up to each frame, odometry metres. A standing camera creeps a little, so that no two frames share a
-// place and weights by path are always defined.
+// Path travelled up to each frame, odometry metres. A standing camera creeps a little, so that no
+// two frames share a place and weights by path are always defined.
 std::vector<double> PathOf(const std::vector<FrameRecord>& frames) {
   constexpr double kCreep = 1e-6;
   std::vector<double> path(frames.size(), 0.);
@@ -23,14 +23,17 @@ std::vector<double> PathOf(const std::vector<FrameRecord>& frames) {
 
 }  // namespace
 
-std::vector<int> SelectKeyframes(const std::vector<FrameRecord>& frames, double distance_m, double turn_rad) {
+std::vector<int> SelectKeyframes(const std::vector<FrameRecord>& frames, double distance_m,
+                                 double turn_rad) {
   std::vector<int> keyframes;
   const std::vector<double> path = PathOf(frames);
   const int count = static_cast<int>(frames.size());
   for (int i = 0; i < count; ++i) {
     const bool border = i == 0 || i + 1 == count;
     if (border || path[i] - path[keyframes.back()] >= distance_m ||
-        (frames[keyframes.back()].T_odom_cam.so3().inverse() * frames[i].T_odom_cam.so3()).Log().norm() >= turn_rad)
+        (frames[keyframes.back()].T_odom_cam.so3().inverse() * frames[i].T_odom_cam.so3())
+                .Log()
+                .norm() >= turn_rad)
       keyframes.push_back(i);
   }
   return keyframes;
@@ -55,9 +58,11 @@ void MoveKeyframes(std::vector<FrameRecord>& frames, const std::vector<int>& key
     const int from = keyframes[k];
     Pose T_key_frame = before[from].inverse() * before[i];
     if (i > from && k < last) {
-      // What the step to the next keyframe was corrected by, in the frame of this one: the rotation has no lever arm.
+      // What the step to the next keyframe was corrected by, in the frame of this one: the rotation
+      // has no lever arm.
       const int to = keyframes[k + 1];
-      const Pose correction = poses[k].inverse() * poses[k + 1] * (before[from].inverse() * before[to]).inverse();
+      const Pose correction =
+          poses[k].inverse() * poses[k + 1] * (before[from].inverse() * before[to]).inverse();
       const double share = (path[i] - path[from]) / (path[to] - path[from]);
       T_key_frame = Pose::Exp(share * correction.Log()) * T_key_frame;
     }
@@ -66,11 +71,12 @@ void MoveKeyframes(std::vector<FrameRecord>& frames, const std::vector<int>& key
   }
 }
 
-void MoveObjects(ObjectMap& map, const std::vector<FrameRecord>& frames, const std::vector<Pose>& before,
-                 const DetectionNoise& noise) {
+void MoveObjects(ObjectMap& map, const std::vector<FrameRecord>& frames,
+                 const std::vector<Pose>& before, const DetectionNoise& noise) {
   assert(frames.size() == before.size());
   std::map<int, Pose> moved;  // by frame number: where its camera carries the world
-  for (std::size_t i = 0; i < frames.size(); ++i) moved[frames[i].frame] = frames[i].T_world_cam * before[i].inverse();
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    moved[frames[i].frame] = frames[i].T_world_cam * before[i].inverse();
 
   std::vector<std::pair<LandmarkId, UprightPose>> carried;
   for (const auto& [id, landmark] : map.landmarks()) {
@@ -85,12 +91,14 @@ void MoveObjects(ObjectMap& map, const std::vector<FrameRecord>& frames, const s
       const UprightPose seen = ToUpright(motion->second * T_world_object, map.gravity());
       const double weight = 1 / (sigma * sigma);
       position += weight * seen.position;
-      turn += weight * Vec2(std::cos(seen.yaw - landmark.pose.yaw), std::sin(seen.yaw - landmark.pose.yaw));
+      turn += weight *
+              Vec2(std::cos(seen.yaw - landmark.pose.yaw), std::sin(seen.yaw - landmark.pose.yaw));
       information += weight;
     }
     if (information > 0)
-      carried.push_back(
-          {landmark.id, {position / information, WrapAngle(landmark.pose.yaw + std::atan2(turn.y(), turn.x()))}});
+      carried.push_back({landmark.id,
+                         {position / information,
+                          WrapAngle(landmark.pose.yaw + std::atan2(turn.y(), turn.x()))}});
   }
   for (const auto& [id, pose] : carried) map.SetPose(id, pose);
 }

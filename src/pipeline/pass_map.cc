@@ -9,15 +9,15 @@
 namespace sslcd {
 namespace {
 
-// Information-weighted mean of where the sightings on a stretch of the path put an object. None if they are fewer than
-// asked for.
+// Information-weighted mean of where the sightings on a stretch of the path put an object. None if
+// they are fewer than asked for.
 struct Place {
   UprightPose pose;
   double height_m = 0, seen_m = 0;
 };
 std::optional<Place> MeanPlace(const PassObject& pass, const std::vector<FrameRecord>& frames,
-                               const GravityFrame& gravity, const DetectionNoise& noise, double from_m, double to_m,
-                               int min_sightings) {
+                               const GravityFrame& gravity, const DetectionNoise& noise,
+                               double from_m, double to_m, int min_sightings) {
   const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Vec3 weighted = Vec3::Zero();
@@ -70,8 +70,15 @@ void PassMap::Update() {
         if (known != open_.end()) Finish(passes_[known->second]);
         open_[id.value] = static_cast<int>(passes_.size());
         passes_of_[id.value].push_back(static_cast<int>(passes_.size()));
-        passes_.push_back(
-            {id, frame.travelled, frame.travelled, {}, -1, {}, 0, Gallery(galleries_), Gallery(galleries_)});
+        passes_.push_back({id,
+                           frame.travelled,
+                           frame.travelled,
+                           {},
+                           -1,
+                           {},
+                           0,
+                           Gallery(galleries_),
+                           Gallery(galleries_)});
       }
       PassObject& pass = passes_[open_[id.value]];
       pass.last_m = frame.travelled;
@@ -105,7 +112,9 @@ void PassMap::Rebuild() {
     std::map<std::size_t, std::size_t> shares;
     for (const auto& sighting : old.sightings) {
       const auto pass = now.find(sighting);
-      if (pass == now.end() || 2 * ++shares[pass->second] != old.sightings.size() + old.sightings.size() % 2) continue;
+      if (pass == now.end() ||
+          2 * ++shares[pass->second] != old.sightings.size() + old.sightings.size() % 2)
+        continue;
       passes_[pass->second].colour.Merge(old.colour);
       passes_[pass->second].embedding.Merge(old.embedding);
       break;
@@ -117,14 +126,16 @@ void PassMap::Finish(PassObject& pass) {
   touched_.insert(pass.id.value);
   pass.anchor = pass.sightings[pass.sightings.size() / 2].first;
   const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, 0., pass.last_m, 1);
-  pass.T_anchor_object = frames_[pass.anchor].T_world_cam.inverse() * ToPose(place->pose, map_.gravity());
+  pass.T_anchor_object =
+      frames_[pass.anchor].T_world_cam.inverse() * ToPose(place->pose, map_.gravity());
   pass.height_m = place->height_m;
 }
 
 void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
   for (const auto& [gone, first] : heirs) {
     LandmarkId id = first;
-    for (auto heir = heirs.find(id.value); heir != heirs.end(); heir = heirs.find(id.value)) id = heir->second;
+    for (auto heir = heirs.find(id.value); heir != heirs.end(); heir = heirs.find(id.value))
+      id = heir->second;
     touched_.insert({gone, id.value});
     const auto known = passes_of_.find(gone);
     if (known == passes_of_.end()) continue;
@@ -142,8 +153,8 @@ void PassMap::Rename(const std::map<int, LandmarkId>& heirs) {
   open_ = std::move(open);
 }
 
-void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, const Gallery& colour,
-                     const Gallery& embedding, PassLayout& layout) const {
+void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
+                     const Gallery& colour, const Gallery& embedding, PassLayout& layout) const {
   const MapLandmark& landmark = map_.at(id);
   LayoutObject object;
   object.id = id.value;
@@ -151,7 +162,8 @@ void PassMap::Append(LandmarkId id, const UprightPose& place, double height_m, d
   object.symmetry = landmark.symmetry;
   object.position = map_.gravity().Basis().transpose() * place.position;
   object.position.z() = height_m;
-  object.yaw = landmark.symmetry == Symmetry::kFull ? std::numeric_limits<double>::quiet_NaN() : place.yaw;
+  object.yaw =
+      landmark.symmetry == Symmetry::kFull ? std::numeric_limits<double>::quiet_NaN() : place.yaw;
   object.dims = landmark.dims;
   object.colour = colour.Views();
   object.embedding = embedding.Views();
@@ -174,15 +186,19 @@ PassLayout PassMap::Between(double from_m, double to_m, int min_sightings) const
     });
     if (latest == all.rend()) continue;
     const PassObject& pass = passes_[*latest];
-    const auto place = MeanPlace(pass, frames_, map_.gravity(), noise_, from_m, to_m, min_sightings);
-    if (place) Append({id}, place->pose, place->height_m, place->seen_m, pass.colour, pass.embedding, layout);
+    const auto place =
+        MeanPlace(pass, frames_, map_.gravity(), noise_, from_m, to_m, min_sightings);
+    if (place)
+      Append({id}, place->pose, place->height_m, place->seen_m, pass.colour, pass.embedding,
+             layout);
   }
   return layout;
 }
 
 std::size_t PassMap::FrameFrom(double path_m) const {
-  const auto at = std::lower_bound(frames_.begin(), frames_.end(), path_m,
-                                   [](const FrameRecord& frame, double m) { return frame.travelled < m; });
+  const auto at =
+      std::lower_bound(frames_.begin(), frames_.end(), path_m,
+                       [](const FrameRecord& frame, double m) { return frame.travelled < m; });
   return static_cast<std::size_t>(at - frames_.begin());
 }
 
@@ -203,8 +219,11 @@ std::optional<PassMap::Sum> PassMap::SumBefore(int id, double to_m, int min_sigh
   Sum sum;
   for (const int i : PassesOf({id})) {
     const PassObject& pass = passes_[i];
-    if (pass.anchor < 0 || pass.last_m >= to_m || static_cast<int>(pass.sightings.size()) < min_sightings) continue;
-    const UprightPose place = ToUpright(frames_[pass.anchor].T_world_cam * pass.T_anchor_object, map_.gravity());
+    if (pass.anchor < 0 || pass.last_m >= to_m ||
+        static_cast<int>(pass.sightings.size()) < min_sightings)
+      continue;
+    const UprightPose place =
+        ToUpright(frames_[pass.anchor].T_world_cam * pass.T_anchor_object, map_.gravity());
     const double weight = static_cast<double>(pass.sightings.size());
     sum.position += weight * place.position;
     sum.height += weight * pass.height_m;
@@ -225,8 +244,8 @@ void PassMap::AppendBefore(int id, double to_m, int min_sightings, PassLayout& l
     colour.Merge(pass->colour);
     embedding.Merge(pass->embedding);
   }
-  Append({id}, {sum->position / sum->weight, sum->yaw}, sum->height / sum->weight, sum->seen_m, colour, embedding,
-         layout);
+  Append({id}, {sum->position / sum->weight, sum->yaw}, sum->height / sum->weight, sum->seen_m,
+         colour, embedding, layout);
 }
 
 PassLayout PassMap::Before(double to_m, int min_sightings) const {
@@ -237,7 +256,8 @@ PassLayout PassMap::Before(double to_m, int min_sightings) const {
 
 LayoutChanges PassMap::ChangesBefore(double to_m, int min_sightings) {
   LayoutChanges changes;
-  changes.anew = moved_from_ == 0 || to_m < changes_to_m_ || min_sightings != changes_min_sightings_;
+  changes.anew =
+      moved_from_ == 0 || to_m < changes_to_m_ || min_sightings != changes_min_sightings_;
   if (changes.anew) {
     changes.objects = Before(to_m, min_sightings).objects;
   } else {
@@ -259,7 +279,8 @@ LayoutChanges PassMap::ChangesBefore(double to_m, int min_sightings) {
   return changes;
 }
 
-std::optional<UprightPose> PassMap::PlaceBefore(LandmarkId id, double to_m, int min_sightings) const {
+std::optional<UprightPose> PassMap::PlaceBefore(LandmarkId id, double to_m,
+                                                int min_sightings) const {
   const auto sum = SumBefore(id.value, to_m, min_sightings);
   if (!sum) return std::nullopt;
   return UprightPose{sum->position / sum->weight, sum->yaw};

@@ -16,21 +16,25 @@
 
 namespace sslcd {
 
-/// One landmark on one pass: its sightings between two long stretches without any. A landmark that was recognised on a
-/// later pass has several of these. Loop closure matches passes rather than landmarks: that tells how far the odometry
-/// has drifted in between, also where the map has long fused what both have seen.
+/// One landmark on one pass: its sightings between two long stretches without any. A landmark that
+/// was recognised on a later pass has several of these. Loop closure matches passes rather than
+/// landmarks: that tells how far the odometry has drifted in between, also where the map has long
+/// fused what both have seen.
 struct PassObject {
   LandmarkId id;
   double first_m = 0, last_m = 0;              ///< path travelled at its first and last sighting
   std::vector<std::pair<int, int>> sightings;  ///< index of the frame, index of the detection in it
-  int anchor = -1;                             ///< the frame that a finished pass is tied to; -1: not finished yet
-  Pose T_anchor_object;                        ///< where the pass puts the object; it moves with its anchor
-  double height_m = 0;                         ///< over the camera that saw it from nearest
-  Gallery colour, embedding;                   ///< what it looked like on this pass
+  /// the frame that a finished pass is tied to; -1: not finished yet
+  int anchor = -1;
+  /// where the pass puts the object; it moves with its anchor
+  Pose T_anchor_object;
+  double height_m = 0;        ///< over the camera that saw it from nearest
+  Gallery colour, embedding;  ///< what it looked like on this pass
 };
 
-/// Objects as matching sees them, and where they are in the world, in step. The height of a layout object is that over
-/// the camera that saw it from nearest: odometry's drift in height and tilt cancels.
+/// Objects as matching sees them, and where they are in the world, in step. The height of a layout
+/// object is that over the camera that saw it from nearest: odometry's drift in height and tilt
+/// cancels.
 struct PassLayout {
   std::vector<LayoutObject> objects;
   std::vector<UprightPose> places;
@@ -48,24 +52,28 @@ struct LayoutChanges {
 class PassMap {
  public:
   /// A landmark out of sight for more path than `split_m` is on another pass when it comes back.
-  PassMap(const ObjectMap& map, const std::vector<FrameRecord>& frames, const DetectionNoise& noise, double split_m,
-          Gallery::Mode galleries = Gallery::Mode::kByViewpoint)
+  PassMap(const ObjectMap& map, const std::vector<FrameRecord>& frames, const DetectionNoise& noise,
+          double split_m, Gallery::Mode galleries = Gallery::Mode::kByViewpoint)
       : map_(map), frames_(frames), noise_(noise), split_m_(split_m), galleries_(galleries) {}
 
   /// Takes in the frames that were added since the last call, and how their detections look.
   void Update();
 
-  /// Starts again from what the frames say now, e.g. after everything was associated anew. Where the frames do not know
-  /// any more how their detections looked, a pass takes that over from the former ones it mostly consists of.
+  /// Starts again from what the frames say now, e.g. after everything was associated anew. Where
+  /// the frames do not know any more how their detections looked, a pass takes that over from the
+  /// former ones it mostly consists of.
   void Rebuild();
 
   /// Landmarks were fused: those that are gone -> those that took them over.
   void Rename(const std::map<int, LandmarkId>& heirs);
 
   /// Trajectory or detections of the frames from this one on are not what they were; 0: of all.
-  void MovedFrom(int frame) { moved_from_ = std::min(moved_from_, static_cast<std::size_t>(frame)); }
+  void MovedFrom(int frame) {
+    moved_from_ = std::min(moved_from_, static_cast<std::size_t>(frame));
+  }
 
-  /// Objects seen at least `min_sightings` times between two points of the path, where those sightings put them.
+  /// Objects seen at least `min_sightings` times between two points of the path, where those
+  /// sightings put them.
   PassLayout Between(double from_m, double to_m, int min_sightings) const;
 
   /// ... since then.
@@ -76,8 +84,8 @@ class PassMap {
   /// Objects by their passes that ended before `to_m` of path, one each.
   PassLayout Before(double to_m, int min_sightings) const;
 
-  /// What has changed in Before(to_m, min_sightings) since the last call of this. O(what was seen since then, and what
-  /// has become old); O(passes) if everything has moved.
+  /// What has changed in Before(to_m, min_sightings) since the last call of this. O(what was seen
+  /// since then, and what has become old); O(passes) if everything has moved.
   LayoutChanges ChangesBefore(double to_m, int min_sightings);
 
   /// Where the passes that ended before `to_m` put a landmark; none if there is no such pass.
@@ -86,7 +94,8 @@ class PassMap {
   /// Indices of the passes of a landmark, ascending.
   const std::vector<int>& PassesOf(LandmarkId id) const;
 
-  /// Where on the path a landmark was seen on that one of its finished passes that is nearest to `path_m`. [m]
+  /// Where on the path a landmark was seen on that one of its finished passes that is nearest to
+  /// `path_m`. [m]
   double NearestPass(LandmarkId id, double path_m) const;
 
   const std::vector<PassObject>& passes() const { return passes_; }
@@ -96,8 +105,8 @@ class PassMap {
   void Finish(PassObject& pass);
   std::optional<Sum> SumBefore(int id, double to_m, int min_sightings) const;
   void AppendBefore(int id, double to_m, int min_sightings, PassLayout& layout) const;
-  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m, const Gallery& colour,
-              const Gallery& embedding, PassLayout& layout) const;
+  void Append(LandmarkId id, const UprightPose& place, double height_m, double seen_m,
+              const Gallery& colour, const Gallery& embedding, PassLayout& layout) const;
   std::size_t FrameFrom(double path_m) const;
   void SeenIn(std::size_t from, std::size_t to, std::set<int>& ids) const;
 

@@ -17,7 +17,9 @@ void PathGraph::AddShortcut(double a_m, double b_m) {
 PathGraph::Distances PathGraph::From(double from_m) const {
   Distances result;
   result.from_m_ = from_m;
-  std::priority_queue<std::pair<double, double>, std::vector<std::pair<double, double>>, std::greater<>> open;
+  std::priority_queue<std::pair<double, double>, std::vector<std::pair<double, double>>,
+                      std::greater<>>
+      open;
   const auto visit = [&](double end, double distance) {
     const auto [known, is_new] = result.distance_.insert({end, distance});
     if (!is_new && known->second <= distance) return;
@@ -28,7 +30,8 @@ PathGraph::Distances PathGraph::From(double from_m) const {
     const auto after = shortcuts_.upper_bound(at);
     if (after != shortcuts_.end()) visit(after->first, distance + after->first - at);
     const auto here = shortcuts_.lower_bound(at);
-    if (here != shortcuts_.begin()) visit(std::prev(here)->first, distance + at - std::prev(here)->first);
+    if (here != shortcuts_.begin())
+      visit(std::prev(here)->first, distance + at - std::prev(here)->first);
   };
   if (shortcuts_.count(from_m) > 0) visit(from_m, 0);
   visit_neighbours(from_m, 0);

@@ -6,8 +6,8 @@
 
 namespace sslcd {
 
-/// How much path lies between two points of a trajectory when closed loops count as shortcuts: that is how far
-/// odometry may have drifted between them.
+/// How much path lies between two points of a trajectory when closed loops count as shortcuts: that
+/// is how far odometry may have drifted between them.
 class PathGraph {
  public:
   /// The points at `a_m` and `b_m` of the path [m] have been tied together.

@@ -18,16 +18,17 @@ bool InMap(const MapLandmark& landmark, const RefineOptions& options) {
          static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
 }
 
-// What is seen often enough and has not been found driving belongs to the map, also where the stream ended too early
-// for it to be confirmed.
+// What is seen often enough and has not been found driving belongs to the map, also where the
+// stream ended too early for it to be confirmed.
 void ConfirmAll(ObjectMap& map, const Options& all) {
   const RefineOptions& options = all.refine;
   std::vector<LandmarkId> confirm, drop;
   for (const auto& [id, landmark] : map.landmarks()) {
     const bool enough = static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
-    const bool open = landmark.state == LandmarkState::kTentative || landmark.state == LandmarkState::kStale;
-    const bool parked =
-        landmark.symmetry == Symmetry::kFull || landmark.motion.Verdict(all.map.motion) == Motion::kParked;
+    const bool open =
+        landmark.state == LandmarkState::kTentative || landmark.state == LandmarkState::kStale;
+    const bool parked = landmark.symmetry == Symmetry::kFull ||
+                        landmark.motion.Verdict(all.map.motion) == Motion::kParked;
     if (open && enough && parked) confirm.push_back(landmark.id);
     if (landmark.state == LandmarkState::kConfirmed && !enough) drop.push_back(landmark.id);
   }
@@ -38,14 +39,15 @@ void ConfirmAll(ObjectMap& map, const Options& all) {
   for (const LandmarkId id : drop) map.SetState(id, LandmarkState::kStale);
 }
 
-// A frame as the optimisation sees it: its nearest keyframe, and where it is from there according to the odometry.
+// A frame as the optimisation sees it: its nearest keyframe, and where it is from there according
+// to the odometry.
 struct Anchor {
   int camera = 0;
   Pose T_camera_frame;
 };
 
-std::vector<Anchor> Anchors(const std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                            double log_scale) {
+std::vector<Anchor> Anchors(const std::vector<FrameRecord>& frames,
+                            const std::vector<int>& keyframes, double log_scale) {
   std::vector<Anchor> anchors(frames.size());
   const int last = static_cast<int>(keyframes.size()) - 1;
   int camera = 0;
@@ -65,9 +67,11 @@ std::vector<Anchor> Anchors(const std::vector<FrameRecord>& frames, const std::v
   return anchors;
 }
 
-// Keyframes are the problem's cameras; what other frames saw counts as seen from the keyframe next to them.
-BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                      double log_scale, const std::vector<ViewTie>& ties, const Options& options) {
+// Keyframes are the problem's cameras; what other frames saw counts as seen from the keyframe next
+// to them.
+BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& frames,
+                      const std::vector<int>& keyframes, double log_scale,
+                      const std::vector<ViewTie>& ties, const Options& options) {
   BaProblem problem;
   problem.gravity = map.gravity();
   problem.noise = options.noise;
@@ -79,7 +83,8 @@ BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& fram
     const int camera = static_cast<int>(problem.cameras.size());
     if (camera > 0) {
       const FrameRecord& before = frames[keyframes[camera - 1]];
-      problem.odometry.push_back({camera - 1, camera, before.T_odom_cam.inverse() * record.T_odom_cam});
+      problem.odometry.push_back(
+          {camera - 1, camera, before.T_odom_cam.inverse() * record.T_odom_cam});
     }
     problem.cameras.push_back({record.frame, record.T_world_cam});
   }
@@ -101,7 +106,8 @@ BaProblem FullProblem(const ObjectMap& map, const std::vector<FrameRecord>& fram
     problem.objects.push_back({id, landmark.symmetry, landmark.pose});
     for (const Sighting& sighting : landmark.sightings) {
       const Anchor& anchor = anchor_of_frame.at(sighting.frame);
-      problem.sightings.push_back({anchor.camera, object, anchor.T_camera_frame * sighting.T_cam_object});
+      problem.sightings.push_back(
+          {anchor.camera, object, anchor.T_camera_frame * sighting.T_cam_object});
     }
   }
   return problem;
@@ -117,8 +123,9 @@ std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int,
 }
 
 // Objects that are not yet, or never, in the map go along with the cameras that have seen them.
-BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::vector<int>& keyframes,
-                   double& log_scale, const LoopEvidence& loops, const Options& options) {
+BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames,
+                   const std::vector<int>& keyframes, double& log_scale, const LoopEvidence& loops,
+                   const Options& options) {
   BaProblem problem = FullProblem(map, frames, keyframes, log_scale, loops.view_ties, options);
   problem.odometry_factors = loops.odometry_factors;
   BaSummary summary = SolveBa(problem, options.ba);
@@ -137,7 +144,8 @@ BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::
   for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
   for (BaObject& object : problem.objects) {
     std::vector<double> yaws;
-    for (const UprightPose& seen : SeenAt(map.at({object.id}), cameras, map.gravity())) yaws.push_back(seen.yaw);
+    for (const UprightPose& seen : SeenAt(map.at({object.id}), cameras, map.gravity()))
+      yaws.push_back(seen.yaw);
     if (object.symmetry == Symmetry::kNone) object.pose.yaw = VoteHeading(object.pose.yaw, yaws);
     map.SetPose({object.id}, object.pose);
   }
@@ -145,8 +153,10 @@ BaSummary Optimise(ObjectMap& map, std::vector<FrameRecord>& frames, const std::
   return summary;
 }
 
-// Every detection that does not belong to a driving object looks for its landmark again, with the refined poses.
-void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Options& options, const Camera* camera) {
+// Every detection that does not belong to a driving object looks for its landmark again, with the
+// refined poses.
+void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Options& options,
+                   const Camera* camera) {
   const Stretches stretches(map, frames, options.map.memory_m);
   std::map<int, std::vector<Sighting>> sightings;
   for (FrameRecord& record : frames) {
@@ -154,17 +164,20 @@ void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Optio
     std::vector<std::size_t> index;
     for (std::size_t i = 0; i < record.detections.size(); ++i) {
       const auto owner = map.landmarks().find(record.matched[i].value);
-      if (owner != map.landmarks().end() && owner->second.state == LandmarkState::kDynamic) continue;
+      if (owner != map.landmarks().end() && owner->second.state == LandmarkState::kDynamic)
+        continue;
       open.push_back(record.detections[i]);
       index.push_back(i);
     }
     const auto tied = [&](const MapLandmark& landmark) { return stretches.Tied(record, landmark); };
-    const std::vector<LandmarkId> matched = map.Match(record.stamp, record.T_world_cam, open, camera, tied);
+    const std::vector<LandmarkId> matched =
+        map.Match(record.stamp, record.T_world_cam, open, camera, tied);
     for (std::size_t k = 0; k < open.size(); ++k) {
       record.matched[index[k]] = matched[k];
       if (matched[k].value < 0) continue;
       const Detection& d = open[k];
-      sightings[matched[k].value].push_back({record.frame, record.stamp, d.row, d.score, d.T_cam_object, d.dims});
+      sightings[matched[k].value].push_back(
+          {record.frame, record.stamp, d.row, d.score, d.T_cam_object, d.dims});
     }
   }
   std::vector<LandmarkId> confirmed;
@@ -174,8 +187,8 @@ void AssociateAnew(ObjectMap& map, std::vector<FrameRecord>& frames, const Optio
 }
 
 // Compares where a landmark was seen early with where it was seen late.
-bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m, double elapsed_s,
-              double min_speed_mps) {
+bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m,
+              double elapsed_s, double min_speed_mps) {
   const int third = static_cast<int>(seen.size()) / 3;
   if (third < 2) return false;
   const auto median = [&](int from, const Vec3& axis) {
@@ -189,14 +202,17 @@ bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity,
   return distance > moved_m && distance > min_speed_mps * elapsed_s;
 }
 
-// Share of the frames between its sightings in which a landmark was seen. Not counted: frames without any detection, in
-// which the detector may not have run, and gaps of more than two seconds, in which it was out of sight.
-// `detector_runs`: frame -> how many frames with detections there were up to it.
+// Share of the frames between its sightings in which a landmark was seen. Not counted: frames
+// without any detection, in which the detector may not have run, and gaps of more than two seconds,
+// in which it was out of sight. `detector_runs`: frame -> how many frames with detections there
+// were up to it.
 double SeenShare(const MapLandmark& landmark, const std::map<int, int>& detector_runs) {
   int runs = 1;
   for (std::size_t i = 1; i < landmark.sightings.size(); ++i) {
     const Sighting &before = landmark.sightings[i - 1], &now = landmark.sightings[i];
-    runs += now.stamp - before.stamp > 2. ? 1 : detector_runs.at(now.frame) - detector_runs.at(before.frame);
+    runs += now.stamp - before.stamp > 2.
+                ? 1
+                : detector_runs.at(now.frame) - detector_runs.at(before.frame);
   }
   return static_cast<double>(landmark.sightings.size()) / runs;
 }
@@ -211,10 +227,11 @@ void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const O
   }
   std::vector<LandmarkId> moved;
   for (const auto& [id, landmark] : map.landmarks()) {
-    if (landmark.state != LandmarkState::kConfirmed || landmark.symmetry == Symmetry::kFull) continue;
+    if (landmark.state != LandmarkState::kConfirmed || landmark.symmetry == Symmetry::kFull)
+      continue;
     const double elapsed = landmark.sightings.back().stamp - landmark.sightings.front().stamp;
-    if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.refine.moved_m, elapsed,
-                 options.map.motion.min_speed_mps) ||
+    if (HasMoved(SeenAt(landmark, cameras, map.gravity()), map.gravity(), options.refine.moved_m,
+                 elapsed, options.map.motion.min_speed_mps) ||
         SeenShare(landmark, detector_runs) < options.refine.min_seen_share)
       moved.push_back({id});
   }
@@ -223,9 +240,11 @@ void RejectMoved(ObjectMap& map, const std::vector<FrameRecord>& frames, const O
 
 }  // namespace
 
-BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale, const Options& options) {
+BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale,
+                            const Options& options) {
   constexpr double kTurn = 0.5;  // [rad] that makes a keyframe, as in the pose graph
-  constexpr int kMaxSteps = 4;   // from where the pose graph has left everything; more of them change next to nothing
+  // from where the pose graph has left everything; more of them change next to nothing
+  constexpr int kMaxSteps = 4;
   const std::vector<int> keyframes = SelectKeyframes(frames, options.loop.keyframe_m, kTurn);
   if (static_cast<int>(keyframes.size()) > options.loop.adjust_keyframes) return {};
   Options after_loop = options;
@@ -237,10 +256,11 @@ BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, do
   return Optimise(map, frames, keyframes, log_scale, {}, after_loop);
 }
 
-BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const LoopEvidence& loops,
-                    const Options& options, const Camera* camera) {
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale,
+                    const LoopEvidence& loops, const Options& options, const Camera* camera) {
   ConfirmAll(map, options);
-  const std::vector<int> keyframes = SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
+  const std::vector<int> keyframes =
+      SelectKeyframes(frames, options.refine.keyframe_m, options.refine.keyframe_rad);
   BaSummary summary = Optimise(map, frames, keyframes, log_scale, loops, options);
   for (int round = 0; round < options.refine.rounds; ++round) {
     RejectMoved(map, frames, options);

@@ -13,15 +13,17 @@ struct LoopEvidence {
   std::vector<ViewTie> view_ties;
 };
 
-/// The full-map optimisation: bundle adjustment over every frame and every standing object, then association anew with
-/// what that has found, fusion of duplicates and rejection of what has moved; `options.refine.rounds` times.
-/// Changes map, frames and scale.
-BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale, const LoopEvidence& loops,
-                    const Options& options, const Camera* camera);
+/// The full-map optimisation: bundle adjustment over every frame and every standing object, then
+/// association anew with what that has found, fusion of duplicates and rejection of what has moved;
+/// `options.refine.rounds` times. Changes map, frames and scale.
+BaSummary RefineMap(ObjectMap& map, std::vector<FrameRecord>& frames, double& log_scale,
+                    const LoopEvidence& loops, const Options& options, const Camera* camera);
 
 /// Cameras and objects after a loop has moved them: a bundle adjustment over a keyframe every
-/// `options.loop.keyframe_m`, a few steps, with the scale as it is and odometry as loose as in the pose graph. Not
-/// usable, and nothing moves, where there are more keyframes than `options.loop.adjust_keyframes`.
-BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale, const Options& options);
+/// `options.loop.keyframe_m`, a few steps, with the scale as it is and odometry as loose as in the
+/// pose graph. Not usable, and nothing moves, where there are more keyframes than
+/// `options.loop.adjust_keyframes`.
+BaSummary OptimiseAfterLoop(ObjectMap& map, std::vector<FrameRecord>& frames, double scale,
+                            const Options& options);
 
 }  // namespace sslcd

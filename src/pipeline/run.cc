@@ -7,15 +7,18 @@ namespace sslcd {
 namespace {
 
 bool LacksColour(const Frame& frame) {
-  return !frame.image_left.empty() && std::any_of(frame.detections.begin(), frame.detections.end(),
-                                                  [](const auto& d) { return d.box && d.colour.empty(); });
+  return !frame.image_left.empty() &&
+         std::any_of(frame.detections.begin(), frame.detections.end(),
+                     [](const auto& d) { return d.box && d.colour.empty(); });
 }
 
-// Colour vectors for the detections that have a box and no colour yet; false when the image could not be read.
+// Colour vectors for the detections that have a box and no colour yet; false when the image could
+// not be read.
 bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
   return hooks.with_image(frame.image_left, [&](const ImageView& image) {
     for (Detection& detection : frame.detections)
-      if (detection.box && detection.colour.empty()) detection.colour = ColourVector(image, *detection.box, options);
+      if (detection.box && detection.colour.empty())
+        detection.colour = ColourVector(image, *detection.box, options);
   });
 }
 
@@ -34,20 +37,21 @@ PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
     edge.T_from_to.translation() *= mapper.scale();
   }
   for (const LoopClosure& loop : mapper.LoopClosures()) {
-    if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;  // else the tie would count twice
+    // else the tie would count twice
+    if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;
     graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
                            Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
   }
   for (const ViewTie& tie : mapper.view_ties())
-    graph.edges.push_back(
-        {frames[tie.from].frame, frames[tie.to].frame, tie.pose.T_a_b, tie.pose.covariance.inverse(), true});
+    graph.edges.push_back({frames[tie.from].frame, frames[tie.to].frame, tie.pose.T_a_b,
+                           tie.pose.covariance.inverse(), true});
   return graph;
 }
 
 }  // namespace
 
-RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context, const Options& options,
-                      const RunHooks& hooks) {
+RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context,
+                      const Options& options, const RunHooks& hooks) {
   std::size_t next = 0;
   const auto source = [&]() -> std::optional<Frame> {
     return next < frames.size() ? std::optional<Frame>(frames[next++]) : std::nullopt;
@@ -55,8 +59,8 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
   return RunSequence(source, static_cast<int>(frames.size()), context, options, hooks);
 }
 
-RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context, const Options& options,
-                      const RunHooks& hooks) {
+RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context,
+                      const Options& options, const RunHooks& hooks) {
   RunResult result;
   Mapper mapper(options, context);
   while (true) {

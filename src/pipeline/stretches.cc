@@ -6,9 +6,11 @@
 
 namespace sslcd {
 
-Stretches::Stretches(const ObjectMap& map, const std::vector<FrameRecord>& frames, double length_m) {
+Stretches::Stretches(const ObjectMap& map, const std::vector<FrameRecord>& frames,
+                     double length_m) {
   for (const FrameRecord& record : frames)
-    of_frame_[record.frame] = length_m > 0 ? static_cast<int>(std::floor(record.travelled / length_m)) : 0;
+    of_frame_[record.frame] =
+        length_m > 0 ? static_cast<int>(std::floor(record.travelled / length_m)) : 0;
   for (const auto& [id, landmark] : map.landmarks()) {
     if (landmark.state != LandmarkState::kConfirmed) continue;
     const std::set<int> seen = Of(landmark);
@@ -32,8 +34,9 @@ std::set<int> Stretches::Of(const MapLandmark& landmark) const {
 
 bool Stretches::Tied(const MapLandmark& a, const MapLandmark& b) const {
   const std::set<int> of_a = Of(a), of_b = Of(b);
-  return std::any_of(of_a.begin(), of_a.end(),
-                     [&](int i) { return std::any_of(of_b.begin(), of_b.end(), [&](int j) { return Tied(i, j); }); });
+  return std::any_of(of_a.begin(), of_a.end(), [&](int i) {
+    return std::any_of(of_b.begin(), of_b.end(), [&](int j) { return Tied(i, j); });
+  });
 }
 
 bool Stretches::Tied(const FrameRecord& frame, const MapLandmark& landmark) const {

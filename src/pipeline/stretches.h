@@ -10,9 +10,9 @@
 
 namespace sslcd {
 
-/// Which stretches of the path speak of one place. Neighbouring stretches do, and stretches that share a confirmed
-/// object (because a loop closure has fused it). Elsewhere the drift between two visits may put anything anywhere:
-/// standing in one place is no evidence there.
+/// Which stretches of the path speak of one place. Neighbouring stretches do, and stretches that
+/// share a confirmed object (because a loop closure has fused it). Elsewhere the drift between two
+/// visits may put anything anywhere: standing in one place is no evidence there.
 class Stretches {
  public:
   /// Stretches of `length_m` of odometry path; <= 0: everything is one.
@@ -23,7 +23,9 @@ class Stretches {
 
  private:
   std::set<int> Of(const MapLandmark& landmark) const;
-  bool Tied(int a, int b) const { return a - b <= 1 && b - a <= 1 ? true : ties_.count({a, b}) > 0; }
+  bool Tied(int a, int b) const {
+    return a - b <= 1 && b - a <= 1 ? true : ties_.count({a, b}) > 0;
+  }
 
   std::map<int, int> of_frame_;
   std::set<std::pair<int, int>> ties_;

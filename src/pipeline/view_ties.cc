@@ -13,7 +13,9 @@ namespace sslcd {
 namespace {
 
 /// The ground that a camera sees best.
-Vec3 Spot(const FrameRecord& frame, double ahead_m) { return frame.T_world_cam * Vec3(0, 0, ahead_m); }
+Vec3 Spot(const FrameRecord& frame, double ahead_m) {
+  return frame.T_world_cam * Vec3(0, 0, ahead_m);
+}
 
 /// The earlier camera, of another pass, that looks at nearly the same spot as frame `i`; -1: none.
 /// `reach_m`: how much path may lie between them, with closed loops as shortcuts.
@@ -53,10 +55,11 @@ double PathUntilOff(const OdometryNoise& noise, double off_m) {
   return path;
 }
 
-std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path, const ViewAligner& align,
-                              const LoopOptions& loop_options) {
+std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path,
+                              const ViewAligner& align, const LoopOptions& loop_options) {
   const LoopViewOptions& options = loop_options.views;
-  const double reach_m = std::max(options.reach_m, PathUntilOff(loop_options.odometry, options.guess_m));
+  const double reach_m =
+      std::max(options.reach_m, PathUntilOff(loop_options.odometry, options.guess_m));
   std::vector<ViewTie> tried;
   std::vector<ViewPair> pairs;
   double last_m = -options.every_m;
@@ -66,21 +69,24 @@ std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const Path
     if (old < 0) continue;
     last_m = frames[i].travelled;
     tried.push_back({old, i, {}});
-    pairs.push_back({frames[old].frame, frames[i].frame, frames[old].T_world_cam.inverse() * frames[i].T_world_cam});
+    pairs.push_back({frames[old].frame, frames[i].frame,
+                     frames[old].T_world_cam.inverse() * frames[i].T_world_cam});
   }
   if (pairs.empty()) return {};
   const std::vector<std::optional<RelativePose>> answers = align(pairs);
   if (answers.size() != pairs.size())
     throw Error(ErrorKind::kBadInput, {"view aligner"},
-                "gave " + std::to_string(answers.size()) + " answers for " + std::to_string(pairs.size()) +
-                    " pairs of frames: it must give one each");
+                "gave " + std::to_string(answers.size()) + " answers for " +
+                    std::to_string(pairs.size()) + " pairs of frames: it must give one each");
   std::vector<ViewTie> ties;
   for (std::size_t i = 0; i < answers.size(); ++i)
-    if (answers[i] && IsMeasurement(*answers[i])) ties.push_back({tried[i].from, tried[i].to, *answers[i]});
+    if (answers[i] && IsMeasurement(*answers[i]))
+      ties.push_back({tried[i].from, tried[i].to, *answers[i]});
   return ties;
 }
 
-std::vector<ViewTie> Agreeing(const std::vector<ViewTie>& ties, const std::vector<FrameRecord>& frames) {
+std::vector<ViewTie> Agreeing(const std::vector<ViewTie>& ties,
+                              const std::vector<FrameRecord>& frames) {
   const double limit = Chi2Quantile(0.999, 6);
   std::vector<ViewTie> agreeing;
   for (const ViewTie& tie : ties) {

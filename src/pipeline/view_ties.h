@@ -8,16 +8,17 @@
 
 namespace sslcd {
 
-/// Ties cameras of different passes whose images show the same ground, wherever odometry or closed loops say roughly
-/// where they stand. Loops of objects are right to some decimetres, since cuboids lack the same side on a whole pass;
-/// images are right to some centimetres, once it is known where to look. `path`: the accepted loops are its shortcuts.
-/// In order of the later camera, one tie each at most. Answers that are not finite, or whose covariance is singular,
-/// are left out.
-std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path, const ViewAligner& align,
-                              const LoopOptions& options);
+/// Ties cameras of different passes whose images show the same ground, wherever odometry or closed
+/// loops say roughly where they stand. Loops of objects are right to some decimetres, since cuboids
+/// lack the same side on a whole pass; images are right to some centimetres, once it is known where
+/// to look. `path`: the accepted loops are its shortcuts. In order of the later camera, one tie
+/// each at most. Answers that are not finite, or whose covariance is singular, are left out.
+std::vector<ViewTie> TieViews(const std::vector<FrameRecord>& frames, const PathGraph& path,
+                              const ViewAligner& align, const LoopOptions& options);
 
 /// Those that the trajectory as adjusted with them goes through: wrong ones it does not.
-std::vector<ViewTie> Agreeing(const std::vector<ViewTie>& ties, const std::vector<FrameRecord>& frames);
+std::vector<ViewTie> Agreeing(const std::vector<ViewTie>& ties,
+                              const std::vector<FrameRecord>& frames);
 
 /// How much path such an odometry goes until it is likely to be `off_m` off. [m]
 double PathUntilOff(const OdometryNoise& noise, double off_m);

@@ -7,7 +7,8 @@
 namespace sslcd::render {
 namespace {
 
-constexpr int kTopRow = 8;  // rows of the section up to here are the sides, the others bonnet, roof and boot
+// rows of the section up to here are the sides, the others bonnet, roof and boot
+constexpr int kTopRow = 8;
 
 /// Left half of a cross-section, from below the sill to the middle of the roof: y, z.
 std::vector<Vec2f> Section(const CarShape& shape, float x) {
@@ -44,7 +45,8 @@ std::vector<float> Stations(const CarShape& shape) {
   }
   for (float axle : {shape.front_axle, shape.rear_axle}) {
     for (int i = 0; i <= kArch; ++i) {
-      const float x = axle + shape.arch_radius * std::cos(static_cast<float>(M_PI) * static_cast<float>(i) / kArch);
+      const float x = axle + shape.arch_radius *
+                                 std::cos(static_cast<float>(M_PI) * static_cast<float>(i) / kArch);
       if (x > shape.tail) stations.push_back(x);
     }
   }
@@ -85,10 +87,12 @@ void AddWheels(const CarShape& shape, Mesh& mesh) {
   for (float axle : {shape.front_axle, shape.rear_axle}) {
     const float out = std::min(shape.HalfWidth(axle), shape.half_width) - 0.01f;
     for (float side : {-1.f, 1.f}) {
-      const Vec3f inner(axle, side * (out - kTyre), shape.wheel_radius), outer(axle, side * out, shape.wheel_radius);
+      const Vec3f inner(axle, side * (out - kTyre), shape.wheel_radius),
+          outer(axle, side * out, shape.wheel_radius);
       const Vec3f shoulder = Mix(inner, outer, 0.88f);
       AddCone(mesh, inner, shoulder, shape.wheel_radius, shape.wheel_radius, kSides, kCarWheel);
-      AddCone(mesh, shoulder, outer, shape.wheel_radius, 0.92f * shape.wheel_radius, kSides, kCarWheel);
+      AddCone(mesh, shoulder, outer, shape.wheel_radius, 0.92f * shape.wheel_radius, kSides,
+              kCarWheel);
     }
   }
 }

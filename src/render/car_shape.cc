@@ -9,17 +9,22 @@ namespace {
 /// Fractions of the length from the nose, and of the height.
 struct Style {
   float bonnet_edge, bonnet;  ///< heights
-  float screen_base, screen_base_height, roof_front, roof_rear, rear_window_base, rear_height, tail_height;
+  float screen_base, screen_base_height, roof_front, roof_rear, rear_window_base, rear_height,
+      tail_height;
   float belt, front_axle, rear_axle;
 };
 
 const Style& StyleOf(CarStyle style) {
   static const Style kStyles[] = {
-      {0.44f, 0.56f, 0.27f, 0.65f, 0.43f, 0.70f, 0.86f, 0.70f, 0.58f, 0.635f, 0.185f, 0.81f},  // saloon
-      {0.46f, 0.58f, 0.24f, 0.66f, 0.41f, 0.84f, 0.975f, 0.64f, 0.44f, 0.62f, 0.19f, 0.83f},   // hatchback
-      {0.47f, 0.59f, 0.26f, 0.66f, 0.42f, 0.90f, 0.985f, 0.64f, 0.46f, 0.62f, 0.19f, 0.80f},   // estate, off-roader
-      {0.38f, 0.48f, 0.13f, 0.54f, 0.27f, 0.95f, 0.995f, 0.58f, 0.40f, 0.54f, 0.16f, 0.80f},   // van
-      {0.32f, 0.40f, 0.08f, 0.47f, 0.17f, 0.31f, 0.33f, 0.60f, 0.50f, 0.44f, 0.15f, 0.76f},    // truck: the cab
+      {0.44f, 0.56f, 0.27f, 0.65f, 0.43f, 0.70f, 0.86f, 0.70f, 0.58f, 0.635f, 0.185f,
+       0.81f},  // saloon
+      {0.46f, 0.58f, 0.24f, 0.66f, 0.41f, 0.84f, 0.975f, 0.64f, 0.44f, 0.62f, 0.19f,
+       0.83f},  // hatchback
+      {0.47f, 0.59f, 0.26f, 0.66f, 0.42f, 0.90f, 0.985f, 0.64f, 0.46f, 0.62f, 0.19f,
+       0.80f},  // estate, off-roader
+      {0.38f, 0.48f, 0.13f, 0.54f, 0.27f, 0.95f, 0.995f, 0.58f, 0.40f, 0.54f, 0.16f, 0.80f},  // van
+      {0.32f, 0.40f, 0.08f, 0.47f, 0.17f, 0.31f, 0.33f, 0.60f, 0.50f, 0.44f, 0.15f,
+       0.76f},  // truck: the cab
   };
   return kStyles[static_cast<int>(style)];
 }
@@ -28,7 +33,8 @@ CarStyle StyleFor(const sim::WorldObject& object, std::uint32_t seed) {
   if (object.label == "Van") return CarStyle::kVan;
   if (object.label == "Truck") return CarStyle::kTruck;
   const float draw = Unit(Hash(seed, 1));
-  if (object.dims.x() > 4.2 && object.dims.z() < 1.6) return draw < 0.7f ? CarStyle::kSaloon : CarStyle::kEstate;
+  if (object.dims.x() > 4.2 && object.dims.z() < 1.6)
+    return draw < 0.7f ? CarStyle::kSaloon : CarStyle::kEstate;
   if (object.dims.x() > 4.2) return draw < 0.8f ? CarStyle::kEstate : CarStyle::kHatchback;
   return draw < 0.8f ? CarStyle::kHatchback : CarStyle::kEstate;
 }
@@ -50,7 +56,9 @@ CarShape MakeCarShape(const sim::WorldObject& object, std::uint32_t seed) {
   const bool truck = shape.style == CarStyle::kTruck;
   const float cab = truck ? 0.86f * shape.height : shape.height;
   int draws = 10;
-  const auto vary = [&](float value, float spread) { return value + spread * (2 * Unit(Hash(seed, ++draws)) - 1); };
+  const auto vary = [&](float value, float spread) {
+    return value + spread * (2 * Unit(Hash(seed, ++draws)) - 1);
+  };
   const auto x = [&](float fraction) { return (0.5f - fraction) * shape.length; };
 
   const bool van = truck || shape.style == CarStyle::kVan;
@@ -80,8 +88,10 @@ CarShape MakeCarShape(const sim::WorldObject& object, std::uint32_t seed) {
   shape.clearance = vary(truck ? 0.3f : 0.19f, 0.03f);
   shape.wheel_radius = van ? vary(0.34f, 0.02f) : vary(0.205f, 0.012f) * shape.height;
   shape.arch_radius = shape.wheel_radius + 0.055f;
-  shape.front_axle = std::min(x(vary(style.front_axle, 0.01f)), shape.nose() - shape.arch_radius - 0.12f);
-  shape.rear_axle = std::max(x(vary(style.rear_axle, 0.01f)), -shape.nose() + shape.arch_radius + 0.12f);
+  shape.front_axle =
+      std::min(x(vary(style.front_axle, 0.01f)), shape.nose() - shape.arch_radius - 0.12f);
+  shape.rear_axle =
+      std::max(x(vary(style.rear_axle, 0.01f)), -shape.nose() + shape.arch_radius + 0.12f);
   shape.half_width = 0.5f * shape.width - 0.01f;
   shape.half_roof = shape.half_width * (van ? vary(0.88f, 0.02f) : vary(0.74f, 0.03f));
   return shape;
@@ -91,8 +101,9 @@ float CarShape::Top(float x) const {
   const auto corner_line = [&](float at) {
     for (std::size_t i = 1; i < outline.size(); ++i) {
       if (at >= outline[i].x())
-        return Mix(outline[i].y(), outline[i - 1].y(),
-                   Clamp01((at - outline[i].x()) / std::max(outline[i - 1].x() - outline[i].x(), 1e-4f)));
+        return Mix(
+            outline[i].y(), outline[i - 1].y(),
+            Clamp01((at - outline[i].x()) / std::max(outline[i - 1].x() - outline[i].x(), 1e-4f)));
     }
     return outline.back().y();
   };
@@ -116,8 +127,10 @@ float CarShape::Bottom(float x) const {
 
 float CarShape::HalfWidth(float x) const {
   const float from_nose = std::max(1 - (nose() - x) / (0.16f * length), 0.f);
-  const float from_tail = style == CarStyle::kTruck ? 0 : std::max(1 - (x + nose()) / (0.12f * length), 0.f);
-  return half_width * (1 - 0.17f * from_nose * from_nose * from_nose - 0.12f * from_tail * from_tail * from_tail);
+  const float from_tail =
+      style == CarStyle::kTruck ? 0 : std::max(1 - (x + nose()) / (0.12f * length), 0.f);
+  return half_width * (1 - 0.17f * from_nose * from_nose * from_nose -
+                       0.12f * from_tail * from_tail * from_tail);
 }
 
 float CarShape::HalfTop(float x) const {

@@ -11,8 +11,8 @@ namespace sslcd::render {
 
 enum class CarStyle { kSaloon, kHatchback, kEstate, kVan, kTruck };
 
-/// A procedural vehicle, drawn by the seed within the object's dimensions. Its frame: x forward, y left, z up from the
-/// ground below the middle. All lengths in metres.
+/// A procedural vehicle, drawn by the seed within the object's dimensions. Its frame: x forward, y
+/// left, z up from the ground below the middle. All lengths in metres.
 struct CarShape {
   CarStyle style = CarStyle::kHatchback;
   float length = 0, width = 0, height = 0;
@@ -24,7 +24,8 @@ struct CarShape {
   float clearance = 0, wheel_radius = 0, arch_radius = 0;
   float front_axle = 0, rear_axle = 0;                                         ///< x
   float screen_base = 0, roof_front = 0, roof_rear = 0, rear_window_base = 0;  ///< x
-  float half_width = 0, half_roof = 0;                                         ///< of the body and of its roof
+  /// of the body and of its roof
+  float half_width = 0, half_roof = 0;
 
   float nose() const { return 0.5f * length; }
   float Top(float x) const;        ///< height of the outline, its corners rounded

@@ -20,7 +20,8 @@ Surface Plate(const CarShape& shape, float u, float v) {
   const Surface white{Vec3f(0.75f, 0.76f, 0.74f), 0.03f, 30, kPlate};
   const Surface black{Vec3f(0.03f, 0.03f, 0.05f), 0.03f, 30, kSeam};
   if (u < 0.07f) return {Vec3f(0.02f, 0.07f, 0.4f), 0.03f, 30, kSeam};
-  const float place = (u - 0.1f) / 0.87f * 7, column = Fraction(place) * 4, row = (v - 0.15f) / 0.7f * 5;
+  const float place = (u - 0.1f) / 0.87f * 7, column = Fraction(place) * 4,
+              row = (v - 0.15f) / 0.7f * 5;
   if (!Within(place, 0, 7) || !Within(row, 0, 5) || column > 3) return white;
   const int block = static_cast<int>(column) + 3 * static_cast<int>(row);
   const std::uint32_t sign = Hash(shape.seed + 77, static_cast<std::uint32_t>(place));
@@ -29,7 +30,8 @@ Surface Plate(const CarShape& shape, float u, float v) {
 
 Surface Wheel(const CarShape& shape, const Spot& spot) {
   const Surface tyre{Vec3f(0.022f, 0.022f, 0.024f), 0.01f, 8, kTyre};
-  const float axle = spot.at.x() > 0.5f * (shape.front_axle + shape.rear_axle) ? shape.front_axle : shape.rear_axle;
+  const float axle = spot.at.x() > 0.5f * (shape.front_axle + shape.rear_axle) ? shape.front_axle
+                                                                               : shape.rear_axle;
   const float x = spot.at.x() - axle, z = spot.at.z() - shape.wheel_radius;
   const float radius = std::hypot(x, z) / shape.wheel_radius;
   if (std::abs(spot.normal.y()) < 0.8f || radius > 0.7f) return tyre;
@@ -49,7 +51,8 @@ std::optional<Surface> Front(const CarShape& shape, const Spot& spot) {
   const float edge = shape.outline[1].y(), lamp_in = Mix(0.48f, 0.62f, Unit(Hash(shape.seed, 41)));
   const float slant = 0.05f * (y - lamp_in);
   if (Within(z, edge - 0.1f + slant, edge + 0.035f + slant) && y > lamp_in) {
-    const float core = std::hypot((y - 0.5f * (lamp_in + 0.9f)) * shape.half_width, z - edge + 0.03f);
+    const float core =
+        std::hypot((y - 0.5f * (lamp_in + 0.9f)) * shape.half_width, z - edge + 0.03f);
     if (core < 0.055f) return Surface{Vec3f(0.75f, 0.77f, 0.8f), 0.25f, 100, kLamp};
     return Surface{Vec3f(0.22f, 0.23f, 0.25f), 0.15f, 200, kGlass};
   }
@@ -83,7 +86,8 @@ std::optional<Surface> Rear(const CarShape& shape, const Spot& spot) {
   if (z < shape.clearance + 0.17f) return kPlasticSurface;
   const float seam = Mix(shape.clearance, shape.belt, 0.42f);
   if (std::abs(z - seam) < 0.006f) return Surface{Vec3f::Constant(0.01f), 0, 1, kSeam};
-  const bool window = shape.style == CarStyle::kVan && Within(z, shape.belt + 0.08f, 0.9f * shape.height) &&
+  const bool window = shape.style == CarStyle::kVan &&
+                      Within(z, shape.belt + 0.08f, 0.9f * shape.height) &&
                       Within(y, 0.06f, 0.72f) && Hash(shape.seed, 53) % 2;
   if (window) return kGlassSurface;
   return std::nullopt;
@@ -93,10 +97,11 @@ bool IsGlass(const CarShape& shape, const Spot& spot, float pillar) {
   const float x = spot.at.x(), z = spot.at.z(), top = shape.Top(x);
   if (spot.part == kCarTop) {
     const bool wide = std::abs(spot.at.y()) < shape.HalfTop(x) - 0.035f;
-    const bool screen =
-        Within(x, shape.roof_front - 0.02f, shape.screen_base - 0.02f) && z < 0.985f * shape.Top(shape.roof_front);
+    const bool screen = Within(x, shape.roof_front - 0.02f, shape.screen_base - 0.02f) &&
+                        z < 0.985f * shape.Top(shape.roof_front);
     const bool rear = shape.style != CarStyle::kVan && shape.style != CarStyle::kTruck &&
-                      Within(x, shape.rear_window_base, shape.roof_rear) && z < 0.97f * shape.Top(shape.roof_rear) &&
+                      Within(x, shape.rear_window_base, shape.roof_rear) &&
+                      z < 0.97f * shape.Top(shape.roof_rear) &&
                       z > shape.Top(shape.rear_window_base) + 0.03f;
     return wide && (screen || rear);
   }
@@ -144,7 +149,8 @@ Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) 
     if (spot.normal.x() < -0.5f && z < 1.02f) {
       if (std::abs(spot.at.y()) < 0.26f && std::abs(z - 0.94f) < 0.055f)
         return Plate(shape, 0.5f - spot.at.y() / 0.52f, 0.5f + (0.94f - z) / 0.11f);
-      return lamp > 0.75f ? Surface{Vec3f(0.3f, 0.012f, 0.012f), 0.07f, 80, kLamp} : kPlasticSurface;
+      return lamp > 0.75f ? Surface{Vec3f(0.3f, 0.012f, 0.012f), 0.07f, 80, kLamp}
+                          : kPlasticSurface;
     }
     const float stripe = Band((Fraction(rib) - 0.5f) * 0.6f, 0.008f, spot.footprint);
     const bool door = spot.normal.x() < -0.5f && std::abs(spot.at.y()) < 0.01f;
@@ -168,13 +174,15 @@ Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) 
                                  std::hypot(x - shape.rear_axle, z - shape.wheel_radius)) -
                         shape.arch_radius;
   const bool rough = shape.style == CarStyle::kEstate && Hash(shape.seed, 73) % 2;
-  if (z < shape.clearance + (rough ? 0.13f : 0.06f) || (rough && to_arch < 0.06f)) return kPlasticSurface;
+  if (z < shape.clearance + (rough ? 0.13f : 0.06f) || (rough && to_arch < 0.06f))
+    return kPlasticSurface;
   const float first = shape.screen_base - 0.3f;
   const bool doors = x < first + 0.1f && x > shape.rear_axle - 0.1f;
   if (z < shape.belt && doors) {
     const float last = std::max(shape.rear_axle + 0.62f * shape.arch_radius, pillar - 1.05f);
     float seam = 0;
-    for (float at : {first, pillar, last}) seam = std::max(seam, Band(x - at, 0.007f, spot.footprint));
+    for (float at : {first, pillar, last})
+      seam = std::max(seam, Band(x - at, 0.007f, spot.footprint));
     body.albedo *= 1 - 0.9f * seam;
     body.mirror *= 1 - seam;
     for (float at : {pillar, last}) {

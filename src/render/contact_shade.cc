@@ -14,7 +14,8 @@ ContactShade::ContactShade(const StageSet& set, const std::vector<StageSet::Thin
     Footprint footprint{at.head<2>(), axes.col(0).head<2>(), 0.5f * dims.head<2>()};
     if (thing.kind == StageSet::Kind::kTree) footprint.half *= 0.5f;
     const Vec2f reach = Vec2f::Constant(footprint.half.norm() + kReach);
-    near_.Add(footprint.centre - reach, footprint.centre + reach, static_cast<int>(footprints_.size()));
+    near_.Add(footprint.centre - reach, footprint.centre + reach,
+              static_cast<int>(footprints_.size()));
     footprints_.push_back(footprint);
   }
 }
@@ -30,7 +31,8 @@ float ContactShade::OpenSky(const Vec3f& place) const {
     const Vec2f out = own - footprint.half;
     const float inside = -std::max(out.x(), out.y());
     const float outside = out.cwiseMax(Vec2f::Zero()).norm();
-    open *= inside > 0 ? 0.4f - 0.32f * Clamp01(inside / 0.5f) : 1 - 0.6f * std::exp(-outside / 0.32f);
+    open *=
+        inside > 0 ? 0.4f - 0.32f * Clamp01(inside / 0.5f) : 1 - 0.6f * std::exp(-outside / 0.32f);
   }
   return open;
 }

@@ -7,8 +7,8 @@
 
 namespace sslcd::render {
 
-/// How much of the sky the ground sees beside and below vehicles. An estimate from the distance to their footprints;
-/// rays would be exact, and either slow or noisy.
+/// How much of the sky the ground sees beside and below vehicles. An estimate from the distance to
+/// their footprints; rays would be exact, and either slow or noisy.
 class ContactShade {
  public:
   ContactShade(const StageSet& set, const std::vector<StageSet::Thing>& things);

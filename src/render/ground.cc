@@ -9,7 +9,8 @@ namespace {
 constexpr float kPavedWithin = 9;  // of what is used [m]
 constexpr float kHalfLine = 0.055f;
 
-/// Rectangles of newer or older asphalt in some cells of a coarse grid, sealed along their edges: a factor.
+/// Rectangles of newer or older asphalt in some cells of a coarse grid, sealed along their edges: a
+/// factor.
 float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
   const Vec2f cell(9, 7);
   const Vec2f at = place.cwiseQuotient(cell);
@@ -25,7 +26,8 @@ float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
 /// Cracks along the borders of bent cells, on some stretches of these: a factor.
 float Cracked(const Vec2f& place, float bend, std::uint32_t seed, float footprint) {
   constexpr float kCells = 0.22f;  // a metre
-  const float open = Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, 0.12f, 2, footprint));
+  const float open =
+      Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, 0.12f, 2, footprint));
   if (open <= 0) return 1;
   const Vec2f bent = kCells * place + 0.3f * bend * Vec2f(1, -1);
   const float crack = CellNoise(bent.x(), bent.y(), seed).border / kCells;
@@ -60,7 +62,8 @@ void NearList::Add(const Vec2f& low, const Vec2f& high, int number) {
     return std::clamp(Floor((to - from) / cell_), 0, count - 1);
   };
   for (int row = cell(low_.y(), low.y(), rows_); row <= cell(low_.y(), high.y(), rows_); ++row) {
-    for (int column = cell(low_.x(), low.x(), columns_); column <= cell(low_.x(), high.x(), columns_); ++column)
+    for (int column = cell(low_.x(), low.x(), columns_);
+         column <= cell(low_.x(), high.x(), columns_); ++column)
       lists_[static_cast<std::size_t>(row) * columns_ + column].push_back(number);
   }
 }
@@ -68,18 +71,22 @@ void NearList::Add(const Vec2f& low, const Vec2f& high, int number) {
 const std::vector<int>& NearList::At(const Vec2f& place) const {
   static const std::vector<int> kNone;
   const float column = (place.x() - low_.x()) / cell_, row = (place.y() - low_.y()) / cell_;
-  if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns_) && row < static_cast<float>(rows_)))
+  if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns_) &&
+        row < static_cast<float>(rows_)))
     return kNone;
   return lists_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
 }
 
-Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed) : seed_(seed) {
-  const Vec2f margin = Vec2f::Constant(2 * kPavedWithin), low = used.low - margin, high = used.high + margin;
+Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed)
+    : seed_(seed) {
+  const Vec2f margin = Vec2f::Constant(2 * kPavedWithin), low = used.low - margin,
+              high = used.high + margin;
   near_lines_ = near_oil_ = NearList(low, high, 2);
   near_used_ = NearList(low, high, 2);
   const auto add_line = [&](const Vec2f& from, const Vec2f& to) {
     const Vec2f half = Vec2f::Constant(2 * kHalfLine + 0.2f);
-    near_lines_.Add(from.cwiseMin(to) - half, from.cwiseMax(to) + half, static_cast<int>(lines_.size()));
+    near_lines_.Add(from.cwiseMin(to) - half, from.cwiseMax(to) + half,
+                    static_cast<int>(lines_.size()));
     lines_.push_back({from, to});
   };
   for (const sim::ParkingSpace& space : scene.spaces) {
@@ -93,13 +100,16 @@ Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_
     add_line(centre + front - side, centre + front + side);
     if (Unit(Hash(seed, static_cast<std::uint32_t>(oil_.size()))) < 0.9f) {
       const Vec2f drop = centre + 0.35f * front;
-      near_oil_.Add(drop - Vec2f::Constant(0.7f), drop + Vec2f::Constant(0.7f), static_cast<int>(oil_.size()));
+      near_oil_.Add(drop - Vec2f::Constant(0.7f), drop + Vec2f::Constant(0.7f),
+                    static_cast<int>(oil_.size()));
       oil_.push_back(drop);
     }
   }
   for (const Vec2f& place : used.places) {  // a few of many that lie close together are enough
     const std::vector<int>& others = near_used_.At(place);
-    if (std::any_of(others.begin(), others.end(), [&](int i) { return (used_[i] - place).norm() < 1.5f; })) continue;
+    if (std::any_of(others.begin(), others.end(),
+                    [&](int i) { return (used_[i] - place).norm() < 1.5f; }))
+      continue;
     const Vec2f reach = Vec2f::Constant(kPavedWithin + 1);
     near_used_.Add(place - reach, place + reach, static_cast<int>(used_.size()));
     used_.push_back(place);
@@ -122,7 +132,8 @@ float Ground::Painted(const Vec2f& place, float footprint) const {
     const Line& line = lines_[i];
     const Vec2f way = line.to - line.from;
     const float along = Clamp01((place - line.from).dot(way) / way.squaredNorm());
-    painted = std::max(painted, Band((place - line.from - along * way).norm(), kHalfLine, footprint));
+    painted =
+        std::max(painted, Band((place - line.from - along * way).norm(), kHalfLine, footprint));
   }
   if (painted <= 0) return 0;
   const float worn = Fractal(place.x(), place.y(), seed_ + 9, 1.3f, 6, footprint);
@@ -140,11 +151,13 @@ Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
     const float speck = ValueNoise(x * 60, y * 60, seed_ + 4);
     grey += stones * (0.08f * Smooth(0.8f, 0.95f, speck) - 0.04f * Smooth(0.2f, 0.05f, speck));
   }
-  grey *= Repaired(place, seed_ + 5, footprint) * Cracked(place, 0.1f * middle, seed_ + 6, footprint);
+  grey *=
+      Repaired(place, seed_ + 5, footprint) * Cracked(place, 0.1f * middle, seed_ + 6, footprint);
   float oil = 0;
   for (int i : near_oil_.At(place)) {
     const float edge = (oil_[i] - place).norm() + 0.25f * middle;
-    oil = std::max(oil, Smooth(0.5f, 0.1f, edge) * Unit(Hash(seed_ + 8, static_cast<std::uint32_t>(i))));
+    oil = std::max(oil,
+                   Smooth(0.5f, 0.1f, edge) * Unit(Hash(seed_ + 8, static_cast<std::uint32_t>(i))));
   }
   grey = std::max(grey * (1 - 0.6f * oil), 0.012f);
   return Littered(place, seed_ + 11, footprint, grey * Vec3f(1.02f, 1, 0.97f));
@@ -161,7 +174,8 @@ Surface Ground::At(const Spot& spot) const {
   }
   if (paved < 1) {
     const float tuft = Fractal(place.x(), place.y(), seed_ + 10, 0.3f, 8, spot.footprint);
-    const Vec3f grass = Mix(Vec3f(0.06f, 0.1f, 0.025f), Vec3f(0.16f, 0.16f, 0.07f), Clamp01(0.45f + 0.5f * tuft));
+    const Vec3f grass =
+        Mix(Vec3f(0.06f, 0.1f, 0.025f), Vec3f(0.16f, 0.16f, 0.07f), Clamp01(0.45f + 0.5f * tuft));
     surface.albedo = Mix(grass, surface.albedo, paved);
   }
   return surface;

@@ -15,7 +15,8 @@ class NearList {
  public:
   NearList() = default;
   NearList(const Vec2f& low, const Vec2f& high, float cell);
-  void Add(const Vec2f& low, const Vec2f& high, int number);  ///< to all cells that the rectangle touches
+  /// to all cells that the rectangle touches
+  void Add(const Vec2f& low, const Vec2f& high, int number);
   const std::vector<int>& At(const Vec2f& place) const;
 
  private:

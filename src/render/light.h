@@ -20,10 +20,10 @@ Daylight MakeDaylight(const Light& light, std::uint32_t seed);
 /// What is seen where nothing stands. `direction` is a unit vector.
 Vec3f SkyColour(const Daylight& light, const Vec3f& direction);
 
-/// Light from a surface towards the eye. `view` is the unit vector from the eye, `sunlit` the share of the sun that
-/// reaches the spot, `sky` that of the sky.
-Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, const Vec3f& view, float sunlit,
-            float sky);
+/// Light from a surface towards the eye. `view` is the unit vector from the eye, `sunlit` the share
+/// of the sun that reaches the spot, `sky` that of the sky.
+Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, const Vec3f& view,
+            float sunlit, float sky);
 
 /// Haze: far things take on the colour of the horizon.
 Vec3f ThroughAir(const Daylight& light, const Vec3f& colour, float distance);

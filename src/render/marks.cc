@@ -15,15 +15,20 @@ Mesh MakeTreeMesh(const Vec3f& dims, std::uint32_t seed) {
   constexpr int kClumps = 34, kLeaves = 40;
   for (int clump = 0; clump < kClumps; ++clump) {
     const float up = draw(0, 1), turn = draw(0, 6.283f);
-    const float room = radius * std::sqrt(std::max(1 - std::pow(2 * up - 0.85f, 2.f) / 1.4f, 0.05f));
-    const float size = draw(0.3f, 0.45f) * radius, out = std::max(room - size, 0.f) * std::sqrt(draw(0, 1));
-    const Vec3f centre(out * std::cos(turn), out * std::sin(turn), Mix(trunk + size, height - size, up));
+    const float room =
+        radius * std::sqrt(std::max(1 - std::pow(2 * up - 0.85f, 2.f) / 1.4f, 0.05f));
+    const float size = draw(0.3f, 0.45f) * radius,
+                out = std::max(room - size, 0.f) * std::sqrt(draw(0, 1));
+    const Vec3f centre(out * std::cos(turn), out * std::sin(turn),
+                       Mix(trunk + size, height - size, up));
     for (int leaf = 0; leaf < kLeaves; ++leaf) {
       Vec3f way{draw(-1, 1), draw(-1, 1), draw(-1, 1)};
       way *= size / std::max(way.norm(), 0.3f);
-      const Vec3f normal = (way + size * Vec3f{draw(-0.7f, 0.7f), draw(-0.7f, 0.7f), draw(0, 1)}).normalized();
+      const Vec3f normal =
+          (way + size * Vec3f{draw(-0.7f, 0.7f), draw(-0.7f, 0.7f), draw(0, 1)}).normalized();
       const float half = draw(0.035f, 0.075f);
-      const Vec3f across = half * normal.unitOrthogonal(), along = 1.6f * half * normal.cross(across).normalized();
+      const Vec3f across = half * normal.unitOrthogonal(),
+                  along = 1.6f * half * normal.cross(across).normalized();
       Vec3f at = centre + way;
       at = at.cwiseMax(Vec3f(-radius + 0.15f, -radius + 0.15f, 0.15f))
                .cwiseMin(Vec3f(radius - 0.15f, radius - 0.15f, height - 0.15f));
@@ -50,7 +55,8 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
   const float turn = std::atan2(spot.at.y(), spot.at.x());
   const float rust = Fractal(2 * turn, spot.at.z(), seed, 2, 4, spot.footprint);
   if (spot.part == 1) return {Vec3f(0.7f, 0.7f, 0.65f), 0.1f, 60, 1};
-  const bool notice = std::abs(spot.at.z() - 1.5f) < 0.16f && std::cos(turn - 6.28f * Unit(seed)) > 0.6f;
+  const bool notice =
+      std::abs(spot.at.z() - 1.5f) < 0.16f && std::cos(turn - 6.28f * Unit(seed)) > 0.6f;
   if (notice) {
     const bool text = ValueNoise(turn * 9, spot.at.z() * 60, seed) > 0.55f;
     return {text ? Vec3f(0.08f, 0.1f, 0.3f) : Vec3f(0.6f, 0.6f, 0.5f), 0.02f, 20, 2};
@@ -64,7 +70,8 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
 }
 
 Surface StopSurface(std::uint32_t seed, const Spot& spot) {
-  const float worn = Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, 4, 6, spot.footprint, 0.7f);
+  const float worn =
+      Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, 4, 6, spot.footprint, 0.7f);
   const bool yellow = Floor(spot.at.y() / 0.3f) % 2 != 0 && worn < 0.25f && seed % 3 == 0;
   const Vec3f albedo = yellow ? Vec3f(0.5f, 0.36f, 0.04f) : Vec3f(0.3f, 0.29f, 0.27f);
   return {Vec3f(albedo * (1 + 0.35f * worn)), 0, 1, yellow, 0.6f};
@@ -72,8 +79,8 @@ Surface StopSurface(std::uint32_t seed, const Spot& spot) {
 
 Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
   if (spot.part == kTrunk) {
-    const float bark =
-        Fractal(6 * std::atan2(spot.at.y(), spot.at.x()), 0.7f * spot.at.z(), seed, 2, 4, spot.footprint);
+    const float bark = Fractal(6 * std::atan2(spot.at.y(), spot.at.x()), 0.7f * spot.at.z(), seed,
+                               2, 4, spot.footprint);
     return {Vec3f(0.1f, 0.075f, 0.05f) * (1 + 0.5f * bark), 0, 1, 1, 0.7f};
   }
   const float tint = ValueNoise(spot.at.x() * 6 + spot.at.y() * 5, spot.at.z() * 6, seed);

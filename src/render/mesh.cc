@@ -39,11 +39,14 @@ void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part) {
   AddQuad(mesh, corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1), part);
 }
 
-void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius, int sides, int part) {
-  const Vec3f axis = (to - from).normalized(), across = axis.unitOrthogonal(), other = axis.cross(across);
+void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius,
+             int sides, int part) {
+  const Vec3f axis = (to - from).normalized(), across = axis.unitOrthogonal(),
+              other = axis.cross(across);
   const int first = static_cast<int>(mesh.points.size());
   for (int side = 0; side < sides; ++side) {
-    const float angle = 2 * static_cast<float>(M_PI) * static_cast<float>(side) / static_cast<float>(sides);
+    const float angle =
+        2 * static_cast<float>(M_PI) * static_cast<float>(side) / static_cast<float>(sides);
     const Vec3f out = std::cos(angle) * across + std::sin(angle) * other;
     mesh.AddPoint(from + from_radius * out);
     mesh.AddPoint(to + to_radius * out);
@@ -63,7 +66,8 @@ void ComputeNormals(Mesh& mesh, float crease_rad) {
   std::vector<std::vector<int>> around(mesh.points.size());
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [a, b, c] = mesh.triangles[i];
-    faces[i] = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);  // as long as twice its area
+    // as long as twice its area
+    faces[i] = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
     for (int corner : mesh.triangles[i]) around[corner].push_back(static_cast<int>(i));
   }
   const float limit = std::cos(crease_rad);

@@ -13,7 +13,8 @@ struct Mesh {
   std::vector<Vec3f> points;
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> parts;
-  std::vector<std::array<Vec3f, 3>> normals;  ///< at the corners of each triangle; see ComputeNormals
+  /// at the corners of each triangle; see ComputeNormals
+  std::vector<std::array<Vec3f, 3>> normals;
 
   int AddPoint(const Vec3f& point);
   void AddTriangle(int a, int b, int c, int part);
@@ -25,9 +26,11 @@ void AddQuad(Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const V
 void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part);
 
 /// About the axis from `from` to `to`, radii there; closed. Round, so its sides share points.
-void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius, int sides, int part);
+void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius,
+             int sides, int part);
 
-/// Mean over the faces around a corner that lie within `crease_rad` of its own: round where the mesh is round.
+/// Mean over the faces around a corner that lie within `crease_rad` of its own: round where the
+/// mesh is round.
 void ComputeNormals(Mesh& mesh, float crease_rad = 0.6f);
 
 }  // namespace sslcd::render

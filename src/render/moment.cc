@@ -14,7 +14,8 @@ std::vector<Instance> InstancesOf(const std::vector<StageSet::Thing>& things) {
 
 }  // namespace
 
-Moment::Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame, float pixel_angle)
+Moment::Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame,
+               float pixel_angle)
     : set_(set),
       light_(light),
       things_(set.ThingsAt(frame)),
@@ -35,8 +36,10 @@ std::vector<Sample> Moment::Look(const std::vector<Ray>& rays) const {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].instance < 0) continue;  // its ray to the sun has no length
     points[i] = PointOf(rays[i], hits[i]);
-    const float off = 0.003f + 1e-4f * hits[i].distance;  // rounding must not put it below its own surface
-    to_sun[i] = {points[i].at + off * points[i].flat, light_.to_sun, points[i].flat.dot(light_.to_sun) > 0 ? kFar : 0};
+    // rounding must not put it below its own surface
+    const float off = 0.003f + 1e-4f * hits[i].distance;
+    to_sun[i] = {points[i].at + off * points[i].flat, light_.to_sun,
+                 points[i].flat.dot(light_.to_sun) > 0 ? kFar : 0};
   }
   std::vector<char> hidden;
   scene_.Hidden(to_sun, hidden);
@@ -57,7 +60,8 @@ Moment::Point Moment::PointOf(const Ray& ray, const Hit& hit) const {
   const auto& normals = mesh.normals[hit.triangle];
   const Vec3f flat = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
   const Vec3f round = (1 - hit.u - hit.v) * normals[0] + hit.u * normals[1] + hit.v * normals[2];
-  Point point{ray.origin + hit.distance * ray.direction, axes_[hit.instance] * flat.stableNormalized(),
+  Point point{ray.origin + hit.distance * ray.direction,
+              axes_[hit.instance] * flat.stableNormalized(),
               axes_[hit.instance] * round.stableNormalized()};
   if (point.flat.dot(ray.direction) > 0) point.flat = -point.flat;
   if (point.normal.dot(point.flat) < 0) point.normal = -point.normal;
@@ -70,21 +74,27 @@ Sample Moment::SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool
   const float length = ray.direction.norm(), distance = hit.distance * length;
   const Vec3f view = ray.direction / length;
   const int part = MeshOf(hit).parts[hit.triangle];
-  // A pixel covers a long and narrow piece of what is seen at a grazing angle; this is the mean of both.
-  const float footprint = pixel_angle_ * distance / std::sqrt(std::max(-point.flat.dot(view), 0.02f));
-  const Surface surface = set_.SurfaceOf(thing, {axes.transpose() * (point.at - origins_[hit.instance]),
-                                                 axes.transpose() * point.normal, part, footprint});
+  // A pixel covers a long and narrow piece of what is seen at a grazing angle; this is the mean of
+  // both.
+  const float footprint =
+      pixel_angle_ * distance / std::sqrt(std::max(-point.flat.dot(view), 0.02f));
+  const Surface surface =
+      set_.SurfaceOf(thing, {axes.transpose() * (point.at - origins_[hit.instance]),
+                             axes.transpose() * point.normal, part, footprint});
   const bool from_behind = surface.thin && point.normal.dot(light_.to_sun) < 0;
   const Vec3f normal = from_behind ? Vec3f(-0.6f * point.normal) : point.normal;
   const float open = thing.kind == StageSet::Kind::kGround ? shade_.OpenSky(point.at) : 1;
 
   Sample sample;
-  sample.colour = ThroughAir(light_, Shade(light_, surface, normal, view, lit ? 1 : 0, open), distance);
+  sample.colour =
+      ThroughAir(light_, Shade(light_, surface, normal, view, lit ? 1 : 0, open), distance);
   sample.depth = hit.distance;
   sample.identity = thing.identity;
-  const std::uint32_t painted = surface.thin ? 0  // leaves have too many edges to smooth them all
-                                             : static_cast<std::uint32_t>(2 * surface.kind + (lit ? 1 : 0));
-  const std::uint32_t building = thing.kind == StageSet::Kind::kTown ? static_cast<std::uint32_t>(part) : 0;
+  const std::uint32_t painted = surface.thin
+                                    ? 0  // leaves have too many edges to smooth them all
+                                    : static_cast<std::uint32_t>(2 * surface.kind + (lit ? 1 : 0));
+  const std::uint32_t building =
+      thing.kind == StageSet::Kind::kTown ? static_cast<std::uint32_t>(part) : 0;
   sample.key = (static_cast<std::uint32_t>(hit.instance + 1) << 16) + (building << 5) + painted;
   return sample;
 }

@@ -16,8 +16,8 @@ struct Sample {
   Vec3f colour = Vec3f::Zero();
   float depth = 0;  ///< in lengths of the ray's direction; 0: sky
   int identity = -1;
-  std::uint32_t key =
-      0;  ///< of the surface, and whether the sun shines on it; neighbours of equal key need no smoothing
+  std::uint32_t key = 0;  ///< of the surface, and whether the sun shines on it; neighbours of equal
+                          ///< key need no smoothing
 };
 
 /// The world at one frame, in one light.
@@ -26,7 +26,8 @@ class Moment {
   static constexpr float kFar = 2000;
 
   /// `pixel_angle`: of a pixel in the middle of the image [rad]. Keeps references to all but that.
-  Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame, float pixel_angle);
+  Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame,
+         float pixel_angle);
 
   /// What each ray sees, with one more ray from there to the sun.
   std::vector<Sample> Look(const std::vector<Ray>& rays) const;
@@ -39,7 +40,9 @@ class Moment {
   };
   Point PointOf(const Ray& ray, const Hit& hit) const;
   Sample SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool lit) const;
-  const Mesh& MeshOf(const Hit& hit) const { return set_.meshes()[things_[hit.instance].instance.mesh]; }
+  const Mesh& MeshOf(const Hit& hit) const {
+    return set_.meshes()[things_[hit.instance].instance.mesh];
+  }
 
   const StageSet& set_;
   const Daylight& light_;

@@ -11,10 +11,12 @@ float ValueNoise(float x, float y, std::uint32_t seed) {
   return Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
 }
 
-float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint, float fall) {
+float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint,
+              float fall) {
   float sum = 0, amplitude = 1;
   for (int octave = 0; octave < octaves; ++octave) {
-    const float left = Clamp01(1.5f - 2 * frequency * footprint);  // an octave needs two pixels a period
+    // an octave needs two pixels a period
+    const float left = Clamp01(1.5f - 2 * frequency * footprint);
     if (left <= 0) break;
     sum += left * amplitude * (2 * ValueNoise(x * frequency, y * frequency, seed + octave) - 1);
     frequency *= 2;
@@ -30,7 +32,8 @@ Cell CellNoise(float x, float y, std::uint32_t seed) {
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const std::uint32_t hash = Hash(ix + dx, iy + dy, seed);
-      const float px = static_cast<float>(ix + dx) + Unit(hash), py = static_cast<float>(iy + dy) + Unit(Hash(hash));
+      const float px = static_cast<float>(ix + dx) + Unit(hash),
+                  py = static_cast<float>(iy + dy) + Unit(Hash(hash));
       const float distance = std::sqrt((px - x) * (px - x) + (py - y) * (py - y));
       if (distance < nearest) {
         second = nearest;

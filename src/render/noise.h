@@ -13,16 +13,19 @@ inline std::uint32_t Hash(std::uint32_t x) {
   x = (x ^ (x >> 13)) * 0xC2B2AE35u;
   return x ^ (x >> 16);
 }
-inline std::uint32_t Hash(std::uint32_t x, std::uint32_t y) { return Hash(x + 0x9E3779B9u * Hash(y)); }
+inline std::uint32_t Hash(std::uint32_t x, std::uint32_t y) {
+  return Hash(x + 0x9E3779B9u * Hash(y));
+}
 inline std::uint32_t Hash(int x, int y, std::uint32_t seed) {
-  return Hash(static_cast<std::uint32_t>(x) * 0x8DA6B343u ^ static_cast<std::uint32_t>(y) * 0xD8163841u ^ seed);
+  return Hash(static_cast<std::uint32_t>(x) * 0x8DA6B343u ^
+              static_cast<std::uint32_t>(y) * 0xD8163841u ^ seed);
 }
 
 /// In [0, 1).
 inline float Unit(std::uint32_t hash) { return static_cast<float>(hash >> 8) * 0x1p-24f; }
 
-/// Random numbers of one seed, one after the other. Where several are drawn in one expression, within braces: these are
-/// evaluated from left to right.
+/// Random numbers of one seed, one after the other. Where several are drawn in one expression,
+/// within braces: these are evaluated from left to right.
 class Draws {
  public:
   explicit Draws(std::uint32_t seed) : seed_(seed) {}
@@ -32,15 +35,17 @@ class Draws {
   std::uint32_t seed_, count_ = 0;
 };
 
-/// Random numbers of a lattice, blended: in [0, 1), features about 1 wide. (Perlin's "value noise".)
+/// Random numbers of a lattice, blended: in [0, 1), features about 1 wide. (Perlin's "value
+/// noise".)
 float ValueNoise(float x, float y, std::uint32_t seed);
 
-/// Octaves of it from `frequency` [1/m] on, each twice as fine and `fall` times as strong; about -1 to 1. What is finer
-/// than `footprint` [m] fades out, so that nothing flickers far away.
-float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint, float fall = 0.5f);
+/// Octaves of it from `frequency` [1/m] on, each twice as fine and `fall` times as strong; about -1
+/// to 1. What is finer than `footprint` [m] fades out, so that nothing flickers far away.
+float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint,
+              float fall = 0.5f);
 
-/// Distance to the borders between the nearest of points strewn one a cell (Worley), about 0 to 1, and a random number
-/// for the cell.
+/// Distance to the borders between the nearest of points strewn one a cell (Worley), about 0 to 1,
+/// and a random number for the cell.
 struct Cell {
   float border = 0, value = 0;
 };

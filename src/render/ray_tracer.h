@@ -48,7 +48,8 @@ class Scene {
 /// The one place that knows Embree. Starts no threads.
 class RayTracer {
  public:
-  explicit RayTracer(const std::vector<Mesh>& meshes);  ///< throws Error(kUsage) where Embree is absent
+  /// throws Error(kUsage) where Embree is absent
+  explicit RayTracer(const std::vector<Mesh>& meshes);
   RayTracer(RayTracer&&) noexcept;
   ~RayTracer();
   Scene MakeScene(const std::vector<Instance>& instances) const;

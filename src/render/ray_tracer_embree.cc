@@ -37,11 +37,14 @@ SceneHandle MeshScene(RTCDevice device, const Mesh& mesh) {
   const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
   using Corners = std::array<unsigned, 3>;
   using Point = std::array<float, 3>;
-  auto* points = NewBuffer<Point>(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.points.size());
-  auto* corners = NewBuffer<Corners>(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles.size());
+  auto* points = NewBuffer<Point>(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
+                                  mesh.points.size());
+  auto* corners = NewBuffer<Corners>(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3,
+                                     mesh.triangles.size());
   for (const Vec3f& point : mesh.points) *points++ = {point.x(), point.y(), point.z()};
   for (const auto& triangle : mesh.triangles) {
-    std::transform(triangle.begin(), triangle.end(), (corners++)->begin(), [](int i) { return unsigned(i); });
+    std::transform(triangle.begin(), triangle.end(), (corners++)->begin(),
+                   [](int i) { return unsigned(i); });
   }
   rtcCommitGeometry(geometry.get());
   SceneHandle scene(rtcNewScene(device));
@@ -82,8 +85,12 @@ std::array<int, kPacket> Load(const std::vector<Ray>& rays, std::size_t first, P
 }
 
 #if RTC_VERSION_MAJOR >= 4
-void Intersect(const int* valid, RTCScene scene, RTCRayHit8& packet) { rtcIntersect8(valid, scene, &packet, nullptr); }
-void Occluded(const int* valid, RTCScene scene, RTCRay8& packet) { rtcOccluded8(valid, scene, &packet, nullptr); }
+void Intersect(const int* valid, RTCScene scene, RTCRayHit8& packet) {
+  rtcIntersect8(valid, scene, &packet, nullptr);
+}
+void Occluded(const int* valid, RTCScene scene, RTCRay8& packet) {
+  rtcOccluded8(valid, scene, &packet, nullptr);
+}
 #else
 RTCIntersectContext Context() {
   RTCIntersectContext context;
@@ -121,7 +128,8 @@ void Scene::Trace(const std::vector<Ray>& rays, std::vector<Hit>& hits) const {
     for (std::size_t lane = 0; lane < std::min(kPacket, rays.size() - first); ++lane) {
       if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
       hits[first + lane] = {packet.ray.tfar[lane], static_cast<int>(packet.hit.instID[0][lane]),
-                            static_cast<int>(packet.hit.primID[lane]), packet.hit.u[lane], packet.hit.v[lane]};
+                            static_cast<int>(packet.hit.primID[lane]), packet.hit.u[lane],
+                            packet.hit.v[lane]};
     }
   }
 }

@@ -8,7 +8,8 @@ namespace {
 
 [[noreturn]] void Refuse() {
   throw Error(ErrorKind::kUsage,
-              "this build cannot render: Embree was not found; install libembree-dev (scripts/install_deps.sh test "
+              "this build cannot render: Embree was not found; install libembree-dev "
+              "(scripts/install_deps.sh test "
               "does), configure and build anew");
 }
 

@@ -18,7 +18,8 @@ struct Pixel {
   int x = 0, y = 0;
 };
 
-/// Rays of one image. Their directions are 1 long along the optical axis, so a hit's distance is its depth.
+/// Rays of one image. Their directions are 1 long along the optical axis, so a hit's distance is
+/// its depth.
 class Eye {
  public:
   Eye(const Camera& camera, const Pose& T_scene_camera)
@@ -54,12 +55,14 @@ std::vector<Pixel> InTiles(int width, int height) {
 }
 
 /// Those next to another surface, or to another light on it.
-std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sample>& samples, const Camera& camera) {
+std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sample>& samples,
+                         const Camera& camera) {
   std::vector<Pixel> edges;
   for (const auto& [x, y] : pixels) {
     const Sample* own = &samples[y * camera.width + x];
     if ((x > 0 && own[-1].key != own->key) || (x + 1 < camera.width && own[1].key != own->key) ||
-        (y > 0 && own[-camera.width].key != own->key) || (y + 1 < camera.height && own[camera.width].key != own->key))
+        (y > 0 && own[-camera.width].key != own->key) ||
+        (y + 1 < camera.height && own[camera.width].key != own->key))
       edges.push_back({x, y});
   }
   return edges;
@@ -68,8 +71,10 @@ std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sam
 /// The mean of four rays instead of one. Depth and identity stay those of the pixel's centre.
 void SmoothEdges(const Moment& moment, const Eye& eye, int width, const std::vector<Pixel>& edges,
                  std::vector<Sample>& samples) {
-  const Vec2f kPlaces[] = {{-0.375f, -0.125f}, {0.125f, -0.375f}, {0.25f, 0.375f}};  // with the centre: none in line
-  constexpr float kBrightest = 4;  // the sun and its reflections would outshine all else in the mean
+  // with the centre: none in line
+  const Vec2f kPlaces[] = {{-0.375f, -0.125f}, {0.125f, -0.375f}, {0.25f, 0.375f}};
+  // the sun and its reflections would outshine all else in the mean
+  constexpr float kBrightest = 4;
   for (std::size_t first = 0; first < edges.size(); first += kBatch) {
     std::vector<Ray> rays;
     for (std::size_t i = first; i < std::min(first + kBatch, edges.size()); ++i) {
@@ -98,17 +103,21 @@ struct Renderer::Impl {
 
 Renderer::Renderer(const sim::HalvWorld& scene, std::uint64_t seed, const RenderOptions& options) {
   sim::CheckFields(options);
-  if (scene.world.truth.poses.empty() || scene.world.camera.width <= 0 || scene.world.camera.height <= 0)
-    throw Error(ErrorKind::kUsage, "nothing to render: a world needs frames and a camera with an image size");
-  const std::uint32_t own = Hash(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
+  if (scene.world.truth.poses.empty() || scene.world.camera.width <= 0 ||
+      scene.world.camera.height <= 0)
+    throw Error(ErrorKind::kUsage,
+                "nothing to render: a world needs frames and a camera with an image size");
+  const std::uint32_t own =
+      Hash(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
   StageSet set(scene, own);
   RayTracer tracer(set.meshes());
-  impl_.reset(new Impl{std::move(set),
-                       std::move(tracer),
-                       {MakeDaylight(options.out, Hash(own, 1)), MakeDaylight(options.back, Hash(own, 2))},
-                       scene.return_frame,
-                       own,
-                       options});
+  impl_.reset(
+      new Impl{std::move(set),
+               std::move(tracer),
+               {MakeDaylight(options.out, Hash(own, 1)), MakeDaylight(options.back, Hash(own, 2))},
+               scene.return_frame,
+               own,
+               options});
 }
 
 Renderer::~Renderer() = default;
@@ -119,12 +128,13 @@ int Renderer::objects() const { return static_cast<int>(impl_->set.world().objec
 
 View Renderer::Render(int frame, Side side) const {
   const sim::World& world = impl_->set.world();
-  if (frame < 0 || frame >= frames()) throw Error(ErrorKind::kUsage, "there is no frame " + std::to_string(frame));
+  if (frame < 0 || frame >= frames())
+    throw Error(ErrorKind::kUsage, "there is no frame " + std::to_string(frame));
   const Daylight& light = impl_->light[frame < impl_->return_frame ? 0 : 1];
   const Camera& camera = world.camera;
   const Vec3 right(side == Side::kRight ? world.baseline_m : 0, 0, 0);
-  const Pose T_scene_camera =
-      impl_->set.T_scene_world() * world.truth.poses[frame] * Pose(lie::SO3<double>(), right - camera.offset);
+  const Pose T_scene_camera = impl_->set.T_scene_world() * world.truth.poses[frame] *
+                              Pose(lie::SO3<double>(), right - camera.offset);
   const Eye eye(camera, T_scene_camera);
   const Moment moment(impl_->set, impl_->tracer, light, frame, static_cast<float>(1 / camera.fx));
 
@@ -138,7 +148,8 @@ View Renderer::Render(int frame, Side side) const {
     for (std::size_t i = 0; i < batch.size(); ++i)
       samples[pixels[first + i].y * camera.width + pixels[first + i].x] = batch[i];
   }
-  if (impl_->options.smooth_edges) SmoothEdges(moment, eye, camera.width, Edges(pixels, samples, camera), samples);
+  if (impl_->options.smooth_edges)
+    SmoothEdges(moment, eye, camera.width, Edges(pixels, samples, camera), samples);
 
   View view{camera.width, camera.height, {}, {}, {}};
   for (const Sample& sample : samples) {
@@ -146,7 +157,8 @@ View Renderer::Render(int frame, Side side) const {
     view.identity.push_back(sample.identity);
   }
   const std::uint32_t image = 2 * static_cast<std::uint32_t>(frame) + (side == Side::kRight);
-  view.bgr = Develop(samples, view.width, view.height, light.exposure, impl_->options, Hash(impl_->seed, image));
+  view.bgr = Develop(samples, view.width, view.height, light.exposure, impl_->options,
+                     Hash(impl_->seed, image));
   return view;
 }
 

@@ -9,9 +9,9 @@
 
 namespace sslcd::render {
 
-/// From light to the bytes of a colour image (blue, green, red): vignetting, exposure, a film's soft highlights, gamma
-/// 2, noise that follows from `seed` and the pixel's number.
-std::vector<std::uint8_t> Develop(const std::vector<Sample>& samples, int width, int height, float exposure,
-                                  const RenderOptions& options, std::uint32_t seed);
+/// From light to the bytes of a colour image (blue, green, red): vignetting, exposure, a film's
+/// soft highlights, gamma 2, noise that follows from `seed` and the pixel's number.
+std::vector<std::uint8_t> Develop(const std::vector<Sample>& samples, int width, int height,
+                                  float exposure, const RenderOptions& options, std::uint32_t seed);
 
 }  // namespace sslcd::render

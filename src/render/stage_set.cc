@@ -56,7 +56,8 @@ void StageSet::AddSurroundings(std::uint32_t seed) {
     return static_cast<int>(meshes_.size()) - 1;
   };
   surroundings_.push_back({{add(GroundMesh()), Pose()}, Kind::kGround, -1, seed});
-  if (!town_.buildings.empty()) surroundings_.push_back({{add(MakeTownMesh(town_)), Pose()}, Kind::kTown, -1, seed});
+  if (!town_.buildings.empty())
+    surroundings_.push_back({{add(MakeTownMesh(town_)), Pose()}, Kind::kTown, -1, seed});
   constexpr std::uint32_t kKinds = 5;
   const int first = static_cast<int>(meshes_.size());
   for (std::uint32_t kind = 0; kind < kKinds; ++kind) {
@@ -66,11 +67,11 @@ void StageSet::AddSurroundings(std::uint32_t seed) {
   std::uint32_t number = 0;
   for (const Vec2f& place : town_.trees) {
     const std::uint32_t tree = Hash(seed, ++number + 100);
-    surroundings_.push_back(
-        {{first + static_cast<int>(tree % kKinds), Pose(lie::SO3<double>(), Vec3(place.x(), place.y(), 0))},
-         Kind::kTree,
-         -1,
-         tree});
+    surroundings_.push_back({{first + static_cast<int>(tree % kKinds),
+                              Pose(lie::SO3<double>(), Vec3(place.x(), place.y(), 0))},
+                             Kind::kTree,
+                             -1,
+                             tree});
   }
 }
 
@@ -83,10 +84,12 @@ void StageSet::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::
   for (const sim::ParkingSpace& space : spaces) {
     if (space.width_m < kSideBySide) continue;
     const double ahead = 0.5 * space.length_m - 0.25;
-    const Vec3 at(space.x + ahead * std::sin(space.heading), space.z + ahead * std::cos(space.heading), 0);
+    const Vec3 at(space.x + ahead * std::sin(space.heading),
+                  space.z + ahead * std::cos(space.heading), 0);
     const Pose T_scene_stop(lie::SO3<double>::Exp(Vec3(0, 0, 0.5 * M_PI - space.heading)), at);
     const std::uint32_t own = Hash(seed, static_cast<std::uint32_t>(surroundings_.size()));
-    surroundings_.push_back({{static_cast<int>(meshes_.size()) - 1, T_scene_stop}, Kind::kStop, -1, own});
+    surroundings_.push_back(
+        {{static_cast<int>(meshes_.size()) - 1, T_scene_stop}, Kind::kStop, -1, own});
   }
 }
 
@@ -104,7 +107,8 @@ std::vector<StageSet::Thing> StageSet::ThingsAt(int frame) const {
 
 Surface StageSet::SurfaceOf(const Thing& thing, const Spot& spot) const {
   static const Vec3f kLeaves(0.24f, 0.34f, 0.14f);
-  const Vec3f paint = thing.identity < 0 ? kLeaves : Vec3f(world_.objects[thing.identity].paint.cast<float>());
+  const Vec3f paint =
+      thing.identity < 0 ? kLeaves : Vec3f(world_.objects[thing.identity].paint.cast<float>());
   switch (thing.kind) {
     case Kind::kGround: return ground_.At(spot);
     case Kind::kTown: return TownSurface(town_, spot);

@@ -10,8 +10,8 @@
 
 namespace sslcd::render {
 
-/// What a world looks like, whatever the light: the meshes of all its objects and of their surroundings, and how each
-/// is painted.
+/// What a world looks like, whatever the light: the meshes of all its objects and of their
+/// surroundings, and how each is painted.
 class StageSet {
  public:
   StageSet(const sim::HalvWorld& scene, std::uint32_t seed);

@@ -20,7 +20,8 @@ Building Box(const Vec2f& low, const Vec2f& high, float height, std::uint32_t se
   return {{low.x(), low.y(), 0}, {high.x(), high.y(), height}, seed, wall};
 }
 
-void AddWall(const std::vector<Vec2f>& used, const Vec2f& low, const Vec2f& high, std::uint32_t seed, Town& town) {
+void AddWall(const std::vector<Vec2f>& used, const Vec2f& low, const Vec2f& high,
+             std::uint32_t seed, Town& town) {
   constexpr float kPiece = 4, kThick = 0.3f, kGap = 3.5f;
   const auto add = [&](const Vec2f& from, const Vec2f& to) {
     if (IsFree(used, from, to, kGap)) town.buildings.push_back(Box(from, to, 1.9f, seed, true));
@@ -50,15 +51,17 @@ Vec3f Brick(float along, float up, std::uint32_t seed, const Vec3f& colour, floa
 }
 
 Vec3f Plain(std::uint32_t seed) {
-  static const Vec3f kColours[] = {{0.34f, 0.12f, 0.08f}, {0.42f, 0.22f, 0.13f}, {0.55f, 0.5f, 0.4f},
-                                   {0.45f, 0.45f, 0.44f}, {0.6f, 0.57f, 0.5f},   {0.36f, 0.3f, 0.24f}};
+  static const Vec3f kColours[] = {{0.34f, 0.12f, 0.08f}, {0.42f, 0.22f, 0.13f},
+                                   {0.55f, 0.5f, 0.4f},   {0.45f, 0.45f, 0.44f},
+                                   {0.6f, 0.57f, 0.5f},   {0.36f, 0.3f, 0.24f}};
   return kColours[seed % 6] * (0.85f + 0.3f * Unit(Hash(seed, 5)));
 }
 
 /// Storeys of windows in frames, with curtains, a plinth and doors.
 Surface House(const Building& house, float along, float up, const Spot& spot, std::uint32_t face) {
   const std::uint32_t seed = house.seed;
-  const float pitch = Mix(2.2f, 3.6f, Unit(Hash(seed, 1))), storey = Mix(2.9f, 3.6f, Unit(Hash(seed, 2)));
+  const float pitch = Mix(2.2f, 3.6f, Unit(Hash(seed, 1))),
+              storey = Mix(2.9f, 3.6f, Unit(Hash(seed, 2)));
   const int column = Floor(along / pitch), row = Floor(up / storey);
   const float u = along - (static_cast<float>(column) + 0.5f) * pitch;
   const float v = up - (static_cast<float>(row) + 0.52f) * storey;
@@ -66,14 +69,17 @@ Surface House(const Building& house, float along, float up, const Spot& spot, st
               half_v = storey * Mix(0.22f, 0.32f, Unit(Hash(seed, 4)));
   const std::uint32_t window = Hash(column, row, seed + face);
   const float roof = house.high.z() - up;
-  const bool opening = std::abs(u) < half_u && std::abs(v) < half_v && roof > 0.7f && Unit(window) < 0.9f;
+  const bool opening =
+      std::abs(u) < half_u && std::abs(v) < half_v && roof > 0.7f && Unit(window) < 0.9f;
   const float edge = std::min(half_u - std::abs(u), half_v - std::abs(v));
   if (opening && edge < 0.07f) return {Vec3f::Constant(0.6f), 0.01f, 10, 2};
   if (opening) {
     if (std::abs(u) < 0.03f) return {Vec3f::Constant(0.6f), 0.01f, 10, 2};
-    const bool curtain = Unit(Hash(window, 1)) < 0.4f && (v > half_v * (2 * Unit(Hash(window, 2)) - 1));
+    const bool curtain =
+        Unit(Hash(window, 1)) < 0.4f && (v > half_v * (2 * Unit(Hash(window, 2)) - 1));
     const Vec3f inside =
-        curtain ? Vec3f(0.4f, 0.38f, 0.34f) * (0.6f + 0.4f * std::sin(u * 40) * Clamp01(1 - 20 * spot.footprint))
+        curtain ? Vec3f(0.4f, 0.38f, 0.34f) *
+                      (0.6f + 0.4f * std::sin(u * 40) * Clamp01(1 - 20 * spot.footprint))
                 : Vec3f(0.02f, 0.025f, 0.03f);
     return {inside, 0.1f, 900, curtain ? 4 : 3, 1};
   }
@@ -82,7 +88,8 @@ Surface House(const Building& house, float along, float up, const Spot& spot, st
   Vec3f albedo = brick ? Brick(along, up, seed, Plain(seed), spot.footprint) : Plain(seed);
   if (up < 0.6f || roof < 0.35f || (roof < 1 && roof > 0.85f)) albedo = Vec3f(0.35f, 0.34f, 0.33f);
   const int band = up < 0.6f ? 5 : roof < 0.35f ? 6 : 1;
-  return {Vec3f(albedo * (1 + 0.22f * stain)).cwiseMin(0.85f), 0, 1, band, Mix(0.6f, 1, Smooth(0, 2.5f, up))};
+  return {Vec3f(albedo * (1 + 0.22f * stain)).cwiseMin(0.85f), 0, 1, band,
+          Mix(0.6f, 1, Smooth(0, 2.5f, up))};
 }
 
 }  // namespace
@@ -117,23 +124,27 @@ UsedPlaces FindUsedPlaces(const sim::World& world) {
 
 Town MakeTown(const UsedPlaces& used, std::uint32_t seed) {
   Town town;
-  const Vec2f low = used.low - Vec2f::Constant(kAround), high = used.high + Vec2f::Constant(kAround);
+  const Vec2f low = used.low - Vec2f::Constant(kAround),
+              high = used.high + Vec2f::Constant(kAround);
   AddWall(used.places, low, high, seed, town);
   int number = 0;
   for (float x = low.x() - kBeyond; x < high.x() + kBeyond; x += kGrid) {
     for (float y = low.y() - kBeyond; y < high.y() + kBeyond; y += kGrid) {
       const std::uint32_t house = Hash(seed, ++number);
       Draws draw(house);
-      const Vec2f from{x + draw(0, 3), y + draw(0, 3)}, to{from.x() + draw(9, 14), from.y() + draw(9, 14)};
-      const bool on_wall =
-          to.x() > low.x() - 3 && from.x() < high.x() + 3 && to.y() > low.y() - 3 && from.y() < high.y() + 3 &&
-          !(from.x() > low.x() + 3 && to.x() < high.x() - 3 && from.y() > low.y() + 3 && to.y() < high.y() - 3);
+      const Vec2f from{x + draw(0, 3), y + draw(0, 3)},
+          to{from.x() + draw(9, 14), from.y() + draw(9, 14)};
+      const bool on_wall = to.x() > low.x() - 3 && from.x() < high.x() + 3 &&
+                           to.y() > low.y() - 3 && from.y() < high.y() + 3 &&
+                           !(from.x() > low.x() + 3 && to.x() < high.x() - 3 &&
+                             from.y() > low.y() + 3 && to.y() < high.y() - 3);
       if (on_wall || !IsFree(used.places, from, to, 8)) continue;
       if (draw(0, 1) < 0.3f) {
         for (int tree = 0; tree < 4; ++tree)
           town.trees.push_back(Vec2f{draw(from.x(), to.x()), draw(from.y(), to.y())});
       } else {
-        town.buildings.push_back(Box(from, to, draw(0, 1) < 0.3f ? draw(10, 22) : draw(4, 10), house, false));
+        town.buildings.push_back(
+            Box(from, to, draw(0, 1) < 0.3f ? draw(10, 22) : draw(4, 10), house, false));
       }
     }
   }
@@ -158,9 +169,11 @@ Surface TownSurface(const Town& town, const Spot& spot) {
   if (!building.wall) return House(building, along, spot.at.z(), spot, face);
   const float stain = Fractal(along, 0.6f * spot.at.z(), building.seed, 0.5f, 6, spot.footprint);
   const bool coping = spot.at.z() > 1.8f;
-  const Vec3f albedo = coping ? Vec3f(0.4f, 0.39f, 0.37f)
-                              : Brick(along, spot.at.z(), building.seed, Vec3f(0.36f, 0.16f, 0.1f), spot.footprint);
-  return {Vec3f(albedo * (1 + 0.3f * stain)), 0, 1, coping ? 8 : 7, Mix(0.6f, 1, Smooth(0, 0.8f, spot.at.z()))};
+  const Vec3f albedo =
+      coping ? Vec3f(0.4f, 0.39f, 0.37f)
+             : Brick(along, spot.at.z(), building.seed, Vec3f(0.36f, 0.16f, 0.1f), spot.footprint);
+  return {Vec3f(albedo * (1 + 0.3f * stain)), 0, 1, coping ? 8 : 7,
+          Mix(0.6f, 1, Smooth(0, 0.8f, spot.at.z()))};
 }
 
 }  // namespace sslcd::render

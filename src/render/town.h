@@ -19,14 +19,15 @@ struct Building {
   bool wall = false;
 };
 
-/// What surrounds the objects: a wall around all that stands or drives within it, houses and trees beyond.
+/// What surrounds the objects: a wall around all that stands or drives within it, houses and trees
+/// beyond.
 struct Town {
   std::vector<Building> buildings;
   std::vector<Vec2f> trees;
 };
 
-/// Where something stands or drives at any time, which must stay free, and the rectangle about what stands and about
-/// the camera's path.
+/// Where something stands or drives at any time, which must stay free, and the rectangle about what
+/// stands and about the camera's path.
 struct UsedPlaces {
   std::vector<Vec2f> places;
   Vec2f low, high;

@@ -27,9 +27,11 @@ inline float Smooth(float low, float high, float x) {
   return t * t * (3 - 2 * t);
 }
 
-/// How much a band of half-width `half` about 0 covers of a pixel of width `footprint` at distance `distance`.
+/// How much a band of half-width `half` about 0 covers of a pixel of width `footprint` at distance
+/// `distance`.
 inline float Band(float distance, float half, float footprint) {
-  const float low = std::max(distance - 0.5f * footprint, -half), high = std::min(distance + 0.5f * footprint, half);
+  const float low = std::max(distance - 0.5f * footprint, -half),
+              high = std::min(distance + 0.5f * footprint, half);
   return std::max(high - low, 0.f) / footprint;
 }
 

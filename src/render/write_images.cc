@@ -11,14 +11,16 @@
 namespace sslcd::render {
 namespace {
 
-/// Level 1: no other makes photographs much smaller, since most of them is grain. Run lengths suit these, and the usual
-/// strategy the large even areas of depth and identities.
+/// Level 1: no other makes photographs much smaller, since most of them is grain. Run lengths suit
+/// these, and the usual strategy the large even areas of depth and identities.
 void WritePng(const std::filesystem::path& folder, int frame, const cv::Mat& image) {
-  const int strategy = image.depth() == CV_8U ? cv::IMWRITE_PNG_STRATEGY_RLE : cv::IMWRITE_PNG_STRATEGY_DEFAULT;
+  const int strategy =
+      image.depth() == CV_8U ? cv::IMWRITE_PNG_STRATEGY_RLE : cv::IMWRITE_PNG_STRATEGY_DEFAULT;
   char name[16];
   std::snprintf(name, sizeof name, "%06d.png", frame);
   std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, strategy});
+  cv::imencode(".png", image, bytes,
+               {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, strategy});
   WriteFileAtomically((folder / name).string(), std::string(bytes.begin(), bytes.end()));
 }
 
@@ -43,15 +45,18 @@ void RemoveImages(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    const bool ours = name.size() == 10 && name.find_first_not_of("0123456789") == 6 && name.substr(6) == ".png";
+    const bool ours =
+        name.size() == 10 && name.find_first_not_of("0123456789") == 6 && name.substr(6) == ".png";
     if (ours) std::filesystem::remove(entry.path());
   }
 }
 
-void WriteFrame(const Renderer& renderer, const std::filesystem::path& folder, int frame, bool truth) {
+void WriteFrame(const Renderer& renderer, const std::filesystem::path& folder, int frame,
+                bool truth) {
   for (const auto& [side, number] : {std::pair(Side::kLeft, "2"), std::pair(Side::kRight, "3")}) {
     View view = renderer.Render(frame, side);
-    WritePng(folder / (std::string("image_") + number), frame, {view.height, view.width, CV_8UC3, view.bgr.data()});
+    WritePng(folder / (std::string("image_") + number), frame,
+             {view.height, view.width, CV_8UC3, view.bgr.data()});
     if (!truth) continue;
     WritePng(folder / (std::string("depth_") + number), frame, DepthImage(view));
     WritePng(folder / (std::string("instance_") + number), frame, InstanceImage(view));
@@ -60,11 +65,14 @@ void WriteFrame(const Renderer& renderer, const std::filesystem::path& folder, i
 
 }  // namespace
 
-void WriteImages(const Renderer& renderer, const std::filesystem::path& folder, const ImageOutput& output) {
+void WriteImages(const Renderer& renderer, const std::filesystem::path& folder,
+                 const ImageOutput& output) {
   if (output.threads < 1)
-    throw Error(ErrorKind::kUsage, "threads is " + std::to_string(output.threads) + ", must be 1 or more");
+    throw Error(ErrorKind::kUsage,
+                "threads is " + std::to_string(output.threads) + ", must be 1 or more");
   if (output.truth && renderer.objects() > 65535)
-    throw Error(ErrorKind::kUsage, "instance images have room for 65535 objects, the world has more");
+    throw Error(ErrorKind::kUsage,
+                "instance images have room for 65535 objects, the world has more");
   for (const char* name : {"image_2", "image_3", "depth_2", "depth_3", "instance_2", "instance_3"})
     RemoveImages(folder / name);
   for (const char* name : {"image_2", "image_3"}) MakeWritableFolder((folder / name).string());
@@ -74,7 +82,10 @@ void WriteImages(const Renderer& renderer, const std::filesystem::path& folder, 
   }
   ForEach(
       static_cast<std::size_t>(renderer.frames()), output.threads,
-      [&](std::size_t frame) { WriteFrame(renderer, folder, static_cast<int>(frame), output.truth); }, output.progress);
+      [&](std::size_t frame) {
+        WriteFrame(renderer, folder, static_cast<int>(frame), output.truth);
+      },
+      output.progress);
 }
 
 }  // namespace sslcd::render

@@ -30,7 +30,10 @@ struct Identity {
 class Painter {
  public:
   Painter(const World& world, const AppearanceNoise& noise, std::uint64_t seed)
-      : world_(world), noise_(noise), random_(seed, kAppearanceStream), common_(NewVector().normalized()) {
+      : world_(world),
+        noise_(noise),
+        random_(seed, kAppearanceStream),
+        common_(NewVector().normalized()) {
     for (std::size_t i = 0; i < world.objects.size(); ++i) identities_.push_back(NewIdentity());
   }
 
@@ -40,32 +43,38 @@ class Painter {
     const Identity nobody = identity < 0 ? NewIdentity() : Identity();
     const Identity& who = identity < 0 ? nobody : identities_[identity];
     const double direction = identity < 0 ? 0 : ViewedFrom(frame, world_.objects[identity]);
-    const Vector clear = std::sqrt(noise_.other_object) * common_ +
-                         std::sqrt(noise_.same_side - noise_.other_object - who.side) * who.constant +
-                         std::sqrt(who.side) * (std::cos(direction) * who.forward + std::sin(direction) * who.left);
+    const Vector clear =
+        std::sqrt(noise_.other_object) * common_ +
+        std::sqrt(noise_.same_side - noise_.other_object - who.side) * who.constant +
+        std::sqrt(who.side) * (std::cos(direction) * who.forward + std::sin(direction) * who.left);
     // `clear` has a squared length of same_side; the rest is noise.
     const Vector vector =
-        (std::sqrt((1 - blur) / noise_.same_side) * clear + std::sqrt(blur) * NewVector()).normalized();
+        (std::sqrt((1 - blur) / noise_.same_side) * clear + std::sqrt(blur) * NewVector())
+            .normalized();
     detection.embedding.assign(vector.begin(), vector.end());
   }
 
   void Colour(const Vec3& paint, Detection& detection) {
     const double light = std::exp(random_.Normal(0, noise_.light));
-    const auto lit = [&](const Vec3& rgb) -> Vec3 { return (light * rgb).cwiseMin(1.).cwiseMax(0.); };
+    const auto lit = [&](const Vec3& rgb) -> Vec3 {
+      return (light * rgb).cwiseMin(1.).cwiseMax(0.);
+    };
     struct Part {
       Vec3 rgb;
       double share;
     };
-    const Part parts[] = {{lit(paint), random_.Uniform(0.3, 0.45)},               // in the light
-                          {lit(0.55 * paint), random_.Uniform(0.15, 0.3)},        // in the shade
-                          {Vec3(0.16, 0.18, 0.2), random_.Uniform(0.1, 0.25)},    // windows
-                          {Vec3(0.07, 0.07, 0.07), random_.Uniform(0.05, 0.12)},  // tyres
-                          {lit({0.42, 0.41, 0.4}), random_.Uniform(0.05, 0.2)}};  // the ground behind
+    const Part parts[] = {
+        {lit(paint), random_.Uniform(0.3, 0.45)},               // in the light
+        {lit(0.55 * paint), random_.Uniform(0.15, 0.3)},        // in the shade
+        {Vec3(0.16, 0.18, 0.2), random_.Uniform(0.1, 0.25)},    // windows
+        {Vec3(0.07, 0.07, 0.07), random_.Uniform(0.05, 0.12)},  // tyres
+        {lit({0.42, 0.41, 0.4}), random_.Uniform(0.05, 0.2)}};  // the ground behind
     double total = 0;
     for (const Part& part : parts) total += part.share;
     ColourSignature signature;
     for (const Part& part : parts)
-      signature.push_back({ConeColour(part.rgb.x(), part.rgb.y(), part.rgb.z()), part.share / total});
+      signature.push_back(
+          {ConeColour(part.rgb.x(), part.rgb.y(), part.rgb.z()), part.share / total});
     detection.colour = ColourVector(signature, ColourOptions());
   }
 
@@ -77,8 +86,8 @@ class Painter {
     Identity identity;
     identity.constant = NewVector(), identity.forward = NewVector(), identity.left = NewVector();
     const double spread = random_.Uniform(1 - noise_.side_spread, 1 + noise_.side_spread);
-    identity.side =
-        std::min(0.5 * (noise_.same_side - noise_.opposite_side) * spread, noise_.same_side - noise_.other_object);
+    identity.side = std::min(0.5 * (noise_.same_side - noise_.opposite_side) * spread,
+                             noise_.same_side - noise_.other_object);
     return identity;
   }
 
@@ -105,9 +114,12 @@ class Painter {
 };
 
 void CheckCosines(const AppearanceNoise& noise) {
-  if (noise.same_side >= noise.opposite_side && noise.same_side + noise.opposite_side >= 2 * noise.other_object) return;
+  if (noise.same_side >= noise.opposite_side &&
+      noise.same_side + noise.opposite_side >= 2 * noise.other_object)
+    return;
   throw Error(ErrorKind::kUsage,
-              "no embeddings have such cosines: same_side must be at least opposite_side, and their mean at least "
+              "no embeddings have such cosines: same_side must be at least opposite_side, and "
+              "their mean at least "
               "other_object");
 }
 
@@ -122,7 +134,8 @@ void AddAppearance(const World& world, const AppearanceNoise& noise, std::uint64
     for (Detection& detection : detections.frames[frame]) {
       const int identity = detections.identity[detection.row];
       painter.Embed(static_cast<int>(frame), identity, detection);
-      painter.Colour(identity < 0 ? DrawPaint(painter.random()) : world.objects[identity].paint, detection);
+      painter.Colour(identity < 0 ? DrawPaint(painter.random()) : world.objects[identity].paint,
+                     detection);
     }
   }
 }
@@ -132,25 +145,30 @@ Vec3 DrawPaint(Random& random) {
     double share;
     Vec3 rgb;
   };
-  static const Paint kPaints[] = {{0.22, {0.92, 0.92, 0.9}},  {0.13, {0.4, 0.41, 0.42}},   // white, grey
-                                  {0.15, {0.06, 0.06, 0.07}}, {0.13, {0.7, 0.71, 0.72}},   // black, silver
-                                  {0.14, {0.1, 0.2, 0.5}},    {0.11, {0.6, 0.08, 0.08}},   // blue, red
-                                  {0.05, {0.12, 0.3, 0.16}},  {0.04, {0.45, 0.36, 0.26}},  // green, brown
-                                  {0.03, {0.85, 0.65, 0.1}}};                              // yellow
+  static const Paint kPaints[] = {
+      {0.22, {0.92, 0.92, 0.9}},  {0.13, {0.4, 0.41, 0.42}},   // white, grey
+      {0.15, {0.06, 0.06, 0.07}}, {0.13, {0.7, 0.71, 0.72}},   // black, silver
+      {0.14, {0.1, 0.2, 0.5}},    {0.11, {0.6, 0.08, 0.08}},   // blue, red
+      {0.05, {0.12, 0.3, 0.16}},  {0.04, {0.45, 0.36, 0.26}},  // green, brown
+      {0.03, {0.85, 0.65, 0.1}}};                              // yellow
   double left = random.Uniform();
   const Paint* paint = kPaints;
   while (left >= paint->share && paint + 1 != std::end(kPaints)) left -= (paint++)->share;
   Vec3 rgb;
-  for (int i = 0; i < 3; ++i) rgb[i] = std::clamp(paint->rgb[i] * (1 + random.Normal(0, 0.08)), 0.02, 1.);
+  for (int i = 0; i < 3; ++i)
+    rgb[i] = std::clamp(paint->rgb[i] * (1 + random.Normal(0, 0.08)), 0.02, 1.);
   return rgb;
 }
 
 void DescribeFields(FieldVisitor& visitor, AppearanceNoise& noise) {
-  visitor.Integer("dimension", noise.dimension, 2, 4096, "length of the embeddings; fewer: cosines scatter more");
-  visitor.Real("same_side", noise.same_side, 0.01, 1, "mean cosine of an object's embeddings from the same side");
+  visitor.Integer("dimension", noise.dimension, 2, 4096,
+                  "length of the embeddings; fewer: cosines scatter more");
+  visitor.Real("same_side", noise.same_side, 0.01, 1,
+               "mean cosine of an object's embeddings from the same side");
   visitor.Real("opposite_side", noise.opposite_side, 0, 1, "... from opposite sides");
   visitor.Real("other_object", noise.other_object, 0, 1, "... of different objects");
-  visitor.Real("side_spread", noise.side_spread, 0, 1, "how much more the sides of some objects differ than of others");
+  visitor.Real("side_spread", noise.side_spread, 0, 1,
+               "how much more the sides of some objects differ than of others");
   visitor.Real("unevenness", noise.unevenness, 0, 1, "how much better some images are than others");
   visitor.Real("light", noise.light, 0, 2, "standard deviation of an image's log brightness");
 }

@@ -18,7 +18,9 @@ struct Mean {
   int count = 0;
   void Add(double value) { sum += value, squares += value * value, ++count; }
   double value() const { return count > 0 ? sum / count : 0; }
-  double sigma() const { return count > 0 ? std::sqrt(std::max(0., squares / count - value() * value())) : 0; }
+  double sigma() const {
+    return count > 0 ? std::sqrt(std::max(0., squares / count - value() * value())) : 0;
+  }
 };
 
 bool IsParkedCar(const WorldObject& object) {
@@ -39,7 +41,8 @@ std::vector<std::vector<Sighting>> SightingsOf(const HalvSequence& sequence) {
     for (const Detection& detection : sequence.detections.frames[frame]) {
       const int id = sequence.detections.identity[detection.row];
       if (id < 0 || !IsParkedCar(world.objects[id])) continue;
-      const Vec3 camera = world.objects[id].PoseAt(0).inverse() * world.truth.poses[frame].translation();
+      const Vec3 camera =
+          world.objects[id].PoseAt(0).inverse() * world.truth.poses[frame].translation();
       by_car[id].push_back({&detection.embedding, std::atan2(camera.y(), camera.x())});
     }
   }
@@ -50,7 +53,8 @@ std::vector<std::vector<Sighting>> SightingsOf(const HalvSequence& sequence) {
 
 double Cosine(const Sighting& a, const Sighting& b) {
   double dot = 0;
-  for (std::size_t i = 0; i < a.embedding->size(); ++i) dot += double((*a.embedding)[i]) * (*b.embedding)[i];
+  for (std::size_t i = 0; i < a.embedding->size(); ++i)
+    dot += double((*a.embedding)[i]) * (*b.embedding)[i];
   return dot;
 }
 
@@ -72,7 +76,8 @@ DetectionStats MeasureDetections(const World& world, const SimulatedDetections& 
       const int id = detections.identity[detection.row];
       if (id < 0 || !IsParkedCar(world.objects[id])) continue;
       const WorldObject& object = world.objects[id];
-      const Cuboid seen = ToCuboid(world.truth.poses[frame] * detection.T_cam_object, detection.dims, world.gravity);
+      const Cuboid seen = ToCuboid(world.truth.poses[frame] * detection.T_cam_object,
+                                   detection.dims, world.gravity);
       const Cuboid truth = ToCuboid(object.PoseAt(0), object.dims, world.gravity);
       iou.Add(Iou3d(seen, truth));
       flips.Add(std::abs(WrapAngle(seen.yaw - truth.yaw)) > M_PI / 2);
@@ -89,7 +94,8 @@ EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int
     if (cars.size() < 2) continue;
     const int share = pairs / static_cast<int>(sequences.size());
     // Opposite views are rare, so that many pairs are drawn and few of them taken.
-    for (int i = 0, opposites = 0, sames = 0; i < 100 * share && (opposites < share || sames < share); ++i) {
+    for (int i = 0, opposites = 0, sames = 0;
+         i < 100 * share && (opposites < share || sames < share); ++i) {
       const std::vector<Sighting>& car = Any(random, cars);
       const Sighting &a = Any(random, car), &b = Any(random, car);
       const double apart = std::abs(WrapAngle(a.direction - b.direction));
@@ -105,7 +111,9 @@ EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int
 }
 
 std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options) {
-  if (seeds < 1) throw Error(ErrorKind::kUsage, "seeds is " + std::to_string(seeds) + ": at least one is needed");
+  if (seeds < 1)
+    throw Error(ErrorKind::kUsage,
+                "seeds is " + std::to_string(seeds) + ": at least one is needed");
   std::vector<CalibrationRow> rows;
   std::vector<HalvSequence> sequences;
   Mean iou, flips;
@@ -121,8 +129,8 @@ std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options) {
       flips.Add(detections.flips);
       sequences.push_back(std::move(sequence));
     }
-    rows.push_back(
-        {"case " + std::to_string(number) + ": ATE of the odometry after Sim(3) [m]", HalvAte(number), ate.value()});
+    rows.push_back({"case " + std::to_string(number) + ": ATE of the odometry after Sim(3) [m]",
+                    HalvAte(number), ate.value()});
   }
   rows.push_back({"mean 3D IoU of single detections of cars and vans", 0.45, iou.value()});
   rows.push_back({"share of them that take front for back", 0.03, flips.value()});
@@ -140,8 +148,8 @@ std::string ToMarkdown(const std::vector<CalibrationRow>& rows) {
   std::string text = "| what | target | reached | within 10 % |\n|---|---|---|---|\n";
   for (const CalibrationRow& row : rows) {
     char line[256];
-    std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %s |\n", row.what.c_str(), row.target, row.reached,
-                  row.ok() ? "yes" : "no");
+    std::snprintf(line, sizeof line, "| %s | %.3f | %.3f | %s |\n", row.what.c_str(), row.target,
+                  row.reached, row.ok() ? "yes" : "no");
     text += line;
   }
   return text;

@@ -18,14 +18,17 @@ Vec2 Centre(const Path::Point& at, double side, double radius) {
   return {at.z - side * radius * std::sin(at.heading), at.x + side * radius * std::cos(at.heading)};
 }
 
-/// `first`, `last`: 1 turns right, -1 turns left. Empty where the two circles are too near for a line between them.
-std::vector<PathPiece> Word(const Path::Point& from, const Path::Point& to, double radius, int first, int last) {
+/// `first`, `last`: 1 turns right, -1 turns left. Empty where the two circles are too near for a
+/// line between them.
+std::vector<PathPiece> Word(const Path::Point& from, const Path::Point& to, double radius,
+                            int first, int last) {
   const Vec2 between = Centre(to, last, radius) - Centre(from, first, radius);
   const double distance = between.norm(), across = first == last ? 0 : 2 * radius;
   if (distance < across) return {};
   const double line = std::sqrt(distance * distance - across * across);
   const double heading =
-      distance < 1e-9 ? from.heading : std::atan2(between.y(), between.x()) + first * std::atan2(across, line);
+      distance < 1e-9 ? from.heading
+                      : std::atan2(between.y(), between.x()) + first * std::atan2(across, line);
   return {{radius * Positive(first * (heading - from.heading)), first / radius},
           {line, 0},
           {radius * Positive(last * (to.heading - heading)), last / radius}};

@@ -12,7 +12,8 @@ void Drive(const Path& path, int frames, double rate_hz, double speed_mps, World
   }
 }
 
-WorldObject& Add(World& world, const std::string& label, const Vec3& dims, std::vector<Pose> poses) {
+WorldObject& Add(World& world, const std::string& label, const Vec3& dims,
+                 std::vector<Pose> poses) {
   WorldObject& object = world.objects.emplace_back();
   object.id = static_cast<int>(world.objects.size()) - 1;
   object.label = label;
@@ -30,14 +31,17 @@ Vec3 PoleDims(Random& random) {
   return {diameter, diameter, random.Uniform(2.5, 4.)};
 }
 
-double CentreY(const World& world, const Vec3& dims) { return world.camera_height_m - 0.5 * dims.z(); }
+double CentreY(const World& world, const Vec3& dims) {
+  return world.camera_height_m - 0.5 * dims.z();
+}
 
-WorldObject& AddDrivingCar(World& world, Random& random, const Path& path, double s_m, double right_m,
-                           double speed_mps) {
+WorldObject& AddDrivingCar(World& world, Random& random, const Path& path, double s_m,
+                           double right_m, double speed_mps) {
   const Vec3 dims = CarDims(random);
   std::vector<Pose> poses;
   for (double stamp : world.truth.stamps) {
-    poses.push_back(path.ObjectAt(s_m + speed_mps * stamp, right_m, CentreY(world, dims), speed_mps < 0 ? M_PI : 0));
+    poses.push_back(path.ObjectAt(s_m + speed_mps * stamp, right_m, CentreY(world, dims),
+                                  speed_mps < 0 ? M_PI : 0));
   }
   return Add(world, "Car", dims, std::move(poses));
 }

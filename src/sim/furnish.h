@@ -26,7 +26,7 @@ double CentreY(const World& world, const Vec3& dims);
 Vec3 PoleDims(Random& random);
 
 /// Follows the path, from `s_m` at `speed_mps` (negative: oncoming).
-WorldObject& AddDrivingCar(World& world, Random& random, const Path& path, double s_m, double right_m,
-                           double speed_mps);
+WorldObject& AddDrivingCar(World& world, Random& random, const Path& path, double s_m,
+                           double right_m, double speed_mps);
 
 }  // namespace sslcd::sim

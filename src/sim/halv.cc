@@ -56,8 +56,8 @@ DetectorNoise HalvDetector() {
   return noise;
 }
 
-CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const OdometryNoise& shape, double ate_m,
-                                           double spread, std::uint64_t seed) {
+CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const OdometryNoise& shape,
+                                           double ate_m, double spread, std::uint64_t seed) {
   constexpr int kDraws = 30, kRounds = 4, kPatience = 1000;
   constexpr double kLargestFactor = 20, kTolerance = 0.03;
   const auto drift = [&](double factor, int draw) {
@@ -69,7 +69,8 @@ CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const Odomet
     for (int draw = 0; draw < kDraws; ++draw) sum += AteOf(drift(factor, draw), truth);
     factor *= ate_m * kDraws / std::max(sum, 1e-9);
     if (factor > kLargestFactor)
-      throw Error(ErrorKind::kUsage, "the odometry cannot drift by so much: lower --ate-m, or raise its noise");
+      throw Error(ErrorKind::kUsage,
+                  "the odometry cannot drift by so much: lower --ate-m, or raise its noise");
   }
   const double wanted = ate_m * Random(seed, kDriftStream).Uniform(1 - spread, 1 + spread);
   Trajectory best;
@@ -97,7 +98,8 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
   if (ate == 0) {
     sequence.odometry = SimulateOdometry(world.truth, drift.shape, seed);
   } else {
-    CalibratedOdometry result = SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed);
+    CalibratedOdometry result =
+        SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed);
     sequence.odometry = std::move(result.odometry);
     sequence.drift_factor = result.factor;
   }
@@ -110,8 +112,10 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
 void DescribeFields(FieldVisitor& visitor, HalvDrift& drift) {
   DescribeFields(visitor, drift.shape);
   visitor.Real("ate_m", drift.ate_m, -1, 1000,
-               "mean ATE of the odometry over seeds, after Sim(3); -1: the case's; 0: the noise above as it is");
-  visitor.Real("ate_spread", drift.ate_spread, 0, 0.5, "a seed's ATE differs from the mean by up to this fraction");
+               "mean ATE of the odometry over seeds, after Sim(3); -1: the case's; 0: the noise "
+               "above as it is");
+  visitor.Real("ate_spread", drift.ate_spread, 0, 0.5,
+               "a seed's ATE differs from the mean by up to this fraction");
 }
 
 }  // namespace sslcd::sim

@@ -40,7 +40,8 @@ const HalvCase& HalvCaseOf(int number) {
   return kCases[number - 1];
 }
 
-HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size, std::uint64_t seed) {
+HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size,
+                          std::uint64_t seed) {
   Random random(seed, kPathStream);
   std::vector<PathPiece> pieces = shape.out;
   for (PathPiece& piece : pieces) piece.length_m *= piece.curvature_per_m == 0 ? size : 1;
@@ -65,12 +66,14 @@ HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg
     const Path crossed(pieces);
     Path::Point merge = out.At(shape.meet_m * size - kMerge);
     merge.heading += M_PI;
-    for (const PathPiece& piece : ArcLineArc(crossed.At(crossed.length()), merge, kTightest)) pieces.push_back(piece);
+    for (const PathPiece& piece : ArcLineArc(crossed.At(crossed.length()), merge, kTightest))
+      pieces.push_back(piece);
     pieces.push_back({shape.along_m * size, 0});
   }
 
   HalvCourse course{Path(pieces), out.length(), last_leg, angle, {}};
-  for (double s = 0; s <= course.path.length(); s += kStep) course.points.push_back(course.path.At(s));
+  for (double s = 0; s <= course.path.length(); s += kStep)
+    course.points.push_back(course.path.At(s));
   return course;
 }
 

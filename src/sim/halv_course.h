@@ -8,15 +8,19 @@
 
 namespace sslcd::sim {
 
-/// One of the paper's four cases: a way out, and a last leg that meets the way out again at another angle.
+/// One of the paper's four cases: a way out, and a last leg that meets the way out again at another
+/// angle.
 struct HalvCase {
   const char* name;
   std::vector<PathPiece> out;
-  double meet_m;                         ///< where on the way out the last leg meets it
-  double before_m, after_m;              ///< the last leg begins so long before and ends so long after that
-  double along_m;                        ///< then it turns into the way out, against its direction, for so long
+  double meet_m;  ///< where on the way out the last leg meets it
+  /// the last leg begins so long before and ends so long after that
+  double before_m, after_m;
+  /// then it turns into the way out, against its direction, for so long
+  double along_m;
   double viewpoint_low, viewpoint_high;  ///< by how much its direction differs there [deg]
-  double ate_m;                          ///< of VINS-Fusion without a loop (paper Table II), after Sim(3)
+  /// of VINS-Fusion without a loop (paper Table II), after Sim(3)
+  double ate_m;
 };
 
 /// `number` 1 to 4: rectangle, straight out and back, curve, small loop.
@@ -31,8 +35,9 @@ struct HalvCourse {
   std::vector<Path::Point> points;  ///< of the path, every half metre
 };
 
-/// A course of a case. The viewpoint is drawn from [low, high] [deg]; straight pieces are `size` times as long as the
-/// case's.
-HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size, std::uint64_t seed);
+/// A course of a case. The viewpoint is drawn from [low, high] [deg]; straight pieces are `size`
+/// times as long as the case's.
+HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size,
+                          std::uint64_t seed);
 
 }  // namespace sslcd::sim

@@ -16,14 +16,22 @@ namespace {
 
 constexpr double kCameraHeight = 1.2;  // of a camera on a ground vehicle [m]
 
-/// ZED 2 as the paper's Table of sensors has it: 1280x720, 110 x 70 degrees; 12 cm between its cameras.
+/// ZED 2 as the paper's Table of sensors has it: 1280x720, 110 x 70 degrees; 12 cm between its
+/// cameras.
 World EmptyWorld(double render_scale) {
   World world;
   const int width = static_cast<int>(std::lround(1280 * render_scale));
   const int height = static_cast<int>(std::lround(720 * render_scale));
-  const auto focal = [](double pixels, double degrees) { return 0.5 * pixels / std::tan(0.5 * degrees * M_PI / 180); };
-  world.camera = {
-      focal(width, 110), focal(height, 70), 0.5 * (width - 1), 0.5 * (height - 1), Vec3(0, 0, 0), width, height};
+  const auto focal = [](double pixels, double degrees) {
+    return 0.5 * pixels / std::tan(0.5 * degrees * M_PI / 180);
+  };
+  world.camera = {focal(width, 110),
+                  focal(height, 70),
+                  0.5 * (width - 1),
+                  0.5 * (height - 1),
+                  Vec3(0, 0, 0),
+                  width,
+                  height};
   world.camera_height_m = kCameraHeight;
   world.baseline_m = 0.12;
   for (const char* label : {"Car", "Van", "Truck"}) world.labels.Set(label, {Symmetry::kNone});
@@ -42,7 +50,8 @@ Places PlacesOf(const HalvScene& scene, const HalvCourse& course) {
     return {LotSlots(course.points), LotMarks(course.points), scene.taken_fraction, 0};
   }
   if (scene.layout == "street") {
-    return {StreetSlots(course.path, course.points), StreetMarks(course.path, course.points), scene.taken_fraction, 0};
+    return {StreetSlots(course.path, course.points), StreetMarks(course.path, course.points),
+            scene.taken_fraction, 0};
   }
   const LayoutFile file = ReadLayout(scene.layout);
   PlacedLayout placed = PlaceLayout(file.slots, course);
@@ -84,21 +93,25 @@ void AddMark(World& world, Random& random, const Slot& slot) {
 std::vector<int> Draw(Random& random, int size, int count) {
   std::vector<int> numbers(size);
   std::iota(numbers.begin(), numbers.end(), 0);
-  for (int i = 0; i < count; ++i) std::swap(numbers[i], numbers[i + static_cast<int>(random.Uniform() * (size - i))]);
+  for (int i = 0; i < count; ++i)
+    std::swap(numbers[i], numbers[i + static_cast<int>(random.Uniform() * (size - i))]);
   numbers.resize(count);
   return numbers;
 }
 
-/// Before the return some vehicles leave; another one comes for each, to the same place or to a free one.
-void Churn(const HalvScene& scene, std::uint64_t seed, int frame, std::vector<Slot> parked, std::vector<Slot> free,
-           World& world) {
+/// Before the return some vehicles leave; another one comes for each, to the same place or to a
+/// free one.
+void Churn(const HalvScene& scene, std::uint64_t seed, int frame, std::vector<Slot> parked,
+           std::vector<Slot> free, World& world) {
   Random random(seed, kChurnStream);
   const int count = static_cast<int>(std::lround(scene.churn * static_cast<double>(parked.size())));
-  for (int id : Draw(random, static_cast<int>(parked.size()), count)) {  // parked vehicles are the first objects
+  for (int id : Draw(random, static_cast<int>(parked.size()),
+                     count)) {  // parked vehicles are the first objects
     world.objects[id].end_frame = frame;
     Slot slot = parked[id];
     if (!free.empty() && random.Chance(0.5)) {
-      std::swap(free[static_cast<std::size_t>(random.Uniform() * static_cast<double>(free.size()))], free.back());
+      std::swap(free[static_cast<std::size_t>(random.Uniform() * static_cast<double>(free.size()))],
+                free.back());
       slot = free.back();
       free.pop_back();
     }
@@ -115,9 +128,10 @@ void CheckCars(const std::vector<Slot>& parked, const HalvCourse& course) {
     });
   });
   if (beside >= kEnough) return;
-  throw Error(ErrorKind::kUsage, "no cars: only " + std::to_string(beside) + " stand beside the path, at least " +
-                                     std::to_string(kEnough) +
-                                     " are needed; raise --taken-fraction or take another layout or a larger --size");
+  throw Error(ErrorKind::kUsage,
+              "no cars: only " + std::to_string(beside) + " stand beside the path, at least " +
+                  std::to_string(kEnough) +
+                  " are needed; raise --taken-fraction or take another layout or a larger --size");
 }
 
 }  // namespace
@@ -126,18 +140,22 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
   CheckFields(scene);
   for (const double degrees : {scene.viewpoint_low_deg, scene.viewpoint_high_deg})
     if (degrees < 0 && degrees != -1)
-      throw Error(ErrorKind::kUsage, "viewpoint_low_deg and viewpoint_high_deg are 0 to 180, or -1: the case's");
+      throw Error(ErrorKind::kUsage,
+                  "viewpoint_low_deg and viewpoint_high_deg are 0 to 180, or -1: the case's");
   const HalvCase& shape = HalvCaseOf(scene.case_number);
   const double low = scene.viewpoint_low_deg < 0 ? shape.viewpoint_low : scene.viewpoint_low_deg;
-  const double high = scene.viewpoint_high_deg < 0 ? shape.viewpoint_high : scene.viewpoint_high_deg;
+  const double high =
+      scene.viewpoint_high_deg < 0 ? shape.viewpoint_high : scene.viewpoint_high_deg;
   if (low > high)
-    throw Error(ErrorKind::kUsage, "viewpoint_low_deg is larger than viewpoint_high_deg: give both, low to high");
+    throw Error(ErrorKind::kUsage,
+                "viewpoint_low_deg is larger than viewpoint_high_deg: give both, low to high");
   const HalvCourse course = MakeHalvCourse(shape, low, high, scene.size, seed);
   Places places = PlacesOf(scene, course);
 
   Random random(seed, kWorldStream);
   std::vector<Slot> parked, free;
-  for (const Slot& slot : places.vehicles) (random.Chance(places.taken_fraction) ? parked : free).push_back(slot);
+  for (const Slot& slot : places.vehicles)
+    (random.Chance(places.taken_fraction) ? parked : free).push_back(slot);
   CheckCars(parked, course);
 
   HalvWorld result{EmptyWorld(scene.render_scale), 0, course.viewpoint_rad, places.left_out, {}};
@@ -147,7 +165,8 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
   World& world = result.world;
   const double step = scene.speed_mps / scene.keyframe_hz;
   result.return_frame = static_cast<int>(std::ceil(course.return_m / step));
-  Drive(course.path, 1 + static_cast<int>(course.path.length() / step), scene.keyframe_hz, scene.speed_mps, world);
+  Drive(course.path, 1 + static_cast<int>(course.path.length() / step), scene.keyframe_hz,
+        scene.speed_mps, world);
   for (const Slot& slot : parked) Park(world, random, scene, slot);
   if (scene.marks) {
     for (const Slot& slot : places.marks) AddMark(world, random, slot);
@@ -155,16 +174,18 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
   for (int i = 0; i < scene.driving_cars; ++i) {
     const double speed = scene.speed_mps * random.Uniform(1.5, 3);
     const bool oncoming = i % 2 == 1;
-    const double start = oncoming ? 0.5 * course.return_m + speed * random.Uniform(5, 20) : 10 + 12 * i;
-    AddDrivingCar(world, random, course.path, start, oncoming ? -2.5 : 0, oncoming ? -speed : speed).paint =
-        DrawPaint(random);
+    const double start =
+        oncoming ? 0.5 * course.return_m + speed * random.Uniform(5, 20) : 10 + 12 * i;
+    AddDrivingCar(world, random, course.path, start, oncoming ? -2.5 : 0, oncoming ? -speed : speed)
+        .paint = DrawPaint(random);
   }
   Churn(scene, seed, result.return_frame, parked, free, world);
   return result;
 }
 
 void DescribeFields(FieldVisitor& visitor, HalvScene& scene) {
-  visitor.Integer("case", scene.case_number, 1, 4, "1 rectangle, 2 straight out and back, 3 curve, 4 small loop");
+  visitor.Integer("case", scene.case_number, 1, 4,
+                  "1 rectangle, 2 straight out and back, 3 curve, 4 small loop");
   visitor.Text("layout", scene.layout, "lot, street, or a JSON file of parked cars");
   visitor.Real("viewpoint_low_deg", scene.viewpoint_low_deg, -1, 180,
                "smallest angle between the passes; -1: the case's");
@@ -173,12 +194,16 @@ void DescribeFields(FieldVisitor& visitor, HalvScene& scene) {
   visitor.Real("size", scene.size, 0.3, 6, "factor on the straight parts of the path");
   visitor.Real("speed_mps", scene.speed_mps, 0.1, 50, "speed of the camera");
   visitor.Real("keyframe_hz", scene.keyframe_hz, 0.1, 100, "keyframes per second");
-  visitor.Real("taken_fraction", scene.taken_fraction, 0, 1, "fraction of the generated parking spaces that is taken");
-  visitor.Real("van_fraction", scene.van_fraction, 0, 0.5, "share of vans among the parked vehicles");
+  visitor.Real("taken_fraction", scene.taken_fraction, 0, 1,
+               "fraction of the generated parking spaces that is taken");
+  visitor.Real("van_fraction", scene.van_fraction, 0, 0.5,
+               "share of vans among the parked vehicles");
   visitor.Real("truck_fraction", scene.truck_fraction, 0, 0.5, "share of trucks among them");
   visitor.Flag("marks", scene.marks, "poles and trees in generated layouts");
-  visitor.Real("churn", scene.churn, 0, 1, "share of the parked vehicles that is replaced before the second pass");
-  visitor.Integer("driving_cars", scene.driving_cars, 0, 100, "cars that drive; every second one is oncoming");
+  visitor.Real("churn", scene.churn, 0, 1,
+               "share of the parked vehicles that is replaced before the second pass");
+  visitor.Integer("driving_cars", scene.driving_cars, 0, 100,
+                  "cars that drive; every second one is oncoming");
   visitor.Real("render_scale", scene.render_scale, 0.05, 4, "size of the images; 1: 1280x720");
 }
 

@@ -64,7 +64,8 @@ class Reader {
     constexpr double kFar = 1e4;  // [m]
     CheckKeys(node);
     const double x = Number(node, "x"), y = Number(node, "y");
-    if (std::max(std::abs(x), std::abs(y)) > kFar) Fail(node, "the car stands more than 10 km from the origin");
+    if (std::max(std::abs(x), std::abs(y)) > kFar)
+      Fail(node, "the car stands more than 10 km from the origin");
     Number(node, "z");
     const double qx = Number(node, "qx"), qy = Number(node, "qy"), qz = Number(node, "qz");
     const double w = Number(node, node["qw"].IsDefined() ? "qw" : "w");
@@ -73,9 +74,11 @@ class Reader {
     std::string label;
     if (const YAML::Node given = node["label"]) {
       label = given.IsScalar() ? given.Scalar() : "";
-      if (label != "Car" && label != "Van" && label != "Truck") Fail(given, "'label' must be Car, Van or Truck");
+      if (label != "Car" && label != "Van" && label != "Truck")
+        Fail(given, "'label' must be Car, Van or Truck");
     }
-    // Seen from above with +y of the file ahead: its yaw counts from x against the clock, a heading from ahead with it.
+    // Seen from above with +y of the file ahead: its yaw counts from x against the clock, a heading
+    // from ahead with it.
     const double yaw = std::atan2(2 * (w * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
     return {x, y, 0.5 * M_PI - yaw, label};
   }
@@ -87,7 +90,8 @@ std::vector<Slot> WithoutDoubles(const std::vector<Slot>& slots, double turn_rad
   std::vector<Slot> kept;
   for (Slot slot : slots) {
     slot.heading += turn_rad;
-    if (std::none_of(kept.begin(), kept.end(), [&](const Slot& other) { return Overlap(slot, other); }))
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](const Slot& other) { return Overlap(slot, other); }))
       kept.push_back(slot);
   }
   return kept;
@@ -96,7 +100,8 @@ std::vector<Slot> WithoutDoubles(const std::vector<Slot>& slots, double turn_rad
 /// The direction most vehicles keep to, modulo a right angle.
 double Grain(const std::vector<Slot>& slots) {
   double sine = 0, cosine = 0;
-  for (const Slot& slot : slots) sine += std::sin(4 * slot.heading), cosine += std::cos(4 * slot.heading);
+  for (const Slot& slot : slots)
+    sine += std::sin(4 * slot.heading), cosine += std::cos(4 * slot.heading);
   return 0.25 * std::atan2(sine, cosine);
 }
 
@@ -129,8 +134,9 @@ Box BoxOf(const Places& places) {
 
 bool Near(const Slot& slot, const std::vector<Path::Point>& points) {
   constexpr double kNear = 14;
-  return std::any_of(points.begin(), points.end(),
-                     [&](const Path::Point& point) { return std::hypot(slot.x - point.x, slot.z - point.z) < kNear; });
+  return std::any_of(points.begin(), points.end(), [&](const Path::Point& point) {
+    return std::hypot(slot.x - point.x, slot.z - point.z) < kNear;
+  });
 }
 
 }  // namespace
@@ -145,12 +151,14 @@ LayoutFile ReadLayout(const std::string& path) {
 }
 
 PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& course) {
-  constexpr double kBeyond = 12;             // the course may leave the lot by so much
-  constexpr double kGrid = 2, kSteps = 150;  // metres, coarser where the lot is wider than so many steps
-  constexpr std::size_t kEvery = 5;          // of the course's points
+  constexpr double kBeyond = 12;  // the course may leave the lot by so much
+  // metres, coarser where the lot is wider than so many steps
+  constexpr double kGrid = 2, kSteps = 150;
+  constexpr std::size_t kEvery = 5;  // of the course's points
   std::vector<Path::Point> way_out, last_leg;
   for (std::size_t i = 0; i < course.points.size(); i += kEvery) {
-    const double s = course.path.length() * static_cast<double>(i) / static_cast<double>(course.points.size());
+    const double s =
+        course.path.length() * static_cast<double>(i) / static_cast<double>(course.points.size());
     if (s < course.return_m) way_out.push_back(course.points[i]);
     if (s > course.last_leg_m) last_leg.push_back(course.points[i]);
   }
@@ -162,9 +170,12 @@ PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& cours
   for (int quarter = 0; quarter < 4; ++quarter) {
     const std::vector<Slot> turned = SeenFrom(slots, 0, 0, grain + 0.5 * M_PI * quarter);
     const Box lot = BoxOf(turned);
-    const double step = std::max(kGrid, std::max(lot.right - lot.left, lot.front - lot.back) / kSteps);
-    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond; x += step) {
-      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond; z += step) {
+    const double step =
+        std::max(kGrid, std::max(lot.right - lot.left, lot.front - lot.back) / kSteps);
+    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond;
+         x += step) {
+      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond;
+           z += step) {
         std::vector<Slot> placed = SeenFrom(turned, x, z, 0);
         int score = 0;
         for (const Slot& slot : placed) {
@@ -182,11 +193,14 @@ PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& cours
   }
   if (!best) {
     const Box lot = BoxOf(slots);
-    const auto metres = [](double a, double b) { return std::to_string(static_cast<int>(std::lround(b - a))); };
-    throw Error(ErrorKind::kUsage, "the path leaves the lot: it needs " + metres(driven.left, driven.right) + " m x " +
-                                       metres(driven.back, driven.front) + " m, the cars stand on " +
-                                       metres(lot.left, lot.right) + " m x " + metres(lot.back, lot.front) +
-                                       " m; take a smaller --size, another --case or another layout");
+    const auto metres = [](double a, double b) {
+      return std::to_string(static_cast<int>(std::lround(b - a)));
+    };
+    throw Error(ErrorKind::kUsage,
+                "the path leaves the lot: it needs " + metres(driven.left, driven.right) + " m x " +
+                    metres(driven.back, driven.front) + " m, the cars stand on " +
+                    metres(lot.left, lot.right) + " m x " + metres(lot.back, lot.front) +
+                    " m; take a smaller --size, another --case or another layout");
   }
   PlacedLayout result;
   for (const Slot& slot : *best) {

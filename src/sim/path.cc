@@ -12,13 +12,14 @@ Path::Point Advance(const Path::Point& from, double length, double curvature) {
   // sin(turn/2)/(turn/2) times the length is the chord; its direction is half the turn away.
   const double half = 0.5 * turn;
   const double chord = std::abs(half) < 1e-9 ? length : length * std::sin(half) / half;
-  return {from.x + chord * std::sin(from.heading + half), from.z + chord * std::cos(from.heading + half),
-          from.heading + turn};
+  return {from.x + chord * std::sin(from.heading + half),
+          from.z + chord * std::cos(from.heading + half), from.heading + turn};
 }
 
 }  // namespace
 
-Path::Path(std::vector<PathPiece> pieces, bool closed) : pieces_(std::move(pieces)), closed_(closed) {
+Path::Path(std::vector<PathPiece> pieces, bool closed)
+    : pieces_(std::move(pieces)), closed_(closed) {
   for (const PathPiece& piece : pieces_) length_ += piece.length_m;
 }
 
@@ -41,7 +42,8 @@ Pose Path::CameraAt(double s_m) const {
 
 Pose Path::ObjectAt(double s_m, double right_m, double y_m, double turn_rad) const {
   const Point point = At(s_m);
-  const Vec3 position(point.x + right_m * std::cos(point.heading), y_m, point.z - right_m * std::sin(point.heading));
+  const Vec3 position(point.x + right_m * std::cos(point.heading), y_m,
+                      point.z - right_m * std::sin(point.heading));
   // Yaw counts from +x towards +z (GravityFrame of KITTI axes), the heading from +z towards +x.
   return Pose(GravityFrame().Upright(0.5 * M_PI - point.heading - turn_rad), position);
 }

@@ -13,9 +13,9 @@ struct PathPiece {
   double curvature_per_m = 0;
 };
 
-/// A planar line in the x-z plane of the world, from the origin in direction +z. Arc length may be negative (straight
-/// extension to the back) and longer than the pieces (`closed`: they are run through again and again; else straight
-/// on).
+/// A planar line in the x-z plane of the world, from the origin in direction +z. Arc length may be
+/// negative (straight extension to the back) and longer than the pieces (`closed`: they are run
+/// through again and again; else straight on).
 class Path {
  public:
   explicit Path(std::vector<PathPiece> pieces, bool closed = false);
@@ -31,8 +31,8 @@ class Path {
   /// Camera on the line, looking along it. [T_world_cam]
   Pose CameraAt(double s_m) const;
 
-  /// Upright object beside the line: `right_m` to its right, its centre at height coordinate `y_m` (down), turned by
-  /// `turn_rad` to the right from the line's direction. [T_world_object]
+  /// Upright object beside the line: `right_m` to its right, its centre at height coordinate `y_m`
+  /// (down), turned by `turn_rad` to the right from the line's direction. [T_world_object]
   Pose ObjectAt(double s_m, double right_m, double y_m, double turn_rad) const;
 
  private:

@@ -6,7 +6,8 @@
 namespace sslcd::sim {
 
 double Random::Normal() {
-  // Box-Muller; the second value is thrown away so that the object has no hidden state besides the engine.
+  // Box-Muller; the second value is thrown away so that the object has no hidden state besides the
+  // engine.
   const double radius = std::sqrt(-2. * std::log(1. - Uniform()));
   return radius * std::cos(2. * M_PI * Uniform());
 }

@@ -45,8 +45,8 @@ std::vector<Sighting> InView(const World& world, int frame) {
     const auto box = ProjectCuboid(T_cam_object, object.dims, world.camera);
     const auto whole = ProjectCuboid(T_cam_object, object.dims, endless);
     if (!box || !whole) continue;
-    sightings.push_back(
-        {&object, T_cam_object, *box, SilhouetteOf(T_cam_object, object.dims), box->Area() / whole->Area()});
+    sightings.push_back({&object, T_cam_object, *box, SilhouetteOf(T_cam_object, object.dims),
+                         box->Area() / whole->Area()});
   }
   return sightings;
 }
@@ -56,7 +56,8 @@ class Detector {
   Detector(const World& world, const DetectorNoise& noise, std::uint64_t seed)
       : world_(world), noise_(noise), random_(seed, kDetectorStream) {
     constant_.reserve(world.objects.size());
-    for (std::size_t i = 0; i < world.objects.size(); ++i) constant_.push_back(DrawNormals(random_));
+    for (std::size_t i = 0; i < world.objects.size(); ++i)
+      constant_.push_back(DrawNormals(random_));
   }
 
   void Detect(int frame, SimulatedDetections& result) {
@@ -72,7 +73,8 @@ class Detector {
       const double visible = VisibleFraction(sighting.silhouette, silhouettes);
       if (visible < noise_.min_visible) continue;
       const double far = range / noise_.max_range_m;
-      const double miss_range = noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near);
+      const double miss_range =
+          noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near);
       const double miss_hidden = (1 - visible) * noise_.miss_rate_hidden;
       if (random_.Chance(1 - (1 - miss_range) * (1 - miss_hidden))) continue;
       const double score = std::clamp(random_.Normal(0.95 - 0.25 * far, 0.04), 0.05, 0.999);
@@ -96,7 +98,8 @@ class Detector {
   Detection Measure(const Sighting& sighting) {
     const WorldObject& object = *sighting.object;
     const Vec3 position = sighting.T_cam_object.translation();
-    const DetectionSigmas sigmas = SigmasAt(position.norm(), noise_.sigmas, NoiseScale::Uniform(noise_.scale));
+    const DetectionSigmas sigmas =
+        SigmasAt(position.norm(), noise_.sigmas, NoiseScale::Uniform(noise_.scale));
     Draw error = DrawNormals(random_);
     for (std::size_t i = 0; i < error.size(); ++i) {
       error[i] = std::sqrt(noise_.constant_fraction) * constant_[object.id][i] +
@@ -105,13 +108,16 @@ class Detector {
 
     Detection detection;
     detection.label = Mistaken(object.label);
-    const Vec3 offset(sigmas.radial * error[0], sigmas.lateral * error[1], sigmas.vertical * error[2]);
+    const Vec3 offset(sigmas.radial * error[0], sigmas.lateral * error[1],
+                      sigmas.vertical * error[2]);
     double yaw = upright_.YawOf(sighting.T_cam_object.so3()) + sigmas.yaw * error[3];
     if (random_.Chance(noise_.flip_rate)) yaw += M_PI;
     if (world_.labels[object.label].symmetry == Symmetry::kFull) yaw = random_.Uniform(-M_PI, M_PI);
-    detection.T_cam_object = Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
+    detection.T_cam_object =
+        Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
     const double size_sigma = noise_.sigmas.size_relative * noise_.scale;
-    for (int i = 0; i < 3; ++i) detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
+    for (int i = 0; i < 3; ++i)
+      detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
     detection.box = Blur(sighting.box);
     return detection;
   }
@@ -128,8 +134,10 @@ class Detector {
   }
 
   std::optional<Box2d> Blur(Box2d box) {
-    for (double* side : {&box.left, &box.top, &box.right, &box.bottom}) *side += random_.Normal(0, noise_.box_sigma_px);
-    box = {std::max(box.left, 0.), std::max(box.top, 0.), std::min<double>(box.right, world_.camera.width),
+    for (double* side : {&box.left, &box.top, &box.right, &box.bottom})
+      *side += random_.Normal(0, noise_.box_sigma_px);
+    box = {std::max(box.left, 0.), std::max(box.top, 0.),
+           std::min<double>(box.right, world_.camera.width),
            std::min<double>(box.bottom, world_.camera.height)};
     return box.Area() > 0 ? std::optional(box) : std::nullopt;
   }
@@ -144,8 +152,8 @@ class Detector {
     Detection detection;
     detection.label = "Car";
     detection.dims = {random_.Uniform(3, 5), random_.Uniform(1.4, 2), random_.Uniform(1.3, 1.9)};
-    detection.T_cam_object =
-        Pose(upright_.Upright(yaw), Vec3(range * std::sin(bearing), down, range * std::cos(bearing)));
+    detection.T_cam_object = Pose(upright_.Upright(yaw),
+                                  Vec3(range * std::sin(bearing), down, range * std::cos(bearing)));
     detection.box = ProjectCuboid(detection.T_cam_object, detection.dims, world_.camera);
     return detection;
   }
@@ -159,7 +167,8 @@ class Detector {
 
 }  // namespace
 
-Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed) {
+Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise,
+                            std::uint64_t seed) {
   CheckFields(noise);
   Random random(seed, kOdometryStream), slow(seed, kWanderStream);
   double heading_wander = slow.Normal(), scale_wander = slow.Normal();
@@ -189,44 +198,60 @@ Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise,
   return odometry;
 }
 
-SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise, std::uint64_t seed) {
+SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise,
+                                       std::uint64_t seed) {
   CheckFields(noise);
   Detector detector(world, noise, seed);
   SimulatedDetections result;
-  for (std::size_t frame = 0; frame < world.truth.size(); ++frame) detector.Detect(static_cast<int>(frame), result);
+  for (std::size_t frame = 0; frame < world.truth.size(); ++frame)
+    detector.Detect(static_cast<int>(frame), result);
   return result;
 }
 
 std::vector<Frame> MakeFrames(const Trajectory& odometry, const SimulatedDetections& detections) {
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < std::min(odometry.size(), detections.frames.size()); ++i) {
-    frames.push_back({static_cast<int>(i), odometry.stamps[i], odometry.poses[i], detections.frames[i], "", ""});
+    frames.push_back(
+        {static_cast<int>(i), odometry.stamps[i], odometry.poses[i], detections.frames[i], "", ""});
   }
   return frames;
 }
 
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
-  visitor.Real("scale_error", noise.scale_error, -0.5, 1, "odometry steps are too long by this fraction");
-  visitor.Real("heading_rad_per_sqrt_m", noise.heading_rad_per_sqrt_m, 0, 1, "random walk of the odometry's heading");
-  visitor.Real("tilt_rad_per_sqrt_m", noise.tilt_rad_per_sqrt_m, 0, 1, "random walk of its roll and pitch");
-  visitor.Real("position_m_per_sqrt_m", noise.position_m_per_sqrt_m, 0, 10, "random walk of its position");
-  visitor.Real("wander_rad_per_m", noise.wander_rad_per_m, 0, 1, "slowly varying drift of its heading");
+  visitor.Real("scale_error", noise.scale_error, -0.5, 1,
+               "odometry steps are too long by this fraction");
+  visitor.Real("heading_rad_per_sqrt_m", noise.heading_rad_per_sqrt_m, 0, 1,
+               "random walk of the odometry's heading");
+  visitor.Real("tilt_rad_per_sqrt_m", noise.tilt_rad_per_sqrt_m, 0, 1,
+               "random walk of its roll and pitch");
+  visitor.Real("position_m_per_sqrt_m", noise.position_m_per_sqrt_m, 0, 10,
+               "random walk of its position");
+  visitor.Real("wander_rad_per_m", noise.wander_rad_per_m, 0, 1,
+               "slowly varying drift of its heading");
   visitor.Real("wander_scale", noise.wander_scale, 0, 1, "slowly varying error of its scale");
   visitor.Real("wander_m", noise.wander_m, 0.1, 1e6, "after so much path these are something else");
 }
 
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {
-  visitor.Nested("sigmas", noise.sigmas, "standard deviations of a detection as a function of range");
+  visitor.Nested("sigmas", noise.sigmas,
+                 "standard deviations of a detection as a function of range");
   visitor.Real("scale", noise.scale, 0, 100, "factor on all standard deviations of the detections");
-  visitor.Real("constant_fraction", noise.constant_fraction, 0, 1, "share of the variance that is constant per object");
+  visitor.Real("constant_fraction", noise.constant_fraction, 0, 1,
+               "share of the variance that is constant per object");
   visitor.Real("flip_rate", noise.flip_rate, 0, 1, "front and back mistaken");
-  visitor.Real("box_sigma_px", noise.box_sigma_px, 0, 100, "standard deviation of each side of the 2D boxes");
+  visitor.Real("box_sigma_px", noise.box_sigma_px, 0, 100,
+               "standard deviation of each side of the 2D boxes");
   visitor.Real("max_range_m", noise.max_range_m, 1, 1e4, "nothing is detected beyond");
-  visitor.Real("miss_rate_near", noise.miss_rate_near, 0, 1, "chance to miss a visible object at range 0");
-  visitor.Real("miss_rate_far", noise.miss_rate_far, 0, 1, "chance to miss a visible object at the maximal range");
-  visitor.Real("miss_rate_hidden", noise.miss_rate_hidden, 0, 1, "chance to miss an object all but hidden");
-  visitor.Real("min_visible", noise.min_visible, 0, 1, "objects of which less is visible are not detected");
-  visitor.Real("wrong_label", noise.wrong_label, 0, 1, "chance that a car is called a van, a pole a tree, ...");
+  visitor.Real("miss_rate_near", noise.miss_rate_near, 0, 1,
+               "chance to miss a visible object at range 0");
+  visitor.Real("miss_rate_far", noise.miss_rate_far, 0, 1,
+               "chance to miss a visible object at the maximal range");
+  visitor.Real("miss_rate_hidden", noise.miss_rate_hidden, 0, 1,
+               "chance to miss an object all but hidden");
+  visitor.Real("min_visible", noise.min_visible, 0, 1,
+               "objects of which less is visible are not detected");
+  visitor.Real("wrong_label", noise.wrong_label, 0, 1,
+               "chance that a car is called a van, a pole a tree, ...");
   visitor.Real("false_positives", noise.false_positives, 0, 100, "mean number per frame");
 }
 

@@ -23,20 +23,24 @@ struct Range {
 };
 
 /// Multiples of `step` that cover all points' coordinates and the surroundings.
-Range Multiples(const std::vector<Path::Point>& points, double Path::Point::*coordinate, double step) {
+Range Multiples(const std::vector<Path::Point>& points, double Path::Point::*coordinate,
+                double step) {
   const auto [low, high] = std::minmax_element(
-      points.begin(), points.end(), [&](const auto& a, const auto& b) { return a.*coordinate < b.*coordinate; });
+      points.begin(), points.end(),
+      [&](const auto& a, const auto& b) { return a.*coordinate < b.*coordinate; });
   return {static_cast<int>(std::floor(((*low).*coordinate - kAround) / step)),
           static_cast<int>(std::ceil(((*high).*coordinate + kAround) / step))};
 }
 
 Slot Beside(const Path& path, double s_m, double right_m, double turn_rad, const char* label = "") {
   const Path::Point at = path.At(s_m);
-  return {at.x + right_m * std::cos(at.heading), at.z - right_m * std::sin(at.heading), at.heading + turn_rad, label};
+  return {at.x + right_m * std::cos(at.heading), at.z - right_m * std::sin(at.heading),
+          at.heading + turn_rad, label};
 }
 
 bool IsClearOf(const Slot& slot, const std::vector<Slot>& others) {
-  return std::none_of(others.begin(), others.end(), [&](const Slot& other) { return Overlap(slot, other); });
+  return std::none_of(others.begin(), others.end(),
+                      [&](const Slot& other) { return Overlap(slot, other); });
 }
 
 }  // namespace
@@ -58,17 +62,21 @@ bool IsClear(const Slot& slot, const std::vector<Path::Point>& points) {
 bool Overlap(const Slot& a, const Slot& b) {
   if (std::hypot(a.x - b.x, a.z - b.z) > std::hypot(kLength, kWidth)) return false;
   const Vec3 dims(kLength, kWidth, 1);
-  const auto cuboid = [&](const Slot& slot) { return ToCuboid(PoseOf(slot, 0), dims, GravityFrame()); };
+  const auto cuboid = [&](const Slot& slot) {
+    return ToCuboid(PoseOf(slot, 0), dims, GravityFrame());
+  };
   return FootprintIntersection(cuboid(a), cuboid(b)) > 0;
 }
 
 std::vector<Slot> LotSlots(const std::vector<Path::Point>& points) {
-  const Range aisles = Multiples(points, &Path::Point::x, kAisles), stalls = Multiples(points, &Path::Point::z, kStall);
+  const Range aisles = Multiples(points, &Path::Point::x, kAisles),
+              stalls = Multiples(points, &Path::Point::z, kStall);
   std::vector<Slot> slots;
   for (int aisle = aisles.first; aisle <= aisles.last; ++aisle) {
     for (double side : {-1, 1}) {
       for (int stall = stalls.first; stall < stalls.last; ++stall) {
-        const Slot slot{aisle * kAisles + side * kToStall, (stall + 0.5) * kStall, side * 0.5 * M_PI, ""};
+        const Slot slot{aisle * kAisles + side * kToStall, (stall + 0.5) * kStall,
+                        side * 0.5 * M_PI, ""};
         if (IsClear(slot, points)) slots.push_back(slot);
       }
     }
@@ -79,7 +87,8 @@ std::vector<Slot> LotSlots(const std::vector<Path::Point>& points) {
 std::vector<Slot> StreetSlots(const Path& path, const std::vector<Path::Point>& points) {
   std::vector<Slot> slots;
   for (double s = 0.5 * kSpace - kAround; s < path.length() + kAround; s += kSpace) {
-    for (const Slot& slot : {Beside(path, s, kRightKerb, 0), Beside(path, s + 2, kLeftKerb, M_PI)}) {
+    for (const Slot& slot :
+         {Beside(path, s, kRightKerb, 0), Beside(path, s + 2, kLeftKerb, M_PI)}) {
       if (IsClear(slot, points) && IsClearOf(slot, slots)) slots.push_back(slot);
     }
   }
@@ -94,7 +103,8 @@ std::vector<Slot> LotMarks(const std::vector<Path::Point>& points) {
   std::vector<Slot> slots;
   for (int row = rows.first; row < rows.last; ++row) {
     for (int mark = marks.first; mark <= marks.last; ++mark) {
-      const Slot slot{(row + 0.5) * kAisles, 0.5 * mark * kEvery * kStall, 0, mark % 2 == 0 ? "Pole" : "Tree"};
+      const Slot slot{(row + 0.5) * kAisles, 0.5 * mark * kEvery * kStall, 0,
+                      mark % 2 == 0 ? "Pole" : "Tree"};
       if (IsClear(slot, points)) slots.push_back(slot);
     }
   }
@@ -105,8 +115,8 @@ std::vector<Slot> StreetMarks(const Path& path, const std::vector<Path::Point>& 
   constexpr double kEvery = 24;
   std::vector<Slot> slots;
   for (double s = 8 - kAround; s < path.length() + kAround; s += kEvery) {
-    for (const Slot& slot :
-         {Beside(path, s, kRightKerb + 2, 0, "Pole"), Beside(path, s + 0.5 * kEvery, kLeftKerb - 2, 0, "Tree")}) {
+    for (const Slot& slot : {Beside(path, s, kRightKerb + 2, 0, "Pole"),
+                             Beside(path, s + 0.5 * kEvery, kLeftKerb - 2, 0, "Tree")}) {
       if (IsClear(slot, points)) slots.push_back(slot);
     }
   }

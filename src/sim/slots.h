@@ -24,8 +24,8 @@ bool IsClear(const Slot& slot, const std::vector<Path::Point>& points);
 /// Vehicles of usual size in the two slots would touch.
 bool Overlap(const Slot& a, const Slot& b);
 
-/// A regular car park around the points: aisles along z, one of them at x = 0, with stalls across on both sides. Stalls
-/// in the way are left out.
+/// A regular car park around the points: aisles along z, one of them at x = 0, with stalls across
+/// on both sides. Stalls in the way are left out.
 std::vector<Slot> LotSlots(const std::vector<Path::Point>& points);
 
 /// Parking spaces along both kerbs of everything that is driven; those in the way are left out.

@@ -3,7 +3,8 @@
 
 namespace sslcd::sim {
 
-/// Streams of one seed (see Random), so that another noise setting leaves everything else as it was.
+/// Streams of one seed (see Random), so that another noise setting leaves everything else as it
+/// was.
 enum Stream {
   kWorldStream = 0,
   kOdometryStream = 1,

@@ -7,7 +7,8 @@
 
 namespace sslcd::sim {
 
-/// What one object covers of the horizon: an interval of bearings (atan2(x, z), right is positive) at some range.
+/// What one object covers of the horizon: an interval of bearings (atan2(x, z), right is positive)
+/// at some range.
 struct Silhouette {
   double left = 0, right = 0;  ///< [rad]
   double range = 0;            ///< of the centre [m]

@@ -18,7 +18,8 @@ World EmptyWorld() {
   return world;
 }
 
-void AddParkedCar(World& world, Random& random, const Path& path, double s_m, double right_m, double turn_rad) {
+void AddParkedCar(World& world, Random& random, const Path& path, double s_m, double right_m,
+                  double turn_rad) {
   const Vec3 dims = CarDims(random);
   const double s = s_m + random.Normal(0, 0.2);
   const double right = right_m + random.Normal(0, 0.1);
@@ -43,15 +44,18 @@ World MakeStreet(std::uint64_t seed, const StreetOptions& options) {
   const double driven = options.speed_mps * (options.frames - 1) / options.frame_rate_hz;
   std::vector<PathPiece> pieces;
   for (double length = 0; length < driven + kAhead; length += pieces.back().length_m) {
-    pieces.push_back({random.Uniform(15, 40), random.Uniform(-options.bend_rad_per_m, options.bend_rad_per_m)});
+    pieces.push_back(
+        {random.Uniform(15, 40), random.Uniform(-options.bend_rad_per_m, options.bend_rad_per_m)});
   }
   const Path path(pieces);
   Drive(path, options.frames, options.frame_rate_hz, options.speed_mps, world);
 
   for (double s = 4; s < driven + kAhead; s += kSpace) {
     const bool turned_round = random.Chance(0.1);
-    if (!random.Chance(options.free_fraction)) AddParkedCar(world, random, path, s, 3.2, turned_round ? M_PI : 0);
-    if (!random.Chance(options.free_fraction)) AddParkedCar(world, random, path, s + 2, -6.6, turned_round ? 0 : M_PI);
+    if (!random.Chance(options.free_fraction))
+      AddParkedCar(world, random, path, s, 3.2, turned_round ? M_PI : 0);
+    if (!random.Chance(options.free_fraction))
+      AddParkedCar(world, random, path, s + 2, -6.6, turned_round ? 0 : M_PI);
   }
   for (double s = 8; s < driven + kAhead; s += options.pole_spacing_m) {
     AddPole(world, random, path, s + random.Uniform(-4, 4), 5.2);
@@ -74,13 +78,16 @@ World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options) {
   Random random(seed);
   World world = EmptyWorld();
 
-  // One lap: up an aisle, a right-hand turn in two quarter circles, down the other aisle, and back. The camera starts
-  // in the middle of the first aisle.
+  // One lap: up an aisle, a right-hand turn in two quarter circles, down the other aisle, and back.
+  // The camera starts in the middle of the first aisle.
   constexpr double kRadius = 6;  // of the quarter circles
-  constexpr double kAcross = 6;  // straight part between two of them; aisles are 2 * kRadius + kAcross apart
-  constexpr double kStallWidth = 2.6, kToStall = 5.7;  // aisle's middle line to the middle of a stall
+  // straight part between two of them; aisles are 2 * kRadius + kAcross apart
+  constexpr double kAcross = 6;
+  // aisle's middle line to the middle of a stall
+  constexpr double kStallWidth = 2.6, kToStall = 5.7;
   const double curve = 0.5 * M_PI * kRadius;
-  const std::vector<PathPiece> half_lap = {{curve, 1 / kRadius}, {kAcross, 0}, {curve, 1 / kRadius}};
+  const std::vector<PathPiece> half_lap = {
+      {curve, 1 / kRadius}, {kAcross, 0}, {curve, 1 / kRadius}};
   std::vector<PathPiece> lap = {{0.5 * options.aisle_m, 0}};
   lap.insert(lap.end(), half_lap.begin(), half_lap.end());
   lap.push_back({options.aisle_m, 0});
@@ -89,16 +96,19 @@ World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options) {
   const Path path(lap, true);
   Drive(path, options.frames, options.frame_rate_hz, options.speed_mps, world);
 
-  // Cars stand across the aisle, nose in or tail in. Both aisles are laid out along their own direction of travel.
+  // Cars stand across the aisle, nose in or tail in. Both aisles are laid out along their own
+  // direction of travel.
   const double other_aisle = 0.5 * path.length() - 0.5 * options.aisle_m;
   for (double start : {-0.5 * options.aisle_m, other_aisle}) {
     for (double s = 0.5 * kStallWidth; s < options.aisle_m; s += kStallWidth) {
       for (double side : {kToStall, -kToStall}) {
         const double turn = random.Chance(0.7) ? 0.5 * M_PI : -0.5 * M_PI;
-        if (!random.Chance(options.free_fraction)) AddParkedCar(world, random, path, start + s, side, turn);
+        if (!random.Chance(options.free_fraction))
+          AddParkedCar(world, random, path, start + s, side, turn);
       }
     }
-    for (double end : {-2., options.aisle_m + 2.}) AddPole(world, random, path, start + end, -kToStall - 3);
+    for (double end : {-2., options.aisle_m + 2.})
+      AddPole(world, random, path, start + end, -kToStall - 3);
   }
   for (int i = 0; i < options.driving_cars; ++i) {
     AddDrivingCar(world, random, path, 12 + 12 * i, 0, options.speed_mps);
@@ -111,9 +121,12 @@ void DescribeFields(FieldVisitor& visitor, StreetOptions& options) {
   visitor.Real("frame_rate_hz", options.frame_rate_hz, 0.1, 1000, "frames per second");
   visitor.Real("speed_mps", options.speed_mps, 0, 100, "speed of the camera");
   visitor.Real("bend_rad_per_m", options.bend_rad_per_m, 0, 0.05, "largest curvature of the road");
-  visitor.Real("free_fraction", options.free_fraction, 0, 1, "fraction of the parking spaces that are free");
-  visitor.Real("pole_spacing_m", options.pole_spacing_m, 1, 1e6, "distance between two poles of one side");
-  visitor.Integer("driving_cars", options.driving_cars, 0, 100, "cars that drive; every second one is oncoming");
+  visitor.Real("free_fraction", options.free_fraction, 0, 1,
+               "fraction of the parking spaces that are free");
+  visitor.Real("pole_spacing_m", options.pole_spacing_m, 1, 1e6,
+               "distance between two poles of one side");
+  visitor.Integer("driving_cars", options.driving_cars, 0, 100,
+                  "cars that drive; every second one is oncoming");
 }
 
 void DescribeFields(FieldVisitor& visitor, ParkingLotOptions& options) {
@@ -121,8 +134,10 @@ void DescribeFields(FieldVisitor& visitor, ParkingLotOptions& options) {
   visitor.Real("frame_rate_hz", options.frame_rate_hz, 0.1, 1000, "frames per second");
   visitor.Real("speed_mps", options.speed_mps, 0, 100, "speed of the camera");
   visitor.Real("aisle_m", options.aisle_m, 5, 1000, "length of the rows of stalls");
-  visitor.Real("free_fraction", options.free_fraction, 0, 1, "fraction of the stalls that are free");
-  visitor.Integer("driving_cars", options.driving_cars, 0, 10, "cars that drive ahead of the camera");
+  visitor.Real("free_fraction", options.free_fraction, 0, 1,
+               "fraction of the stalls that are free");
+  visitor.Integer("driving_cars", options.driving_cars, 0, 10,
+                  "cars that drive ahead of the camera");
 }
 
 }  // namespace sslcd::sim

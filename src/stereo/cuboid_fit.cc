@@ -13,13 +13,15 @@
 namespace sslcd {
 namespace {
 
-/// What is solved for. x, z: centre on the ground, right of and before the camera; base: ground over the plane.
+/// What is solved for. x, z: centre on the ground, right of and before the camera; base: ground
+/// over the plane.
 enum Parameter { kX, kZ, kYaw, kLength, kWidth, kHeight, kBase, kBias, kParameters };
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// Corners of the image of a body of sheet metal, as shares of length, width, height from the middle of the bottom, for
-/// one of four symmetric quarters: tyre, bumper, side, roof. A cuboid's own corners stand out by decimetres.
+/// Corners of the image of a body of sheet metal, as shares of length, width, height from the
+/// middle of the bottom, for one of four symmetric quarters: tyre, bumper, side, roof. A cuboid's
+/// own corners stand out by decimetres.
 std::array<Vec3, 6> Quarter(const ClassPrior& prior) {
   const bool wheels = prior.overhang > 0;
   const double sill = wheels ? 0.14 : 0;
@@ -33,7 +35,8 @@ std::array<Vec3, 6> Quarter(const ClassPrior& prior) {
 
 class Problem {
  public:
-  Problem(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground, const LiftOptions& options)
+  Problem(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground,
+          const LiftOptions& options)
       : input_(input),
         camera_(camera.left),
         ground_(ground),
@@ -77,14 +80,17 @@ class Problem {
 
   /// Cauchy's for the scan, whose outliers are glass, wheel arches and what stands in front.
   double Weight(int row, double residual) const {
-    return row < static_cast<int>(rays_.size()) ? 1 / (1 + residual * residual / (kCauchy * kCauchy)) : 1;
+    return row < static_cast<int>(rays_.size())
+               ? 1 / (1 + residual * residual / (kCauchy * kCauchy))
+               : 1;
   }
   double Cost(const Eigen::VectorXd& residuals) const {
     const int scan = static_cast<int>(rays_.size());
     double cost = 0;
     for (int row = 0; row < residuals.size(); ++row) {
       const double square = residuals[row] * residuals[row];
-      cost += row < scan ? 0.5 * kCauchy * kCauchy * std::log1p(square / (kCauchy * kCauchy)) : 0.5 * square;
+      cost += row < scan ? 0.5 * kCauchy * kCauchy * std::log1p(square / (kCauchy * kCauchy))
+                         : 0.5 * square;
     }
     return cost;
   }
@@ -97,7 +103,8 @@ class Problem {
     const Vec2 ray = rays_[rays_.size() / 2];
     const ClassPrior& prior = input_.prior;
     const double along = std::abs(std::cos(yaw) * ray.x() + std::sin(yaw) * ray.y()) / ray.norm();
-    const double half = 0.5 * (prior.length_m * along + prior.width_m * std::sqrt(std::max(0., 1 - along * along)));
+    const double half =
+        0.5 * (prior.length_m * along + prior.width_m * std::sqrt(std::max(0., 1 - along * along)));
     const Vec2 centre = ray * depth + ray.normalized() * 0.7 * half;
     Parameters p;
     p << centre.x(), centre.y(), yaw, prior.length_m, prior.width_m, prior.height_m, 0, 0;
@@ -112,7 +119,8 @@ class Problem {
     const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
     for (int i = 0; i < kAlong; ++i) {
       for (int j = 0; j < kAcross; ++j) {
-        const double along = ((i + 0.5) / kAlong - 0.5) * p[kLength], across = ((j + 0.5) / kAcross - 0.5) * p[kWidth];
+        const double along = ((i + 0.5) / kAlong - 0.5) * p[kLength],
+                     across = ((j + 0.5) / kAcross - 0.5) * p[kWidth];
         const double x = p[kX] + c * along - s * across, z = p[kZ] + s * along + c * across;
         taken += std::any_of(input_.taken.begin(), input_.taken.end(),
                              [&](const Footprint& other) { return other.Contains(x, z, 0); });
@@ -124,7 +132,8 @@ class Problem {
  private:
   static constexpr double kCauchy = 2;
 
-  /// Where the ray (right, forward; 1 along the optical axis) meets the footprint, else the corner nearest to it.
+  /// Where the ray (right, forward; 1 along the optical axis) meets the footprint, else the corner
+  /// nearest to it.
   double Depth(const Parameters& p, const Vec2& ray) const {
     const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
     const Vec2 direction(c * ray.x() + s * ray.y(), -s * ray.x() + c * ray.y());
@@ -133,7 +142,8 @@ class Problem {
     double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
     for (int axis = 0; axis < 2; ++axis) {
       const double speed = std::abs(direction[axis]) > 1e-9 ? direction[axis] : 1e-9;
-      const double a = (-half[axis] - origin[axis]) / speed, b = (half[axis] - origin[axis]) / speed;
+      const double a = (-half[axis] - origin[axis]) / speed,
+                   b = (half[axis] - origin[axis]) / speed;
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
@@ -158,11 +168,14 @@ class Problem {
       for (int sign = 0; sign < 4; ++sign) {
         const double along = (sign & 1 ? 1 : -1) * part.x() * p[kLength];
         const double across = (sign & 2 ? 1 : -1) * part.y() * p[kWidth];
-        const Vec3 point = ground_.ToCamera(
-            {p[kX] + c * along - s * across, p[kBase] + part.z() * p[kHeight], p[kZ] + s * along + c * across});
+        const Vec3 point =
+            ground_.ToCamera({p[kX] + c * along - s * across, p[kBase] + part.z() * p[kHeight],
+                              p[kZ] + s * along + c * across});
         const double z = std::max(point.z(), 0.3);
-        const double u = camera_.fx * point.x() / z + camera_.cx, v = camera_.fy * point.y() / z + camera_.cy;
-        seen = {std::min(seen.left, u), std::min(seen.top, v), std::max(seen.right, u), std::max(seen.bottom, v)};
+        const double u = camera_.fx * point.x() / z + camera_.cx,
+                     v = camera_.fy * point.y() / z + camera_.cy;
+        seen = {std::min(seen.left, u), std::min(seen.top, v), std::max(seen.right, u),
+                std::max(seen.bottom, v)};
       }
     }
     return seen;
@@ -183,8 +196,8 @@ struct Solution {
   double cost;
 };
 
-Normal NormalEquations(const Problem& problem, const Parameters& p, const Eigen::VectorXd& residuals,
-                       Parameters& gradient) {
+Normal NormalEquations(const Problem& problem, const Parameters& p,
+                       const Eigen::VectorXd& residuals, Parameters& gradient) {
   Eigen::Matrix<double, Eigen::Dynamic, kParameters> jacobian(residuals.size(), int{kParameters});
   Eigen::VectorXd moved(residuals.size());
   for (int i = 0; i < kParameters; ++i) {
@@ -195,7 +208,8 @@ Normal NormalEquations(const Problem& problem, const Parameters& p, const Eigen:
     jacobian.col(i) = (moved - residuals) / kStep;
   }
   Eigen::VectorXd weights(residuals.size());
-  for (int row = 0; row < residuals.size(); ++row) weights[row] = problem.Weight(row, residuals[row]);
+  for (int row = 0; row < residuals.size(); ++row)
+    weights[row] = problem.Weight(row, residuals[row]);
   gradient = jacobian.transpose() * weights.cwiseProduct(residuals);
   return jacobian.transpose() * weights.asDiagonal() * jacobian;
 }
@@ -213,7 +227,8 @@ Solution Solve(const Problem& problem, Parameters p, int iterations) {
     damped.diagonal() *= 1 + damping;
     const Parameters next = solution.p - damped.ldlt().solve(gradient);
     problem.Residuals(next, tried);
-    const double cost = next.allFinite() ? problem.Cost(tried) : std::numeric_limits<double>::infinity();
+    const double cost =
+        next.allFinite() ? problem.Cost(tried) : std::numeric_limits<double>::infinity();
     if (!(cost < solution.cost)) {
       damping *= 8;
       if (damping > 1e6) break;
@@ -235,10 +250,12 @@ Pose PoseOf(const Parameters& p, const GroundFrame& ground) {
   object.col(0) = ground.axes.col(0) * std::cos(p[kYaw]) + ground.axes.col(2) * std::sin(p[kYaw]);
   object.col(2) = ground.axes.col(1);
   object.col(1) = object.col(2).cross(object.col(0));
-  return {lie::SO3<double>::FromMatrix(object), ground.ToCamera({p[kX], p[kBase] + 0.5 * p[kHeight], p[kZ]})};
+  return {lie::SO3<double>::FromMatrix(object),
+          ground.ToCamera({p[kX], p[kBase] + 0.5 * p[kHeight], p[kZ]})};
 }
 
-/// The best one's covariance and the scatter of all that explain what is seen nearly as well, by their likelihood.
+/// The best one's covariance and the scatter of all that explain what is seen nearly as well, by
+/// their likelihood.
 Normal Covariance(const std::vector<Solution>& solutions) {
   const Solution& best = solutions.front();
   Normal scatter = Normal::Zero();
@@ -255,8 +272,8 @@ Normal Covariance(const std::vector<Solution>& solutions) {
 
 }  // namespace
 
-std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera, const GroundFrame& ground,
-                                   const LiftOptions& options) {
+std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera,
+                                   const GroundFrame& ground, const LiftOptions& options) {
   if (input.scan.empty()) return std::nullopt;
   const Problem problem(input, camera, ground, options);
   constexpr int kStarts = 12;
@@ -264,11 +281,13 @@ std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& ca
   for (int i = 0; i < kStarts; ++i) {
     Solution solution = Solve(problem, problem.Start(i * M_PI / kStarts), 15);
     solution.cost += problem.Crowding(solution.p);
-    const bool sound = solution.p.segment<3>(kLength).minCoeff() > 0.1 && std::isfinite(solution.cost);
+    const bool sound =
+        solution.p.segment<3>(kLength).minCoeff() > 0.1 && std::isfinite(solution.cost);
     if (sound) solutions.push_back(solution);
   }
   if (solutions.empty()) return std::nullopt;
-  std::stable_sort(solutions.begin(), solutions.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::stable_sort(solutions.begin(), solutions.end(),
+                   [](const auto& a, const auto& b) { return a.cost < b.cost; });
   const Parameters& p = solutions.front().p;
   const Normal covariance = Covariance(solutions);
   if (!covariance.allFinite()) return std::nullopt;

@@ -15,29 +15,35 @@ namespace {
 constexpr int kBlock = 5;
 
 cv::Mat Scaled(const cv::Mat& image, double scale_x, double scale_y) {
-  if (scale_x == 1 && scale_y == 1) return image.clone();  // the matcher reads beyond the edges of a part
+  // the matcher reads beyond the edges of a part
+  if (scale_x == 1 && scale_y == 1) return image.clone();
   cv::Mat scaled;
   const bool smaller = scale_x < 1;
   cv::resize(image, scaled, {}, scale_x, scale_y, smaller ? cv::INTER_AREA : cv::INTER_CUBIC);
   return scaled;
 }
 
-/// Between the pixels of a row, by Catmull and Rom's cubic: straight lines between them would pull to whole pixels.
+/// Between the pixels of a row, by Catmull and Rom's cubic: straight lines between them would pull
+/// to whole pixels.
 float Between(const float* row, int columns, float x) {
   const int at = static_cast<int>(std::floor(x));
   const auto value = [&](int column) { return row[std::clamp(column, 0, columns - 1)]; };
-  const float t = x - static_cast<float>(at), a = value(at - 1), b = value(at), c = value(at + 1), d = value(at + 2);
+  const float t = x - static_cast<float>(at), a = value(at - 1), b = value(at), c = value(at + 1),
+              d = value(at + 2);
   return b + 0.5F * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-/// Semi-global matching pulls disparities to whole pixels, by up to a fifth of one: a metre at 20 m and a baseline of
-/// 12 cm. Lucas and Kanade's steps (IJCAI 1981) go to where the grey values fit: windows less their means, each pixel
-/// with its own disparity. Blurred, since what is finer than a pixel sticks to the pixels. Where there is nothing to
-/// fit, the matcher has but guessed. `step`: pixels of the whole image to one of these.
-void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step, cv::Mat& disparities) {
+/// Semi-global matching pulls disparities to whole pixels, by up to a fifth of one: a metre at 20 m
+/// and a baseline of 12 cm. Lucas and Kanade's steps (IJCAI 1981) go to where the grey values fit:
+/// windows less their means, each pixel with its own disparity. Blurred, since what is finer than a
+/// pixel sticks to the pixels. Where there is nothing to fit, the matcher has but guessed. `step`:
+/// pixels of the whole image to one of these.
+void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step,
+                       cv::Mat& disparities) {
   constexpr int kSteps = 2;
-  constexpr double kBlur = 1.2, kFlattest = 2;  // [px], [grey values per px, squared], both of the whole image
-  constexpr float kLongest = 0.6F;              // [px]
+  // [px], [grey values per px, squared], both of the whole image
+  constexpr double kBlur = 1.2, kFlattest = 2;
+  constexpr float kLongest = 0.6F;  // [px]
   const cv::Size window(9, 9);
   const auto blurred = [&](const cv::Mat& image) {
     cv::Mat out;
@@ -55,10 +61,13 @@ void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step, c
   for (int i = 0; i < kSteps; ++i) {
     cv::Mat error = cv::Mat::zeros(l.size(), CV_32F), slope = error.clone();
     for (int y = 0; y < l.rows; ++y) {
-      const float *in_left = l.ptr<float>(y), *in_right = r.ptr<float>(y), *disparity = disparities.ptr<float>(y);
+      const float *in_left = l.ptr<float>(y), *in_right = r.ptr<float>(y),
+                  *disparity = disparities.ptr<float>(y);
       for (int x = 0; x < l.cols; ++x) {
         if (!(disparity[x] > 0)) continue;
-        const auto there = [&](int column) { return Between(in_right, l.cols, column - disparity[x]); };
+        const auto there = [&](int column) {
+          return Between(in_right, l.cols, column - disparity[x]);
+        };
         error.at<float>(y, x) = there(x) - in_left[x];
         slope.at<float>(y, x) = 0.5F * (there(x + 1) - there(x - 1));
       }
@@ -87,13 +96,16 @@ GreyPair GreyOf(const StereoView& images, const StereoCamera& camera) {
   return {Grey(images.left), Grey(images.right), camera.disparity_at_infinity};
 }
 
-DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_disparity, double scale_x,
-                           double scale_y) {
+DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_disparity,
+                           double scale_x, double scale_y) {
   const int width = images.left.cols, height = images.left.rows;
-  const auto clamp = [](double value, int most) { return static_cast<int>(std::clamp<double>(value, 0, most)); };
+  const auto clamp = [](double value, int most) {
+    return static_cast<int>(std::clamp<double>(value, 0, most));
+  };
   const int left = clamp(std::floor(box.left), width), right = clamp(std::ceil(box.right), width);
   const int top = clamp(std::floor(box.top), height), bottom = clamp(std::ceil(box.bottom), height);
-  // What is found in the right image at the left of the box is part of the search; the matcher leaves out that margin.
+  // What is found in the right image at the left of the box is part of the search; the matcher
+  // leaves out that margin.
   const double most = (max_disparity + images.disparity_at_infinity) * scale_x;
   const int levels = 16 * std::max(1, static_cast<int>(std::ceil(most / 16)));
   const int margin = std::min(left, static_cast<int>(std::ceil(levels / scale_x)));
@@ -103,20 +115,23 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   const cv::Mat right_part = Scaled(images.right(part), scale_x, scale_y);
   if (left_part.cols <= levels + kBlock || left_part.rows < kBlock) return {};
 
-  const auto matcher = cv::StereoSGBM::create(0, levels, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 1, 31, 5, 0,
-                                              0, cv::StereoSGBM::MODE_SGBM);
+  const auto matcher =
+      cv::StereoSGBM::create(0, levels, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 1, 31, 5,
+                             0, 0, cv::StereoSGBM::MODE_SGBM);
   cv::Mat sixteenths;
   matcher->compute(left_part, right_part, sixteenths);
   DisparityPatch patch;
   patch.step_x = static_cast<double>(part.width) / left_part.cols;
   patch.step_y = static_cast<double>(part.height) / left_part.rows;
   const int skip = static_cast<int>(std::round(margin / patch.step_x));
-  patch.x0 = part.x + (skip + 0.5) * patch.step_x - 0.5;  // resize() keeps the corners of the image, not its pixels
+  // resize() keeps the corners of the image, not its pixels
+  patch.x0 = part.x + (skip + 0.5) * patch.step_x - 0.5;
   patch.y0 = part.y + 0.5 * patch.step_y - 0.5;
   cv::Mat disparities;
   sixteenths.convertTo(disparities, CV_32F, 1. / 16);
   RefineDisparities(left_part, right_part, patch.step_x, disparities);
-  patch.values = disparities.colRange(skip, disparities.cols) * patch.step_x - images.disparity_at_infinity;
+  patch.values =
+      disparities.colRange(skip, disparities.cols) * patch.step_x - images.disparity_at_infinity;
   patch.values.setTo(std::numeric_limits<float>::quiet_NaN(), ~(patch.values > 0));
   return patch;
 }

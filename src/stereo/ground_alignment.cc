@@ -21,8 +21,9 @@ struct CommonGround {
 };
 
 /// None: too few patches agree.
-std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundView& b, const StereoCamera& camera,
-                                             Pose motion, const GroundAlignmentOptions& options) {
+std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundView& b,
+                                             const StereoCamera& camera, Pose motion,
+                                             const GroundAlignmentOptions& options) {
   constexpr double kCell = 0.03;
   const GroundGrid grid = GridOf(options, kCell);
   const TopView from = SeeFromAbove(a.grey, camera.left, a.T_cam_ground, grid);
@@ -51,19 +52,22 @@ std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundVi
 
 /// The place on the ground that the left image has at this pixel.
 Vec3 PlaceOnGround(const StereoCamera& camera, const GroundPlane& plane, const cv::Point2f& left) {
-  const Vec3 ray((left.x - camera.left.cx) / camera.left.fx, (left.y - camera.left.cy) / camera.left.fy, 1);
+  const Vec3 ray((left.x - camera.left.cx) / camera.left.fx,
+                 (left.y - camera.left.cy) / camera.left.fy, 1);
   return ray * (-plane.height_m / plane.up.dot(ray));
 }
 
 /// Where the right image shows that place, to a fraction of a pixel.
 std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const StereoCamera& camera,
-                                       const GroundPlane& plane, const cv::Point2f& left, const cv::Point2f& guess) {
+                                       const GroundPlane& plane, const cv::Point2f& left,
+                                       const cv::Point2f& guess) {
   constexpr int kHalf = 7;
   const Vec3 point = PlaceOnGround(camera, plane, left);
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
   const auto homography = PlaneHomography(camera.left, T_right_left, point, plane.up);
   if (!homography) return std::nullopt;
-  const auto found = AlignPatch({images.left[0], left, point, kHalf}, *homography, images.right[0], guess);
+  const auto found =
+      AlignPatch({images.left[0], left, point, kHalf}, *homography, images.right[0], guess);
   if (!found) return std::nullopt;
   return found->at;
 }
@@ -76,8 +80,8 @@ struct PairView {
 };
 
 /// Where both images of a pair show places on the ground that the left one has at these pixels.
-PairView InBothImages(const StereoView& images, const StereoCamera& camera, const GroundPlane& plane,
-                      const std::vector<cv::Point2f>& left) {
+PairView InBothImages(const StereoView& images, const StereoCamera& camera,
+                      const GroundPlane& plane, const std::vector<cv::Point2f>& left) {
   StereoOdometryOptions options;
   options.patch_px = 15;  // seen from so near, and so weak in texture
   const StereoPyramids pyramids = BuildPyramids(images, options);
@@ -99,8 +103,8 @@ PairView InBothImages(const StereoView& images, const StereoCamera& camera, cons
 
 constexpr double kLeastPx = 0.1;  // finer than that nothing is found
 
-/// By the noise of the left pixel. The right column is looked for from there: it is off by as much, and the disparity
-/// by its own.
+/// By the noise of the left pixel. The right column is looked for from there: it is off by as much,
+/// and the disparity by its own.
 Eigen::Matrix3d WeightBy(double column_px, double row_px) {
   constexpr double kDisparityPx = 0.15;
   Eigen::Matrix3d weight;
@@ -110,51 +114,61 @@ Eigen::Matrix3d WeightBy(double column_px, double row_px) {
   return weight;
 }
 
-/// Patches of ground are laid over each other to half a pixel of the view that has them farther away: what that is in
-/// this view, which has them `here` metres ahead, the other one `there`.
-Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, double here, double there) {
+/// Patches of ground are laid over each other to half a pixel of the view that has them farther
+/// away: what that is in this view, which has them `here` metres ahead, the other one `there`.
+Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, double here,
+                              double there) {
   constexpr double kPatchPx = 0.5;
   const double off_m = kPatchPx * std::max(here, there) / camera.left.fx;
   return WeightBy(std::hypot(kLeastPx, off_m * camera.left.fx / here),
                   std::hypot(kLeastPx, off_m * camera.left.fy * height_m / (here * here)));
 }
 
-/// The pose T_a_b of the left cameras that fits all four images best, from `guess` on. None: too few places.
-std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_b, const StereoCamera& camera,
-                                       const Pose& guess, int min_points) {
+/// The pose T_a_b of the left cameras that fits all four images best, from `guess` on. None: too
+/// few places.
+std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_b,
+                                       const StereoCamera& camera, const Pose& guess,
+                                       int min_points) {
   StereoFrame a, b{guess, {}};
   OdometryPoints points;
   for (int i = 0; i < static_cast<int>(in_a.pixels.size()); ++i) {
     const StereoPixel &pixel_a = in_a.pixels[i], &pixel_b = in_b.pixels[i];
     const bool placed_by_a = !std::isnan(pixel_a.right);
     if (!placed_by_a && std::isnan(pixel_b.right)) continue;
-    points[i] = placed_by_a ? Triangulate(camera, pixel_a) : Vec3(guess * Triangulate(camera, pixel_b));
+    points[i] =
+        placed_by_a ? Triangulate(camera, pixel_a) : Vec3(guess * Triangulate(camera, pixel_b));
     a.sightings.push_back({i, pixel_a, WeightBy(kLeastPx, kLeastPx)});  // places are chosen there
     b.sightings.push_back(
-        {i, pixel_b, WeightOfPatch(camera, in_b.plane.height_m, in_b.places[i].z(), in_a.places[i].z())});
+        {i, pixel_b,
+         WeightOfPatch(camera, in_b.plane.height_m, in_b.places[i].z(), in_a.places[i].z())});
   }
   if (static_cast<int>(points.size()) < min_points) return std::nullopt;
   constexpr double kLoss = 2;  // standard deviations
   RefineWindow(camera, 1, {&a, &b}, kLoss, points);
-  // Patches overlap, and errors of neighbours are alike. Noise is what the weights say, or more where residuals do.
+  // Patches overlap, and errors of neighbours are alike. Noise is what the weights say, or more
+  // where residuals do.
   constexpr double kAlike = 2.5;
-  const double noise =
-      std::max({1., ResidualScale(camera, a, points).z(), ResidualScale(camera, b, points).maxCoeff()});
+  const double noise = std::max(
+      {1., ResidualScale(camera, a, points).z(), ResidualScale(camera, b, points).maxCoeff()});
   return RelativePose{b.T_odom_left, kAlike * StepCovariance(camera, a, b, points, noise)};
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
-  visitor.Real("near_m", options.near_m, 0.5, 50, "the ground looked at: from so far ahead of the first camera ...");
+  visitor.Real("near_m", options.near_m, 0.5, 50,
+               "the ground looked at: from so far ahead of the first camera ...");
   visitor.Real("length_m", options.length_m, 3, 50, "... and so far beyond that");
   visitor.Real("half_width_m", options.half_width_m, 2, 30, "... and so far to either side");
-  visitor.Real("search_m", options.search_m, 0.06, 5,
-               "how far off the guess may be, in each direction; more of it takes ground off the edges ...");
+  visitor.Real(
+      "search_m", options.search_m, 0.06, 5,
+      "how far off the guess may be, in each direction; more of it takes ground off the edges ...");
   visitor.Real("search_rad", options.search_rad, 0, 0.5, "... and in heading");
-  visitor.Integer("min_patches", options.min_patches, 3, 10000, "so many patches of ground must agree ...");
+  visitor.Integer("min_patches", options.min_patches, 3, 10000,
+                  "so many patches of ground must agree ...");
   visitor.Real("min_share", options.min_share, 0, 1, "... and this share of those that both see");
-  visitor.Real("max_sigma_m", options.max_sigma_m, 0, 100, "found only if its place is known this well");
+  visitor.Real("max_sigma_m", options.max_sigma_m, 0, 100,
+               "found only if its place is known this well");
 }
 
 std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m) {
@@ -164,11 +178,13 @@ std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m)
   return nearest + 0.5 * kCommon;
 }
 
-std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
-                                        const Pose& T_a_b_guess, const GroundOptions& ground,
+std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b,
+                                        const StereoCamera& camera, const Pose& T_a_b_guess,
+                                        const GroundOptions& ground,
                                         const GroundAlignmentOptions& options) {
   for (const StereoView* view : {&a, &b}) CheckSize(view->left, camera.left);
-  const GroundPlane plane_a = EstimateGround(a, camera, {}, ground), plane_b = EstimateGround(b, camera, {}, ground);
+  const GroundPlane plane_a = EstimateGround(a, camera, {}, ground),
+                    plane_b = EstimateGround(b, camera, {}, ground);
   if (std::min(plane_a.support, plane_b.support) < kGroundSupport) return std::nullopt;
   const GroundView view_a{Grey(a.left), LevelOn(plane_a)}, view_b{Grey(b.left), LevelOn(plane_b)};
   const Pose T_left_ref = Pose::Trans(camera.left.offset);
@@ -182,10 +198,11 @@ std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b
   }
   if (!common) return std::nullopt;
   const Pose by_planes = view_a.T_cam_ground * common->motion * view_b.T_cam_ground.inverse();
-  const std::optional<RelativePose> left =
-      AdjustPose(InBothImages(a, camera, plane_a, common->in_a), InBothImages(b, camera, plane_b, common->in_b), camera,
-                 by_planes, options.min_patches);
-  if (!left || !(std::sqrt(left->covariance.topLeftCorner<3, 3>().trace()) <= options.max_sigma_m)) return std::nullopt;
+  const std::optional<RelativePose> left = AdjustPose(
+      InBothImages(a, camera, plane_a, common->in_a),
+      InBothImages(b, camera, plane_b, common->in_b), camera, by_planes, options.min_patches);
+  if (!left || !(std::sqrt(left->covariance.topLeftCorner<3, 3>().trace()) <= options.max_sigma_m))
+    return std::nullopt;
   // Exp(d) in the left camera's axes is Exp(Adj(T_ref_left) d) in the reference camera's.
   const Pose::Matrix6 adjoint = T_left_ref.inverse().Adj();
   return RelativePose{T_left_ref.inverse() * left->T_a_b * T_left_ref,

@@ -16,18 +16,22 @@ struct GroundFrame {
     const Vec3 ahead = (Vec3::UnitZ() - plane.up.z() * plane.up).normalized();
     axes << ahead.cross(plane.up), plane.up, ahead;
   }
-  Vec3 FromCamera(const Vec3& point) const { return axes.transpose() * point + Vec3(0, height_m, 0); }
+  Vec3 FromCamera(const Vec3& point) const {
+    return axes.transpose() * point + Vec3(0, height_m, 0);
+  }
   Vec3 ToCamera(const Vec3& point) const { return axes * (point - Vec3(0, height_m, 0)); }
 };
 
-/// The rectangle on the ground that an object stands on, in the GroundFrame. Yaw from right to ahead.
+/// The rectangle on the ground that an object stands on, in the GroundFrame. Yaw from right to
+/// ahead.
 struct Footprint {
   double x = 0, z = 0, yaw = 0, length = 0, width = 0;
 
   /// Within it, or less than `margin` outside.
   bool Contains(double at_x, double at_z, double margin) const {
     const double c = std::cos(yaw), s = std::sin(yaw), dx = at_x - x, dz = at_z - z;
-    return std::abs(c * dx + s * dz) <= 0.5 * length + margin && std::abs(-s * dx + c * dz) <= 0.5 * width + margin;
+    return std::abs(c * dx + s * dz) <= 0.5 * length + margin &&
+           std::abs(-s * dx + c * dz) <= 0.5 * width + margin;
   }
 };
 

@@ -8,11 +8,14 @@
 namespace sslcd {
 namespace {
 
-/// Calls use(patch, scores) for each patch of the first view that both views show, its surroundings in the second one
-/// included. `scores`: correlation [-1, 1] for shifts of up to `search` cells each way.
+/// Calls use(patch, scores) for each patch of the first view that both views show, its surroundings
+/// in the second one included. `scores`: correlation [-1, 1] for shifts of up to `search` cells
+/// each way.
 template <class Use>
 void ForEachPatch(const TopView& from, const TopView& to, int half, int search, const Use& use) {
-  const auto all_seen = [](const cv::Mat& seen) { return cv::countNonZero(seen) == seen.rows * seen.cols; };
+  const auto all_seen = [](const cv::Mat& seen) {
+    return cv::countNonZero(seen) == seen.rows * seen.cols;
+  };
   const int margin = half + search, side = 2 * half + 1;
   for (int row = margin; row < from.grey.rows - margin; row += half) {
     for (int column = margin; column < from.grey.cols - margin; column += half) {
@@ -27,22 +30,26 @@ void ForEachPatch(const TopView& from, const TopView& to, int half, int search, 
 }
 
 /// Where the parabola through three values has its top, from the middle one.
-double Top(double before, double here, double after) { return 0.5 * (before - after) / (before - 2 * here + after); }
+double Top(double before, double here, double after) {
+  return 0.5 * (before - after) / (before - 2 * here + after);
+}
 
 }  // namespace
 
 Pose OnGround(const Pose& T) {
   const Vec3 ahead = T.so3() * Vec3(Vec3::UnitZ());
-  return Pose::Trans(T.translation().x(), 0, T.translation().z()) * Pose::RotY(std::atan2(ahead.x(), ahead.z()));
+  return Pose::Trans(T.translation().x(), 0, T.translation().z()) *
+         Pose::RotY(std::atan2(ahead.x(), ahead.z()));
 }
 
 GroundGrid GridOf(const GroundAlignmentOptions& options, double cell) {
-  return {-options.half_width_m, options.near_m, cell, static_cast<int>(2 * options.half_width_m / cell),
+  return {-options.half_width_m, options.near_m, cell,
+          static_cast<int>(2 * options.half_width_m / cell),
           static_cast<int>(options.length_m / cell)};
 }
 
-std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera, const Pose& guess,
-                               const GroundAlignmentOptions& options) {
+std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
+                               const Pose& guess, const GroundAlignmentOptions& options) {
   constexpr double kCell = 0.06, kTurn = 0.01;
   constexpr int kHalf = 7, kFewest = 5;
   const GroundGrid grid = GridOf(options, kCell);
@@ -57,7 +64,8 @@ std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const S
     const TopView to = SeeFromAbove(b.grey, camera.left, b.T_cam_ground * turned.inverse(), grid);
     cv::Mat sum(2 * search + 1, 2 * search + 1, CV_32F, cv::Scalar(0));
     int count = 0;
-    ForEachPatch(from, to, kHalf, search, [&](const cv::Rect&, const cv::Mat& scores) { sum += scores, ++count; });
+    ForEachPatch(from, to, kHalf, search,
+                 [&](const cv::Rect&, const cv::Mat& scores) { sum += scores, ++count; });
     if (count < kFewest) continue;
     double score = 0;
     cv::Point at;
@@ -69,8 +77,8 @@ std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const S
   return best;
 }
 
-std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, const GroundGrid& grid, int search,
-                                     int& tried) {
+std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, const GroundGrid& grid,
+                                     int search, int& tried) {
   constexpr int kHalf = 20;
   constexpr double kMinScore = 0.5;
   std::vector<GroundPair> pairs;
@@ -81,7 +89,9 @@ std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, con
     cv::minMaxLoc(scores, nullptr, &score, nullptr, &at);
     const cv::Rect inner(1, 1, scores.cols - 2, scores.rows - 2);
     if (score < kMinScore || !inner.contains(at)) return;
-    const auto near = [&](int x, int y) { return static_cast<double>(scores.at<float>(at.y + y, at.x + x)); };
+    const auto near = [&](int x, int y) {
+      return static_cast<double>(scores.at<float>(at.y + y, at.x + x));
+    };
     const double x = at.x - search + Top(near(-1, 0), near(0, 0), near(1, 0));
     const double y = at.y - search + Top(near(0, -1), near(0, 0), near(0, 1));
     const int column = patch.x + kHalf, row = patch.y + kHalf;
@@ -113,7 +123,9 @@ Pose FitMotion(std::vector<GroundPair>& pairs) {
     for (std::size_t i = 0; i < pairs.size(); ++i)
       weights[i] = 1 / (1 + std::pow((motion * pairs[i].in_b - pairs[i].in_a).norm() / kScale, 2));
   }
-  const auto differs = [&](const GroundPair& pair) { return !((motion * pair.in_b - pair.in_a).norm() < kAgree); };
+  const auto differs = [&](const GroundPair& pair) {
+    return !((motion * pair.in_b - pair.in_a).norm() < kAgree);
+  };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), differs), pairs.end());
   return motion;
 }

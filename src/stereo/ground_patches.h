@@ -8,8 +8,8 @@
 #include "sslcd/stereo/ground_alignment.h"
 #include "stereo/top_view.h"
 
-/// Two views of one ground, laid over each other. T_a_b is between their ground frames (LevelOn) here: a shift in x and
-/// z, and a heading about y.
+/// Two views of one ground, laid over each other. T_a_b is between their ground frames (LevelOn)
+/// here: a shift in x and z, and a heading about y.
 namespace sslcd {
 
 /// An image, and where its camera stands above its own ground.
@@ -18,28 +18,30 @@ struct GroundView {
   Pose T_cam_ground;
 };
 
-/// Of a pose between two ground frames, what a camera can do that stays on the ground: shift and heading.
+/// Of a pose between two ground frames, what a camera can do that stays on the ground: shift and
+/// heading.
 Pose OnGround(const Pose& T);
 
 /// What `options` has us look at, in the first view's ground frame.
 GroundGrid GridOf(const GroundAlignmentOptions& options, double cell);
 
-/// The motion T_a_b, near `guess`, at which all patches together fit best: to a cell. A coarse view: what is looked for
-/// is large.
-std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera, const Pose& guess,
-                               const GroundAlignmentOptions& options);
+/// The motion T_a_b, near `guess`, at which all patches together fit best: to a cell. A coarse
+/// view: what is looked for is large.
+std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
+                               const Pose& guess, const GroundAlignmentOptions& options);
 
 /// A place on the ground as the first view has it, and where the second one shows the same. [m]
 struct GroundPair {
   Vec3 in_a, in_b;
 };
 
-/// Patches of the first view that are found in the second one, up to `search` cells away, to a fraction of a cell.
-/// `tried`: how many both views show.
-std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, const GroundGrid& grid, int search,
-                                     int& tried);
+/// Patches of the first view that are found in the second one, up to `search` cells away, to a
+/// fraction of a cell. `tried`: how many both views show.
+std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, const GroundGrid& grid,
+                                     int search, int& tried);
 
-/// The motion that takes in_b to in_a: least squares with Geman and McClure's weights. Keeps the pairs that agree.
+/// The motion that takes in_b to in_a: least squares with Geman and McClure's weights. Keeps the
+/// pairs that agree.
 Pose FitMotion(std::vector<GroundPair>& pairs);
 
 }  // namespace sslcd

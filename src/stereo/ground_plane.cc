@@ -31,8 +31,8 @@ bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
 }
 
 /// What is known of the pixels below the horizon.
-std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& camera, const std::vector<Box2d>& objects,
-                                  const GroundOptions& options) {
+std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& camera,
+                                  const std::vector<Box2d>& objects, const GroundOptions& options) {
   const Camera& left = camera.left;
   const double width = grey.left.cols, height = grey.left.rows;
   const double horizon = left.cy + options.tilt_sigma_rad * left.fy;
@@ -40,16 +40,19 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
   const double bf = camera.baseline_m * left.fx;
   const double nearest = options.height_m * left.fy / (height - left.cy);
   const double scale = std::min(1., 640 / width);  // coarse pixels will do: there are many
-  const DisparityPatch patch = MatchInside(grey, {0, horizon, width, height}, 1.3 * bf / nearest, scale, scale);
+  const DisparityPatch patch =
+      MatchInside(grey, {0, horizon, width, height}, 1.3 * bf / nearest, scale, scale);
   if (patch.values.empty()) return {};
   std::vector<Sample> samples;
   for (int y = 0; y < patch.values.rows; ++y) {
     for (int x = 0; x < patch.values.cols; ++x) {
       const double disparity = patch.values.at<float>(y, x);
       if (!(disparity > 0)) continue;
-      const int u = static_cast<int>(patch.x0 + patch.step_x * x), v = static_cast<int>(patch.y0 + patch.step_y * y);
+      const int u = static_cast<int>(patch.x0 + patch.step_x * x),
+                v = static_cast<int>(patch.y0 + patch.step_y * y);
       if (Covers(objects, u, v)) continue;
-      samples.push_back({-bf * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1), disparity, u, v});
+      samples.push_back(
+          {-bf * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1), disparity, u, v});
     }
   }
   const std::size_t every = 1 + samples.size() / static_cast<std::size_t>(options.samples);
@@ -70,7 +73,8 @@ bool IsOn(const Vec3& q, const Sample& sample, const GroundOptions& options) {
   return std::abs(sample.row.dot(q) - sample.disparity) < kGate * options.disparity_sigma_px;
 }
 
-Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior, const GroundOptions& options) {
+Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior,
+                  const GroundOptions& options) {
   std::mt19937 random(static_cast<unsigned>(options.seed));
   constexpr std::size_t kEvery = 10;
   const auto support = [&](const Vec3& q) {
@@ -98,8 +102,8 @@ Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior, const G
   return best;
 }
 
-/// Information and right-hand side of the prior: roll and pitch turn `up` by their sine; a height that is off by dh
-/// changes q by dh / height^2.
+/// Information and right-hand side of the prior: roll and pitch turn `up` by their sine; a height
+/// that is off by dh changes q by dh / height^2.
 struct Equations {
   Eigen::Matrix3d information;
   Vec3 right;
@@ -122,15 +126,16 @@ Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOption
     Equations equations(options);
     for (const Sample& sample : samples) {
       if (IsOn(q, sample, options))
-        equations.Add(sample.row, sample.disparity, 1 / (options.disparity_sigma_px * options.disparity_sigma_px));
+        equations.Add(sample.row, sample.disparity,
+                      1 / (options.disparity_sigma_px * options.disparity_sigma_px));
     }
     q = equations.Solution();
   }
   return q;
 }
 
-/// Without the brightness of the surroundings, in which the two cameras may differ. Of the same row only: a row of the
-/// ground is shifted as a whole, the rows above and below it by something else.
+/// Without the brightness of the surroundings, in which the two cameras may differ. Of the same row
+/// only: a row of the ground is shifted as a whole, the rows above and below it by something else.
 cv::Mat Detail(const cv::Mat& grey) {
   cv::Mat image, fine, coarse;
   grey.convertTo(image, CV_32F);
@@ -139,18 +144,20 @@ cv::Mat Detail(const cv::Mat& grey) {
   return fine - coarse;
 }
 
-/// A pixel of the ground in both images: by how much they differ, and by how much less if the disparity were a pixel
-/// larger, both in grey levels.
+/// A pixel of the ground in both images: by how much they differ, and by how much less if the
+/// disparity were a pixel larger, both in grey levels.
 struct Difference {
   Vec3 row;
   double disparity, error, slope;
 };
 
-/// Semi-global matching lags behind on a slope, by a third of a pixel on the ground; so the plane that it has found is
-/// laid over the images themselves: least squares of their difference (Lucas and Kanade 1981, with a plane's three
-/// unknowns). Far ground has little texture, and what stands on it has much: the weights of Geman and McClure and the
-/// square of the disparity keep its edges from tilting the plane; where nothing near has texture, the far still counts.
-Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
+/// Semi-global matching lags behind on a slope, by a third of a pixel on the ground; so the plane
+/// that it has found is laid over the images themselves: least squares of their difference (Lucas
+/// and Kanade 1981, with a plane's three unknowns). Far ground has little texture, and what stands
+/// on it has much: the weights of Geman and McClure and the square of the disparity keep its edges
+/// from tilting the plane; where nothing near has texture, the far still counts.
+Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
+           const GroundOptions& options) {
   constexpr double kLeastNoise = 1;  // grey levels, which are whole numbers
   constexpr int kRounds = 12;
   const int top = samples.front().v;  // rows above are of no use; samples go by rows
@@ -168,7 +175,8 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
     std::vector<Difference> differences;
     std::vector<double> errors;
     for (const Sample& sample : ground) {
-      const double disparity = sample.row.dot(q), at = sample.u - disparity - grey.disparity_at_infinity;
+      const double disparity = sample.row.dot(q),
+                   at = sample.u - disparity - grey.disparity_at_infinity;
       if (!(at >= 1 && at < right.cols - 3)) continue;
       const int x = static_cast<int>(at);
       const float part = static_cast<float>(at - x);
@@ -184,7 +192,8 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
     const double noise = std::max(kLeastNoise, Median(std::move(errors)));
     Equations equations(options);
     for (const auto& [row, disparity, error, slope] : differences) {
-      const double inlier = noise * noise / (noise * noise + error * error), near = disparity / nearest;
+      const double inlier = noise * noise / (noise * noise + error * error),
+                   near = disparity / nearest;
       const double weight = std::pow(near * inlier * slope / noise, 2);
       if (weight > 0) equations.Add(row, disparity + error / slope, weight);
     }
@@ -199,7 +208,8 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q, con
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
-  visitor.Real("height_m", options.height_m, 0.05, 20, "height of the camera above the ground, as far as known");
+  visitor.Real("height_m", options.height_m, 0.05, 20,
+               "height of the camera above the ground, as far as known");
   visitor.Real("height_sigma_m", options.height_sigma_m, 1e-3, 10, "its standard deviation");
   visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-4, 0.5,
                "standard deviation of the camera's roll and pitch against the ground");
@@ -210,8 +220,8 @@ void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
   visitor.Integer("seed", options.seed, 0, 2147483647, "seed of RANSAC");
 }
 
-GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, const std::vector<Box2d>& objects,
-                           const GroundOptions& options) {
+GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
+                           const std::vector<Box2d>& objects, const GroundOptions& options) {
   constexpr std::size_t kFewest = 100;
   const std::vector<Sample> samples = GroundSamples(grey, camera, objects, options);
   Vec3 q = Vec3(0, -1, 0) / options.height_m;
@@ -223,8 +233,8 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, con
       const Vec3 aligned = Align(grey, samples, found, options);
       q = IsPlausible(aligned, options) ? aligned : found;
       const auto on = [&](const Sample& sample) { return IsOn(q, sample, options); };
-      plane.support =
-          static_cast<double>(std::count_if(samples.begin(), samples.end(), on)) / static_cast<double>(samples.size());
+      plane.support = static_cast<double>(std::count_if(samples.begin(), samples.end(), on)) /
+                      static_cast<double>(samples.size());
     }
   }
   plane.height_m = 1 / q.norm();
@@ -232,13 +242,14 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, con
   return plane;
 }
 
-GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
-                           const GroundOptions& options) {
+GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera,
+                           const std::vector<Box2d>& objects, const GroundOptions& options) {
   return EstimateGround(GreyOf(images, camera), camera, objects, options);
 }
 
 std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
-                                       const std::vector<Box2d>& objects, const GroundOptions& options) {
+                                       const std::vector<Box2d>& objects,
+                                       const GroundOptions& options) {
   const GreyPair grey = GreyOf(images, camera);
   GroundPlane best;
   for (const double factor : {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.}) {

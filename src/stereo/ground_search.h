@@ -9,7 +9,7 @@
 namespace sslcd {
 
 /// For images that are grey already.
-GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera, const std::vector<Box2d>& objects,
-                           const GroundOptions& options);
+GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
+                           const std::vector<Box2d>& objects, const GroundOptions& options);
 
 }  // namespace sslcd

@@ -14,11 +14,13 @@ namespace sslcd {
 namespace {
 
 bool IsFinite(const Box2d& box) {
-  return std::isfinite(box.left) && std::isfinite(box.top) && std::isfinite(box.right) && std::isfinite(box.bottom);
+  return std::isfinite(box.left) && std::isfinite(box.top) && std::isfinite(box.right) &&
+         std::isfinite(box.bottom);
 }
 
 Box2d Clipped(const Box2d& box, const ImageView& image) {
-  return {std::max(box.left, 0.), std::max(box.top, 0.), std::min<double>(box.right, image.width - 1),
+  return {std::max(box.left, 0.), std::max(box.top, 0.),
+          std::min<double>(box.right, image.width - 1),
           std::min<double>(box.bottom, image.height - 1)};
 }
 
@@ -27,7 +29,8 @@ double Overlap(double low_a, double high_a, double low_b, double high_b) {
 }
 
 /// Sides at the image's border, and those where a box begins that stands nearer.
-BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image, const Box2d& sigmas) {
+BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image,
+                   const Box2d& sigmas) {
   constexpr double kShare = 0.25;  // of a side, hidden
   BoxSides open;
   open.left_open = box.left < sigmas.left;
@@ -38,9 +41,13 @@ BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const Im
   if (open.left_open || open.right_open) open.top_open = open.bottom_open = true;
   for (const Nearer& object : nearer) {
     const Box2d& other = object.box;
-    const bool beside = Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
-    const bool below = Overlap(box.left, box.right, other.left, other.right) > kShare * (box.right - box.left);
-    const auto covers = [&](double u) { return u > other.left - sigmas.left && u < other.right + sigmas.right; };
+    const bool beside =
+        Overlap(box.top, box.bottom, other.top, other.bottom) > kShare * (box.bottom - box.top);
+    const bool below =
+        Overlap(box.left, box.right, other.left, other.right) > kShare * (box.right - box.left);
+    const auto covers = [&](double u) {
+      return u > other.left - sigmas.left && u < other.right + sigmas.right;
+    };
     open.left_open |= beside && covers(box.left);
     open.right_open |= beside && covers(box.right);
     open.bottom_open |= below && other.top < box.bottom;
@@ -48,13 +55,14 @@ BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const Im
   return open;
 }
 
-/// Fine for what is small in the image, coarse for what is large: about as many pixels for each box.
+/// Fine for what is small in the image, coarse for what is large: about as many pixels for each
+/// box.
 DisparityPatch Match(const GreyPair& grey, const Box2d& box, double max_disparity) {
   const double height = box.bottom - box.top;
   const double scale = height > 240 ? 0.5 : 1;
   const double pad = 4;
-  return MatchInside(grey, {box.left - pad, box.top - pad, box.right + pad, box.bottom + pad}, max_disparity,
-                     height < 80 ? 2 : scale, scale);
+  return MatchInside(grey, {box.left - pad, box.top - pad, box.right + pad, box.bottom + pad},
+                     max_disparity, height < 80 ? 2 : scale, scale);
 }
 
 /// Below the glass, above what lies on the ground; no deeper than a side seen at an angle.
@@ -78,7 +86,8 @@ LiftedBox Finish(const CuboidFit& fit, const ImageDetection& image, const Stereo
   lifted.covariance = fit.covariance;
   const Eigen::Matrix3d rows = RayFrame(centre);
   const Vec3 variance = (rows * fit.covariance * rows.transpose()).diagonal().cwiseMax(0);
-  lifted.sigmas = {std::sqrt(variance.x()), std::sqrt(variance.y()), std::sqrt(variance.z()), fit.yaw_sigma};
+  lifted.sigmas = {std::sqrt(variance.x()), std::sqrt(variance.y()), std::sqrt(variance.z()),
+                   fit.yaw_sigma};
   lifted.dims_sigma = fit.dims_sigma;
   return lifted;
 }
@@ -93,7 +102,8 @@ struct Scene {
 };
 
 /// What can be said against a box before its pixels are looked at.
-std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& box, const LiftOptions& options) {
+std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& box,
+                                  const LiftOptions& options) {
   if (options.classes.count(detection.label) == 0) return LiftStatus::kUnknownLabel;
   if (!IsFinite(detection.box) || !(box.Area() > 0)) return LiftStatus::kBadBox;
   if (!(box.bottom - box.top >= options.min_height_px)) return LiftStatus::kTooSmall;
@@ -102,33 +112,39 @@ std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& 
 
 /// Standard deviations of the sides of a box.
 Box2d SigmasOf(const Box2d& box, const LiftOptions& options) {
-  const double x = std::hypot(options.box_sigma_px, options.box_sigma_share * (box.right - box.left));
-  const double y = std::hypot(options.box_sigma_px, options.box_sigma_share * (box.bottom - box.top));
+  const double x =
+      std::hypot(options.box_sigma_px, options.box_sigma_share * (box.right - box.left));
+  const double y =
+      std::hypot(options.box_sigma_px, options.box_sigma_share * (box.bottom - box.top));
   return {x, y, x, y};
 }
 
 /// As far as the object of a coarse box may reach.
 Box2d Around(const Box2d& box, const Box2d& sigmas, const ImageView& image) {
   constexpr double kSigmas = 2;
-  return Clipped({box.left - kSigmas * sigmas.left, box.top - kSigmas * sigmas.top, box.right + kSigmas * sigmas.right,
-                  box.bottom + kSigmas * sigmas.bottom},
+  return Clipped({box.left - kSigmas * sigmas.left, box.top - kSigmas * sigmas.top,
+                  box.right + kSigmas * sigmas.right, box.bottom + kSigmas * sigmas.bottom},
                  image);
 }
 
 /// Two measurements of a side become one.
 void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
-  const double weight = 1 / (sigma_px * sigma_px), side_weight = 1 / (side_sigma_px * side_sigma_px);
+  const double weight = 1 / (sigma_px * sigma_px),
+               side_weight = 1 / (side_sigma_px * side_sigma_px);
   side = (weight * at + side_weight * side) / (weight + side_weight);
   side_sigma_px = 1 / std::sqrt(weight + side_weight);
 }
 
-/// Where the box is coarse, the ends of the contour tell of its sides, too. Of a contour with gaps, the part that has
-/// most points in the box is the object's.
+/// Where the box is coarse, the ends of the contour tell of its sides, too. Of a contour with gaps,
+/// the part that has most points in the box is the object's.
 void TakeSidesOfContour(const Box2d& around, FitInput& input) {
-  constexpr double kGap = 0.25, kSigma = 0.05;  // share of the box's width: what is seen through, or without texture
+  // share of the box's width: what is seen through, or without texture
+  constexpr double kGap = 0.25, kSigma = 0.05;
   const Box2d box = input.box;
   const double width = box.right - box.left;
-  const auto inside = [&](const ScanPoint& point) { return point.u >= box.left && point.u <= box.right; };
+  const auto inside = [&](const ScanPoint& point) {
+    return point.u >= box.left && point.u <= box.right;
+  };
   auto first = input.scan.begin(), best_first = first, best_last = first;
   std::ptrdiff_t most = -1;
   for (auto at = first; at != input.scan.end(); ++at) {
@@ -141,21 +157,25 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
   input.scan = {best_first, best_last};
   // A contour that goes on to where nothing was looked at has no end.
   const double left = input.scan.front().u, right = input.scan.back().u, sigma = kSigma * width;
-  if (!input.sides.left_open && left > around.left + sigma) Merge(left, sigma, input.box.left, input.sigmas.left);
-  if (!input.sides.right_open && right < around.right - sigma) Merge(right, sigma, input.box.right, input.sigmas.right);
+  if (!input.sides.left_open && left > around.left + sigma)
+    Merge(left, sigma, input.box.left, input.sigmas.left);
+  if (!input.sides.right_open && right < around.right - sigma)
+    Merge(right, sigma, input.box.right, input.sigmas.right);
 }
 
 /// A cuboid for a box, or why not.
-LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer, const ClassPrior& prior,
-                CuboidFit& answer) {
-  constexpr double kElsewhere = 1;                   // the cost of a column that is not the object's
+LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer,
+                const ClassPrior& prior, CuboidFit& answer) {
+  // the cost of a column that is not the object's
+  constexpr double kElsewhere = 1;
   constexpr double kBoxError = 5, kScanError = 2.5;  // [sigmas]
-  const double max_disparity = scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
+  const double max_disparity =
+      scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
   const bool coarse = scene.options.box_sigma_share > 0;
   const Box2d sigmas = SigmasOf(box, scene.options);
   const Box2d around = coarse ? Around(box, sigmas, scene.image) : box;
-  const auto scans =
-      ScanObject(Match(scene.grey, around, max_disparity), around, nearer, scene.camera, scene.ground, RulesFor(prior));
+  const auto scans = ScanObject(Match(scene.grey, around, max_disparity), around, nearer,
+                                scene.camera, scene.ground, RulesFor(prior));
   if (scans.empty()) return LiftStatus::kNoDepth;
   FitInput input;
   input.prior = prior;
@@ -171,16 +191,19 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
     input.scan = scan;
     if (coarse) TakeSidesOfContour(around, input);
     if (input.scan.size() < ScanRules().fewest) continue;
-    const std::optional<CuboidFit> fit = FitCuboid(input, scene.camera, scene.ground, scene.options);
+    const std::optional<CuboidFit> fit =
+        FitCuboid(input, scene.camera, scene.ground, scene.options);
     if (!fit) continue;
     const double cost = fit->cost - kElsewhere * static_cast<double>(input.scan.size());
     if (best && cost >= least) continue;
     best = fit;
     least = cost;
   }
-  if (!best || best->box_error > kBoxError || best->scan_error > kScanError) return LiftStatus::kPoorFit;
+  if (!best || best->box_error > kBoxError || best->scan_error > kScanError)
+    return LiftStatus::kPoorFit;
   const double range = best->T_cam_object.translation().norm();
-  if (!(range >= scene.options.min_range_m && range <= scene.options.max_range_m)) return LiftStatus::kOutOfRange;
+  if (!(range >= scene.options.min_range_m && range <= scene.options.max_range_m))
+    return LiftStatus::kOutOfRange;
   answer = *best;
   return LiftStatus::kLifted;
 }
@@ -188,7 +211,8 @@ LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>&
 }  // namespace
 
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
-                                 const std::vector<ImageDetection>& boxes, const LiftOptions& options) {
+                                 const std::vector<ImageDetection>& boxes,
+                                 const LiftOptions& options) {
   const GreyPair grey = GreyOf(images, camera);
   CheckSize(images.left, camera.left);
   std::vector<LiftedBox> lifted(boxes.size());
@@ -206,8 +230,9 @@ std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& c
   const GroundFrame ground(EstimateGround(grey, camera, objects, options.ground));
   const Scene scene{images.left, grey, camera, ground, options};
   // The nearest first, on flat ground the lowest: what is known of it tells what it hides.
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return clipped[a].bottom > clipped[b].bottom; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return clipped[a].bottom > clipped[b].bottom;
+  });
   std::vector<Nearer> nearer;
   for (std::size_t i : order) {
     CuboidFit fit;

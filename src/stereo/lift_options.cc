@@ -15,8 +15,8 @@ std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
 
 DetectionNoise LiftNoise() {
   DetectionNoise noise;
-  // More than single cuboids are off by: what is off stays so for a while as an object is passed, and what is off in
-  // height all objects of a frame share.
+  // More than single cuboids are off by: what is off stays so for a while as an object is passed,
+  // and what is off in height all objects of a frame share.
   noise.radial_m = 0.03;
   noise.radial_per_m = 0.045;
   noise.lateral_m = 0.2;
@@ -34,30 +34,43 @@ void DescribeFields(FieldVisitor& visitor, ClassPrior& prior) {
   visitor.Real("length_m", prior.length_m, 0.05, 50, "usual length");
   visitor.Real("width_m", prior.width_m, 0.05, 50, "usual width");
   visitor.Real("height_m", prior.height_m, 0.05, 50, "usual height");
-  visitor.Real("length_sigma_m", prior.length_sigma_m, 1e-3, 50, "standard deviation of the length");
+  visitor.Real("length_sigma_m", prior.length_sigma_m, 1e-3, 50,
+               "standard deviation of the length");
   visitor.Real("width_sigma_m", prior.width_sigma_m, 1e-3, 50, "standard deviation of the width");
-  visitor.Real("height_sigma_m", prior.height_sigma_m, 1e-3, 50, "standard deviation of the height");
-  visitor.Real("overhang", prior.overhang, 0, 0.5, "from either end to the axle; 0: no wheels [share of the length]");
-  visitor.Real("roof", prior.roof, 0, 1, "the part that is as high as the object [share of the length]");
+  visitor.Real("height_sigma_m", prior.height_sigma_m, 1e-3, 50,
+               "standard deviation of the height");
+  visitor.Real("overhang", prior.overhang, 0, 0.5,
+               "from either end to the axle; 0: no wheels [share of the length]");
+  visitor.Real("roof", prior.roof, 0, 1,
+               "the part that is as high as the object [share of the length]");
 }
 
 void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
-  visitor.Section("classes", "what is usual, by label; boxes of other labels are not lifted", [&](FieldVisitor& inner) {
-    for (auto& [label, prior] : options.classes) inner.Nested(label.c_str(), prior, "size and outline");
-  });
+  visitor.Section("classes", "what is usual, by label; boxes of other labels are not lifted",
+                  [&](FieldVisitor& inner) {
+                    for (auto& [label, prior] : options.classes)
+                      inner.Nested(label.c_str(), prior, "size and outline");
+                  });
   visitor.Nested("ground", options.ground, "the plane that objects stand on");
   visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nothing is nearer than this");
   visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "objects beyond are not lifted");
-  visitor.Real("min_height_px", options.min_height_px, 1, 10000, "boxes that are less high are not lifted");
+  visitor.Real("min_height_px", options.min_height_px, 1, 10000,
+               "boxes that are less high are not lifted");
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
                "boxes whose heading stays less certain than this are not lifted");
-  visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100, "standard deviation of each side of a box");
-  visitor.Real("box_sigma_share", options.box_sigma_share, 0, 1,
-               "... of a coarse detector: share of the box's width or height; its description may say more");
-  visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10, "what the object's own shape adds to it");
-  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10, "of the disparity of a column of pixels");
-  visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10, "what all columns of an object share");
-  visitor.Real("ground_sigma_m", options.ground_sigma_m, 1e-4, 10, "of the ground under an object against the plane");
+  visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100,
+               "standard deviation of each side of a box");
+  visitor.Real(
+      "box_sigma_share", options.box_sigma_share, 0, 1,
+      "... of a coarse detector: share of the box's width or height; its description may say more");
+  visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10,
+               "what the object's own shape adds to it");
+  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10,
+               "of the disparity of a column of pixels");
+  visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10,
+               "what all columns of an object share");
+  visitor.Real("ground_sigma_m", options.ground_sigma_m, 1e-4, 10,
+               "of the ground under an object against the plane");
   visitor.Real("ground_sigma_rad", options.ground_sigma_rad, 0, 1, "of the plane's slope");
 }
 

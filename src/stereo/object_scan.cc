@@ -16,28 +16,32 @@ struct Column {
 
 /// The scan's point nearest to the column, if any is near.
 const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_px) {
-  const auto after =
-      std::lower_bound(scan.begin(), scan.end(), u, [](const ScanPoint& p, double at) { return p.u < at; });
+  const auto after = std::lower_bound(scan.begin(), scan.end(), u,
+                                      [](const ScanPoint& p, double at) { return p.u < at; });
   const ScanPoint* best = nullptr;
-  for (auto point = after == scan.begin() ? after : after - 1; point != scan.end() && point <= after; ++point) {
+  for (auto point = after == scan.begin() ? after : after - 1;
+       point != scan.end() && point <= after; ++point) {
     if (std::abs(point->u - u) < (best ? std::abs(best->u - u) : reach_px)) best = &*point;
   }
   return best;
 }
 
-bool IsHidden(const std::vector<Nearer>& nearer, double u, double v, const Vec3& point, double depth, double bf) {
+bool IsHidden(const std::vector<Nearer>& nearer, double u, double v, const Vec3& point,
+              double depth, double bf) {
   constexpr double kMargin = 0.2;  // [m]
   return std::any_of(nearer.begin(), nearer.end(), [&](const Nearer& other) {
     const Box2d& box = other.box;
     if (u < box.left || u > box.right || v < box.top || v > box.bottom) return false;
     const ScanPoint* there = At(other.scan, u, std::max(0.1 * (box.right - box.left), 4.));
-    if (there && depth < bf / there->disparity * 1.03 + kMargin) return true;  // its disparities scatter
+    // its disparities scatter
+    if (there && depth < bf / there->disparity * 1.03 + kMargin) return true;
     return other.footprint ? other.footprint->Contains(point.x(), point.z(), kMargin) : !there;
   });
 }
 
-std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box, const std::vector<Nearer>& nearer,
-                            const StereoCamera& camera, const GroundFrame& ground, const ScanRules& rules) {
+std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box,
+                            const std::vector<Nearer>& nearer, const StereoCamera& camera,
+                            const GroundFrame& ground, const ScanRules& rules) {
   const Camera& left = camera.left;
   const double bf = camera.baseline_m * left.fx;
   const double width = std::max((box.right - box.left) / rules.columns, 2.);
@@ -50,8 +54,11 @@ std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box, const
       const double u = patch.x0 + patch.step_x * x;
       if (!(row[x] > 0) || u < box.left || u > box.right) continue;
       const double z = bf / row[x];
-      const Vec3 point = ground.FromCamera({z * (u - left.cx) / left.fx, z * (v - left.cy) / left.fy, z});
-      if (point.y() < rules.low_m || point.y() > rules.high_m || IsHidden(nearer, u, v, point, z, bf)) continue;
+      const Vec3 point =
+          ground.FromCamera({z * (u - left.cx) / left.fx, z * (v - left.cy) / left.fy, z});
+      if (point.y() < rules.low_m || point.y() > rules.high_m ||
+          IsHidden(nearer, u, v, point, z, bf))
+        continue;
       Column& column = columns[static_cast<std::size_t>((u - box.left) / width)];
       column.disparities.push_back(row[x]);
       column.u_sum += u;
@@ -73,7 +80,8 @@ std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
     if (column.disparities.size() < kFewest) continue;
     const double pixels = static_cast<double>(column.disparities.size());
     const double disparity = Median(column.disparities);
-    medians.push_back({{column.u_sum / pixels, column.v_sum / pixels, disparity}, bf / disparity, pixels});
+    medians.push_back(
+        {{column.u_sum / pixels, column.v_sum / pixels, disparity}, bf / disparity, pixels});
   }
   return medians;
 }
@@ -106,7 +114,8 @@ std::vector<ScanPoint> TakeStretch(std::vector<Weighed>& all, double length) {
 }  // namespace
 
 std::vector<std::vector<ScanPoint>> ScanObject(const DisparityPatch& patch, const Box2d& box,
-                                               const std::vector<Nearer>& nearer, const StereoCamera& camera,
+                                               const std::vector<Nearer>& nearer,
+                                               const StereoCamera& camera,
                                                const GroundFrame& ground, const ScanRules& rules) {
   const double bf = camera.baseline_m * camera.left.fx;
   std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);

@@ -17,8 +17,8 @@
 namespace sslcd {
 namespace {
 
-// Turns that are tried when the points are not where they should be: up to 15 degrees, in steps that
-// the coarsest patches bridge.
+// Turns that are tried when the points are not where they should be: up to 15 degrees, in steps
+// that the coarsest patches bridge.
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
@@ -26,13 +26,14 @@ constexpr double kLossPx = 0.15;  // best of .08 to 1, on rendered and on real i
 
 const char* const kNoCorners = "nothing to follow: too few corners in the images";
 const char* const kNoPairs =
-    "nothing to follow: too few corners of the left image have a disparity (are left and right swapped, or not "
+    "nothing to follow: too few corners of the left image have a disparity (are left and right "
+    "swapped, or not "
     "rectified, or is all far away?)";
 const char* const kNoneBefore = "no frame before could be followed";
 const char* const kMissing = "its images are missing";
 
-/// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the step itself and
-/// something on top, for each.
+/// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the
+/// step itself and something on top, for each.
 Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
   const double translation = steps * (0.1 + 0.5 * step.translation().norm());
   const double rotation = steps * (0.02 + 0.5 * step.so3().Log().norm());
@@ -63,9 +64,10 @@ class StereoOdometry::Impl {
     CheckImages(images);
     const cv::Size size(images.left.width, images.left.height);
     if (size_.area() > 0 && size != size_)
-      throw Error(ErrorKind::kBadInput, "the images are " + std::to_string(size.width) + "x" +
-                                            std::to_string(size.height) + ", those of the first frame were " +
-                                            std::to_string(size_.width) + "x" + std::to_string(size_.height));
+      throw Error(ErrorKind::kBadInput,
+                  "the images are " + std::to_string(size.width) + "x" +
+                      std::to_string(size.height) + ", those of the first frame were " +
+                      std::to_string(size_.width) + "x" + std::to_string(size_.height));
     size_ = size;
     const StereoPyramids current = BuildPyramids(images, options_);
     if (keyframes_.empty()) return Start(current);
@@ -101,7 +103,8 @@ class StereoOdometry::Impl {
     return step;
   }
 
-  /// A window of one keyframe, at the pose that the last frame has, if there is enough to see in it.
+  /// A window of one keyframe, at the pose that the last frame has, if there is enough to see in
+  /// it.
   void StartAnew(const StereoPyramids& current) {
     keyframes_.clear();
     points_.clear();
@@ -131,7 +134,8 @@ class StereoOdometry::Impl {
   OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
     const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
     constexpr double kLeastNoise = 0.1;  // [px] no matter how well everything seems to fit
-    const double noise = std::max(kLeastNoise, ResidualScale(camera_, frame, points_).norm() / std::sqrt(3.));
+    const double noise =
+        std::max(kLeastNoise, ResidualScale(camera_, frame, points_).norm() / std::sqrt(3.));
     Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, noise);
     if (lost_ > 0) covariance += GuessCovariance(velocity_, lost_);
 
@@ -173,7 +177,9 @@ class StereoOdometry::Impl {
                                    const StereoPyramids& current) {
     const Following following{camera_, options_, keyframes_.back(), points_};
     const Pose T_expected = last_.T_odom_left * velocity_;
-    const auto find = [&](const Pose& T_guess) { return FindPose(following, reference, left, T_guess, reason_); };
+    const auto find = [&](const Pose& T_guess) {
+      return FindPose(following, reference, left, T_guess, reason_);
+    };
     std::optional<Pose> pose = find(T_expected);
     if (!pose) pose = find(last_.T_odom_left);
     // The camera may have begun to turn, or ended.
@@ -192,7 +198,8 @@ class StereoOdometry::Impl {
 
   void DropMisfits(StereoFrame& frame) const {
     const auto misfit = [&](const StereoSighting& sighting) {
-      return !(StereoError(camera_, frame, sighting, points_.at(sighting.point)) <= options_.ransac_px);
+      return !(StereoError(camera_, frame, sighting, points_.at(sighting.point)) <=
+               options_.ransac_px);
     };
     auto& sightings = frame.sightings;
     sightings.erase(std::remove_if(sightings.begin(), sightings.end(), misfit), sightings.end());
@@ -202,7 +209,8 @@ class StereoOdometry::Impl {
     const StereoFrame& reference = keyframes_.back();
     if (frame.sightings.size() < options_.keyframe_share * reference.sightings.size()) return true;
     std::map<int, StereoPixel> then;
-    for (const StereoSighting& sighting : reference.sightings) then[sighting.point] = sighting.pixel;
+    for (const StereoSighting& sighting : reference.sightings)
+      then[sighting.point] = sighting.pixel;
     std::vector<double> ways;
     for (const StereoSighting& sighting : frame.sightings) {
       const StereoPixel& was = then.at(sighting.point);
@@ -223,16 +231,19 @@ class StereoOdometry::Impl {
     frame = keyframes_.back();
   }
 
-  /// New points where the frame has none yet, placed by their disparity. Returns how many corners there are.
+  /// New points where the frame has none yet, placed by their disparity. Returns how many corners
+  /// there are.
   int TakeUpPoints(const StereoPyramids& current, StereoFrame& frame) {
     std::vector<cv::Point2f> taken;
     for (const StereoSighting& sighting : frame.sightings)
       taken.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
     const std::vector<cv::Point2f> corners = SpreadCorners(current, taken, options_);
-    const Followed right = FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
+    const Followed right =
+        FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!right.found[i]) continue;
-      const std::optional<StereoPixel> pixel = MeasurePair(camera_, current, corners[i], right.at[i], options_);
+      const std::optional<StereoPixel> pixel =
+          MeasurePair(camera_, current, corners[i], right.at[i], options_);
       if (!pixel) continue;
       points_[next_point_] = frame.T_odom_left * Triangulate(camera_, *pixel);
       frame.sightings.push_back({next_point_++, *pixel});
@@ -270,6 +281,8 @@ StereoOdometry::StereoOdometry(const StereoCamera& camera, const StereoOdometryO
 StereoOdometry::~StereoOdometry() = default;
 OdometryStep StereoOdometry::AddFrame(const StereoView& images) { return impl_->AddFrame(images); }
 OdometryStep StereoOdometry::AddMissingFrame() { return impl_->AddMissingFrame(); }
-std::optional<double> StereoOdometry::DisparityAtInfinity() const { return impl_->DisparityAtInfinity(); }
+std::optional<double> StereoOdometry::DisparityAtInfinity() const {
+  return impl_->DisparityAtInfinity();
+}
 
 }  // namespace sslcd

@@ -23,7 +23,8 @@ struct Expected {
   std::vector<double> disparities;
 };
 
-/// Where points of the reference keyframe appear to a camera there: about so many of them, and only inside the image.
+/// Where points of the reference keyframe appear to a camera there: about so many of them, and only
+/// inside the image.
 Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_left, int about) {
   const StereoFrame& reference = f.keyframe;
   const Pose T_left_odom = T_odom_left.inverse();
@@ -34,7 +35,8 @@ Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_lef
     const Vec3 point = T_left_odom * f.points.at(sighting.point);
     if (!(point.z() > 0.1)) continue;
     const StereoPixel pixel = ProjectStereo(f.camera, point);
-    if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size.width && pixel.row < size.height)) continue;
+    if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size.width && pixel.row < size.height))
+      continue;
     expected.points.push_back(sighting.point);
     expected.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
     expected.to.push_back(ToCv(pixel.left, pixel.row));
@@ -45,8 +47,8 @@ Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_lef
 
 }  // namespace
 
-std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const ImagePyramid& to, const Pose& T_guess,
-                             const char*& reason) {
+std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
+                             const Pose& T_guess, const char*& reason) {
   const Expected expected = Expect(f, to[0].size(), T_guess, kCoarsePoints);
   const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, f.options);
   const StereoFrame& reference = f.keyframe;
@@ -68,9 +70,9 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   std::vector<int> inliers;
   reason = kNoAgreement;
   // It draws from a generator of its own, always the same; OpenCV's global one is the host's.
-  const bool found =
-      cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation, false, f.options.ransac_iterations,
-                         static_cast<float>(f.options.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
+  const bool found = cv::solvePnPRansac(
+      places, pixels, K, cv::noArray(), rotation, translation, false, f.options.ransac_iterations,
+      static_cast<float>(f.options.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
   const double needed = std::max<double>(f.options.min_tracked, kMinInliers * places.size());
   if (!found || inliers.size() < needed) return std::nullopt;
   const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),
@@ -78,8 +80,8 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   return reference.T_odom_left * T_left_reference.inverse();
 }
 
-StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to, const StereoPyramids& current,
-                    const Pose& T_odom_left) {
+StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
+                    const StereoPyramids& current, const Pose& T_odom_left) {
   const Expected expected = Expect(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
   Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, f.options);
   const Pose T_keyframe_odom = f.keyframe.T_odom_left.inverse();
@@ -88,19 +90,22 @@ StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyr
     if (!left.found[i]) continue;
     const Vec3 point = T_keyframe_odom * f.points.at(expected.points[i]);
     const Patch patch{from[0], expected.from[i], point, f.options.patch_px / 2};
-    const std::optional<cv::Point2f> at = FindPatch(patch, f.camera.left, T_left_keyframe, to[0], left.at[i]);
+    const std::optional<cv::Point2f> at =
+        FindPatch(patch, f.camera.left, T_left_keyframe, to[0], left.at[i]);
     left.found[i] = at.has_value();
     if (at) left.at[i] = *at;
   }
   std::vector<cv::Point2f> guess = left.at;
-  for (std::size_t i = 0; i < guess.size(); ++i) guess[i].x -= static_cast<float>(expected.disparities[i]);
+  for (std::size_t i = 0; i < guess.size(); ++i)
+    guess[i].x -= static_cast<float>(expected.disparities[i]);
   const Followed right = Follow(current.left, current.right, left.at, guess, kFine, f.options);
   StereoFrame frame{T_odom_left, {}};
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
     std::optional<StereoPixel> pair;
     if (right.found[i]) pair = MeasurePair(f.camera, current, left.at[i], right.at[i], f.options);
-    frame.sightings.push_back({expected.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
+    frame.sightings.push_back(
+        {expected.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
   }
   return frame;
 }
@@ -109,9 +114,11 @@ std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoP
                                        const cv::Point2f& left, const cv::Point2f& right,
                                        const StereoOdometryOptions& options) {
   if (!IsPair(camera, left, right, options)) return std::nullopt;
-  const Patch patch{images.left[0], left, Triangulate(camera, {left.x, left.y, right.x}), options.patch_px / 2};
+  const Patch patch{images.left[0], left, Triangulate(camera, {left.x, left.y, right.x}),
+                    options.patch_px / 2};
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
-  const std::optional<cv::Point2f> at = FindPatch(patch, camera.left, T_right_left, images.right[0], right);
+  const std::optional<cv::Point2f> at =
+      FindPatch(patch, camera.left, T_right_left, images.right[0], right);
   if (!at || !IsPair(camera, left, *at, options)) return std::nullopt;
   return StereoPixel{left.x, left.y, at->x};
 }

@@ -12,7 +12,9 @@ namespace sslcd {
 inline constexpr int kCoarse = 4, kFine = 1;
 inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
 
-inline cv::Point2f ToCv(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+inline cv::Point2f ToCv(double x, double y) {
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
 
 /// What is followed: the points that a keyframe sees.
 struct Following {
@@ -22,18 +24,18 @@ struct Following {
   const OdometryPoints& points;
 };
 
-/// The pose T_odom_left that most points agree on when they are looked for around where they appear from `T_guess`.
-/// `from`, `to`: left images of the keyframe and of now. None: `reason` says why.
-std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
-                             const Pose& T_guess, const char*& reason);
+/// The pose T_odom_left that most points agree on when they are looked for around where they appear
+/// from `T_guess`. `from`, `to`: left images of the keyframe and of now. None: `reason` says why.
+std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from,
+                             const ImagePyramid& to, const Pose& T_guess, const char*& reason);
 
-/// A frame at that pose with all points that are found in its left image, and where those are in its right one. `from`
-/// and `to` as above; they may differ in light from `current`.
+/// A frame at that pose with all points that are found in its left image, and where those are in
+/// its right one. `from` and `to` as above; they may differ in light from `current`.
 StereoFrame FindAll(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
                     const StereoPyramids& current, const Pose& T_odom_left);
 
-/// A point that has been found in both images, its column in the right one to a fraction of a pixel. None: it is not
-/// the same point, or its patch does not tell.
+/// A point that has been found in both images, its column in the right one to a fraction of a
+/// pixel. None: it is not the same point, or its patch does not tell.
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
                                        const cv::Point2f& left, const cv::Point2f& right,
                                        const StereoOdometryOptions& options);

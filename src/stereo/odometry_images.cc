@@ -19,20 +19,24 @@ constexpr double kMinEigenvalue = 1e-4;
 constexpr double kMidGrey = 128, kSpread = 40;  // mean and deviation of an evened image
 constexpr double kNoise = 4;                    // deviations below are noise, and not blown up
 
-cv::Size PatchSize(const StereoOdometryOptions& options) { return {options.patch_px, options.patch_px}; }
+cv::Size PatchSize(const StereoOdometryOptions& options) {
+  return {options.patch_px, options.patch_px};
+}
 
 // The image is copied: the host may write into its own while a keyframe still needs it.
 ImagePyramid Build(const cv::Mat& grey, const StereoOdometryOptions& options) {
   ImagePyramid pyramid;
-  cv::buildOpticalFlowPyramid(grey, pyramid, PatchSize(options), kMaxLevel, true, cv::BORDER_REFLECT_101,
-                              cv::BORDER_CONSTANT, false);
+  cv::buildOpticalFlowPyramid(grey, pyramid, PatchSize(options), kMaxLevel, true,
+                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
   return pyramid;
 }
 
-/// Moves corners to where their patches' gradients have their centre (Foerstner and Guelch, 1987). There a patch that
-/// is stretched, because it comes nearer or is slanted, moves as its corner does; elsewhere the stretching adds a
-/// shift, mostly towards where the camera goes, and the way seems too short.
-void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners, const StereoOdometryOptions& options) {
+/// Moves corners to where their patches' gradients have their centre (Foerstner and Guelch, 1987).
+/// There a patch that is stretched, because it comes nearer or is slanted, moves as its corner
+/// does; elsewhere the stretching adds a shift, mostly towards where the camera goes, and the way
+/// seems too short.
+void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners,
+                   const StereoOdometryOptions& options) {
   const int half = options.patch_px / 2, least = 2 * half + 5;  // what OpenCV needs
   if (corners.empty() || grey.cols < least || grey.rows < least) return;
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
@@ -57,24 +61,29 @@ ImagePyramid Evened(const ImagePyramid& image, const StereoOdometryOptions& opti
   return Build(evened, options);
 }
 
-Followed Follow(const ImagePyramid& from, const ImagePyramid& to, const std::vector<cv::Point2f>& points,
-                const std::vector<cv::Point2f>& guess, int levels, const StereoOdometryOptions& options) {
+Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
+                const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
+                int levels, const StereoOdometryOptions& options) {
   Followed result{guess, std::vector<bool>(points.size())};
   if (points.empty()) return result;
   std::vector<unsigned char> status;
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, 0.01);
-  cv::calcOpticalFlowPyrLK(from, to, points, result.at, status, cv::noArray(), PatchSize(options), levels, until,
-                           cv::OPTFLOW_USE_INITIAL_FLOW, kMinEigenvalue);
+  cv::calcOpticalFlowPyrLK(from, to, points, result.at, status, cv::noArray(), PatchSize(options),
+                           levels, until, cv::OPTFLOW_USE_INITIAL_FLOW, kMinEigenvalue);
   const cv::Rect2f inside(0, 0, static_cast<float>(to[0].cols), static_cast<float>(to[0].rows));
-  for (std::size_t i = 0; i < points.size(); ++i) result.found[i] = status[i] && inside.contains(result.at[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.found[i] = status[i] && inside.contains(result.at[i]);
   return result;
 }
 
-Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to, const std::vector<cv::Point2f>& points,
-                            const std::vector<cv::Point2f>& guess, int levels, const StereoOdometryOptions& options) {
+Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
+                            const std::vector<cv::Point2f>& points,
+                            const std::vector<cv::Point2f>& guess, int levels,
+                            const StereoOdometryOptions& options) {
   Followed there = Follow(from, to, points, guess, levels, options);
   std::vector<cv::Point2f> begin = points;
-  // Back from a place that is a little off its own guess, or a patch that has not moved would always return.
+  // Back from a place that is a little off its own guess, or a patch that has not moved would
+  // always return.
   for (cv::Point2f& p : begin) p += cv::Point2f(1.5F, 1.5F);
   const Followed back = Follow(to, from, there.at, begin, 0, options);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -84,36 +93,42 @@ Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to, co
   return there;
 }
 
-std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images, const std::vector<cv::Point2f>& taken,
+std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
+                                       const std::vector<cv::Point2f>& taken,
                                        const StereoOdometryOptions& options) {
   cv::Mat strength;
   cv::cornerMinEigenVal(images.left[0], strength, 5);
   double strongest = 0;
   cv::minMaxLoc(strength, nullptr, &strongest);
-  const int cell = std::max(8, static_cast<int>(std::sqrt(images.size.area() / double(options.points))));
-  const int columns = (images.size.width + cell - 1) / cell, rows = (images.size.height + cell - 1) / cell;
+  const int cell =
+      std::max(8, static_cast<int>(std::sqrt(images.size.area() / double(options.points))));
+  const int columns = (images.size.width + cell - 1) / cell,
+            rows = (images.size.height + cell - 1) / cell;
   std::vector<bool> occupied(static_cast<std::size_t>(columns) * rows);
   for (const cv::Point2f& p : taken)
     occupied[static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell] = true;
 
   std::vector<cv::Point2f> corners;
   const int margin = options.patch_px / 2 + 2;  // or the patch is not in the image as a whole
-  const cv::Rect inner(margin, margin, images.size.width - 2 * margin, images.size.height - 2 * margin);
+  const cv::Rect inner(margin, margin, images.size.width - 2 * margin,
+                       images.size.height - 2 * margin);
   for (int i = 0; i < columns * rows; ++i) {
     const cv::Rect box = cv::Rect(i % columns * cell, i / columns * cell, cell, cell) & inner;
     if (occupied[i] || box.empty()) continue;
     double best = 0;
     cv::Point at;
     cv::minMaxLoc(strength(box), nullptr, &best, nullptr, &at);
-    if (best > options.min_corner * strongest && best > kMinEigenvalue) corners.emplace_back(at + box.tl());
+    if (best > options.min_corner * strongest && best > kMinEigenvalue)
+      corners.emplace_back(at + box.tl());
   }
   CentrePatches(images.left[0], corners, options);
   // A centre may lie in the next cell, and be that of a point which is there.
   constexpr float kApart = 2;  // [px]
   std::vector<cv::Point2f> all = taken;
   for (const cv::Point2f& p : corners) {
-    const bool known = std::any_of(all.begin(), all.end(),
-                                   [p](const cv::Point2f& q) { return std::hypot(p.x - q.x, p.y - q.y) < kApart; });
+    const bool known = std::any_of(all.begin(), all.end(), [p](const cv::Point2f& q) {
+      return std::hypot(p.x - q.x, p.y - q.y) < kApart;
+    });
     if (!known) all.push_back(p);
   }
   return {all.begin() + static_cast<std::ptrdiff_t>(taken.size()), all.end()};

@@ -20,27 +20,32 @@ struct StereoPyramids {
 };
 StereoPyramids BuildPyramids(const StereoView& images, const StereoOdometryOptions& options);
 
-/// The same image with brightness and contrast evened out, by mean and deviation of each pixel's surroundings: what
-/// remains of a scene when the light changes.
+/// The same image with brightness and contrast evened out, by mean and deviation of each pixel's
+/// surroundings: what remains of a scene when the light changes.
 ImagePyramid Evened(const ImagePyramid& image, const StereoOdometryOptions& options);
 
-/// Where points of one image are in another. `guess` is where to begin to look, `levels` how coarse: the patch may be
-/// off by some 2^levels * patch_px / 2 pixels.
+/// Where points of one image are in another. `guess` is where to begin to look, `levels` how
+/// coarse: the patch may be off by some 2^levels * patch_px / 2 pixels.
 struct Followed {
   std::vector<cv::Point2f> at;
   std::vector<bool> found;
 };
-Followed Follow(const ImagePyramid& from, const ImagePyramid& to, const std::vector<cv::Point2f>& points,
-                const std::vector<cv::Point2f>& guess, int levels, const StereoOdometryOptions& options);
+Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
+                const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
+                int levels, const StereoOdometryOptions& options);
 
 /// The same, and back again: found only if that leads to where it began.
-Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to, const std::vector<cv::Point2f>& points,
-                            const std::vector<cv::Point2f>& guess, int levels, const StereoOdometryOptions& options);
+Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
+                            const std::vector<cv::Point2f>& points,
+                            const std::vector<cv::Point2f>& guess, int levels,
+                            const StereoOdometryOptions& options);
 
-/// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good features to track, CVPR
-/// 1994) of each cell of a grid of about `options.points` cells that has none of the points `taken` in it. In the order
-/// of the cells, row by row; between pixels, and less than a patch off its cell.
-std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images, const std::vector<cv::Point2f>& taken,
+/// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good
+/// features to track, CVPR 1994) of each cell of a grid of about `options.points` cells that has
+/// none of the points `taken` in it. In the order of the cells, row by row; between pixels, and
+/// less than a patch off its cell.
+std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
+                                       const std::vector<cv::Point2f>& taken,
                                        const StereoOdometryOptions& options);
 
 }  // namespace sslcd

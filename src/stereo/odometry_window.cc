@@ -37,15 +37,16 @@ Mat3 Weight(const StereoSighting& sighting) {
   return weight;
 }
 
-Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, const StereoSighting& sighting,
-                       const Vec3& point) {
+Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left,
+                       const StereoSighting& sighting, const Vec3& point) {
   Reprojection out;
   const Mat3 R_left_odom = T_odom_left.so3().inverse().matrix();
   const Vec3 p = R_left_odom * (point - T_odom_left.translation());
   if (!(p.z() > kNearest)) return out;
   out.in_front = true;
   const StereoPixel &pixel = sighting.pixel, seen = ProjectStereo(camera, p);
-  out.residual << seen.left - pixel.left, seen.row - pixel.row, std::isnan(pixel.right) ? 0 : seen.right - pixel.right;
+  out.residual << seen.left - pixel.left, seen.row - pixel.row,
+      std::isnan(pixel.right) ? 0 : seen.right - pixel.right;
   const double iz = 1 / p.z(), fx = camera.left.fx, fy = camera.left.fy;
   Mat3 by_p;
   by_p << fx * iz, 0, -fx * p.x() * iz * iz,  //
@@ -60,8 +61,8 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left, cons
   return out;
 }
 
-/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed. The others are the
-/// point and the disparity at infinity.
+/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed.
+/// The others are the point and the disparity at infinity.
 class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
  public:
   StereoCost(const StereoCamera& camera, const StereoSighting& sighting, const Pose& T_odom_left)
@@ -69,12 +70,13 @@ class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
 
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     const Vec6 delta = Eigen::Map<const Vec6>(blocks[0]);
-    const Reprojection r =
-        Reproject(camera_, T_odom_left_ * Pose::Exp(delta), sighting_, Eigen::Map<const Vec3>(blocks[1]));
+    const Reprojection r = Reproject(camera_, T_odom_left_ * Pose::Exp(delta), sighting_,
+                                     Eigen::Map<const Vec3>(blocks[1]));
     if (!r.in_front) return false;
     const Vec3 by_infinity = -Weight(sighting_).col(2);
     Vec3Map{residual} = r.residual + (blocks[2][0] - camera_.disparity_at_infinity) * by_infinity;
-    if (jacobians && jacobians[0]) RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
+    if (jacobians && jacobians[0])
+      RowMajorMap<6>{jacobians[0]} = r.by_pose * Pose::RightJacobian(delta);
     if (jacobians && jacobians[1]) RowMajorMap<3>{jacobians[1]} = r.by_point;
     if (jacobians && jacobians[2]) Vec3Map{jacobians[2]} = by_infinity;
     return true;
@@ -114,17 +116,20 @@ StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
 
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
   const Camera& left = camera.left;
-  const double z = left.fx * camera.baseline_m / (pixel.left - pixel.right - camera.disparity_at_infinity);
+  const double z =
+      left.fx * camera.baseline_m / (pixel.left - pixel.right - camera.disparity_at_infinity);
   return {(pixel.left - left.cx) / left.fx * z, (pixel.row - left.cy) / left.fy * z, z};
 }
 
-double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
-                   const Vec3& point) {
-  const Reprojection r = Reproject(camera, frame.T_odom_left, {sighting.point, sighting.pixel}, point);
+double StereoError(const StereoCamera& camera, const StereoFrame& frame,
+                   const StereoSighting& sighting, const Vec3& point) {
+  const Reprojection r =
+      Reproject(camera, frame.T_odom_left, {sighting.point, sighting.pixel}, point);
   return r.in_front ? r.residual.cwiseAbs().maxCoeff() : std::numeric_limits<double>::infinity();
 }
 
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss, StereoFrame& frame) {
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss,
+                StereoFrame& frame) {
   ceres::CauchyLoss cauchy(loss);
   ceres::Problem problem(ProblemOptions());
   Vec6 delta = Vec6::Zero();
@@ -137,8 +142,8 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
     const Vec3& point = points.at(sighting.point);
     if (!InFront(frame, point)) continue;
     places.push_back(point);
-    problem.AddResidualBlock(new StereoCost(camera, sighting, frame.T_odom_left), &cauchy, delta.data(),
-                             places.back().data(), &at_infinity);
+    problem.AddResidualBlock(new StereoCost(camera, sighting, frame.T_odom_left), &cauchy,
+                             delta.data(), places.back().data(), &at_infinity);
     problem.SetParameterBlockConstant(places.back().data());
   }
   if (places.empty()) return;
@@ -149,12 +154,13 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   frame.T_odom_left *= Pose::Exp(delta);
 }
 
-double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss,
-                    OdometryPoints& points, bool calibrate) {
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                    double loss, OdometryPoints& points, bool calibrate) {
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
     for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
-  // Ceres eliminates points in the order of their addresses: in one array, that is the same in each run.
+  // Ceres eliminates points in the order of their addresses: in one array, that is the same in each
+  // run.
   std::map<int, Vec3*> place_of;
   std::vector<Vec3> places;
   places.reserve(points.size());
@@ -179,8 +185,8 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
     for (const StereoSighting& sighting : frames[i]->sightings) {
       const auto place = place_of.find(sighting.point);
       if (place == place_of.end() || !InFront(*frames[i], *place->second)) continue;
-      problem.AddResidualBlock(new StereoCost(camera, sighting, frames[i]->T_odom_left), &cauchy, deltas[i].data(),
-                               place->second->data(), &at_infinity);
+      problem.AddResidualBlock(new StereoCost(camera, sighting, frames[i]->T_odom_left), &cauchy,
+                               deltas[i].data(), place->second->data(), &at_infinity);
       ordering->AddElementToGroup(place->second->data(), 0);
     }
   }
@@ -197,11 +203,14 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
   return at_infinity;
 }
 
-Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points) {
-  constexpr double kSigmasPerMedian = 1.4826;  // of the absolute values of what is normally distributed
+Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame,
+                   const OdometryPoints& points) {
+  // of the absolute values of what is normally distributed
+  constexpr double kSigmasPerMedian = 1.4826;
   std::vector<double> residuals[3];
   for (const StereoSighting& sighting : frame.sightings) {
-    const Reprojection r = Reproject(camera, frame.T_odom_left, sighting, points.at(sighting.point));
+    const Reprojection r =
+        Reproject(camera, frame.T_odom_left, sighting, points.at(sighting.point));
     if (!r.in_front) continue;
     const int known = std::isnan(sighting.pixel.right) ? 2 : 3;
     for (int i = 0; i < known; ++i) residuals[i].push_back(std::abs(r.residual[i]));
@@ -212,8 +221,8 @@ Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame, const O
   return scale;
 }
 
-Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points, double noise) {
+Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from,
+                             const StereoFrame& to, const OdometryPoints& points, double noise) {
   std::map<int, StereoSighting> seen_before;
   for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting;
   Eigen::Matrix<double, 6, 6> information = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();

@@ -9,7 +9,8 @@
 
 namespace sslcd {
 
-/// Where a point appears: column and row in the left image, column in the right one (NaN: not found there). [px]
+/// Where a point appears: column and row in the left image, column in the right one (NaN: not found
+/// there). [px]
 struct StereoPixel {
   double left = 0, row = 0, right = 0;
 };
@@ -18,12 +19,14 @@ struct StereoPixel {
 struct StereoSighting {
   int point = 0;
   StereoPixel pixel;
-  /// What residuals (column, row, right column) are multiplied by: the square root of their information, to a factor
-  /// that all sightings share. Lower triangular: without a right column, the last row does not count.
+  /// What residuals (column, row, right column) are multiplied by: the square root of their
+  /// information, to a factor that all sightings share. Lower triangular: without a right column,
+  /// the last row does not count.
   Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
 };
 
-/// A frame and what is seen in it. Poses and points are those of the left camera, in the axes of the first one.
+/// A frame and what is seen in it. Poses and points are those of the left camera, in the axes of
+/// the first one.
 struct StereoFrame {
   Pose T_odom_left;
   std::vector<StereoSighting> sightings;
@@ -37,28 +40,33 @@ StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& point_left);
 /// The point of which both images show where it is; disparity > 0.
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 
-/// How far the sighting is from where its point should appear, the largest of its coordinates. Infinite for a point
-/// that is not in front of the camera. [px]
-double StereoError(const StereoCamera& camera, const StereoFrame& frame, const StereoSighting& sighting,
-                   const Vec3& point);
+/// How far the sighting is from where its point should appear, the largest of its coordinates.
+/// Infinite for a point that is not in front of the camera. [px]
+double StereoError(const StereoCamera& camera, const StereoFrame& frame,
+                   const StereoSighting& sighting, const Vec3& point);
 
-/// Moves the frame to where its sightings fit the points best (robust least squares: weighted residuals of more than
-/// `loss` count for less and less); the points stay.
-void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss, StereoFrame& frame);
+/// Moves the frame to where its sightings fit the points best (robust least squares: weighted
+/// residuals of more than `loss` count for less and less); the points stay.
+void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double loss,
+                StereoFrame& frame);
 
-/// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in two frames or more.
-/// `loss` as above. `calibrate`: the camera's disparity at infinity, too, is what fits best, and returned; else what
-/// it was. It shows, since points that come nearer by the camera's motion must come nearer by their disparity, too.
-double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames, double loss,
-                    OdometryPoints& points, bool calibrate = false);
+/// Bundle adjustment: moves all frames but the first `fixed` ones, and all points that are seen in
+/// two frames or more. `loss` as above. `calibrate`: the camera's disparity at infinity, too, is
+/// what fits best, and returned; else what it was. It shows, since points that come nearer by the
+/// camera's motion must come nearer by their disparity, too.
+double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<StereoFrame*>& frames,
+                    double loss, OdometryPoints& points, bool calibrate = false);
 
-/// Standard deviations of the three weighted residuals, by their medians; 0 of what is not known of any point.
-Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame, const OdometryPoints& points);
+/// Standard deviations of the three weighted residuals, by their medians; 0 of what is not known of
+/// any point.
+Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame,
+                   const OdometryPoints& points);
 
-/// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points that both see, whose
-/// places are known from these two frames alone; points are eliminated (Schur complement). Weighted residuals have
-/// noise of `noise`, independently. Huge where there are too few points.
-Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from, const StereoFrame& to,
-                             const OdometryPoints& points, double noise);
+/// Covariance of T_from_to (right perturbation, [translation, rotation]), known from the points
+/// that both see, whose places are known from these two frames alone; points are eliminated (Schur
+/// complement). Weighted residuals have noise of `noise`, independently. Huge where there are too
+/// few points.
+Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from,
+                             const StereoFrame& to, const OdometryPoints& points, double noise);
 
 }  // namespace sslcd

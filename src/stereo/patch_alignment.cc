@@ -15,7 +15,8 @@ double Sample(const cv::Mat& image, double x, double y) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   const double fx = x - column, fy = y - row;
   const unsigned char *above = image.ptr(row) + column, *below = image.ptr(row + 1) + column;
-  return (1 - fy) * ((1 - fx) * above[0] + fx * above[1]) + fy * ((1 - fx) * below[0] + fx * below[1]);
+  return (1 - fy) * ((1 - fx) * above[0] + fx * above[1]) +
+         fy * ((1 - fx) * below[0] + fx * below[1]);
 }
 
 bool IsInside(const cv::Mat& image, double x, double y, double margin) {
@@ -28,18 +29,21 @@ struct PatchPixel {
   Vec3 by;  // derivatives of the value: a shift to the right, down, more light
 };
 
-/// Do `count` pixels tell where they are, in both directions, though their brightness is open? `H`: sum of by by^T.
+/// Do `count` pixels tell where they are, in both directions, though their brightness is open? `H`:
+/// sum of by by^T.
 bool HasTexture(const Eigen::Matrix3d& H, int count) {
-  constexpr double kLeast = 0.1;  // [grey values^2 a pixel], of the smaller eigenvalue: less is noise
-  const Eigen::Matrix2d shift = H.topLeftCorner<2, 2>() - H.topRightCorner<2, 1>() * H.bottomLeftCorner<1, 2>() / count;
+  // [grey values^2 a pixel], of the smaller eigenvalue: less is noise
+  constexpr double kLeast = 0.1;
+  const Eigen::Matrix2d shift =
+      H.topLeftCorner<2, 2>() - H.topRightCorner<2, 1>() * H.bottomLeftCorner<1, 2>() / count;
   const double half = 0.5 * shift.trace();
   return half - std::sqrt(std::max(0., half * half - shift.determinant())) > kLeast * count;
 }
 
 }  // namespace
 
-std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose& T_to_from, const Vec3& point,
-                                               const Vec3& normal) {
+std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose& T_to_from,
+                                               const Vec3& point, const Vec3& normal) {
   constexpr double kNearest = 0.1;  // [m]
   constexpr double kEdgeOn = 0.02;  // [rad]
   const double away = normal.dot(point);
@@ -47,12 +51,13 @@ std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose&
   if (!(std::abs(away) > kEdgeOn * normal.norm() * point.norm())) return std::nullopt;
   Eigen::Matrix3d K;
   K << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
-  const Eigen::Matrix3d motion = T_to_from.so3().matrix() + T_to_from.translation() * normal.transpose() / away;
+  const Eigen::Matrix3d motion =
+      T_to_from.so3().matrix() + T_to_from.translation() * normal.transpose() / away;
   return Eigen::Matrix3d(K * motion * K.inverse());
 }
 
-std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d& homography, const cv::Mat& to,
-                                       const cv::Point2f& guess) {
+std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d& homography,
+                                       const cv::Mat& to, const cv::Point2f& guess) {
   constexpr int kMaxSteps = 30, kMaxStretch = 8;
   constexpr double kDone = 0.003, kReach = 1.5;  // [px]
   constexpr double kMinArea = 0.1;               // of a pixel, there
@@ -71,8 +76,11 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   for (int v = -half; v <= half; ++v) {
     for (int u = -half; u <= half; ++u) {
-      const auto value = [&](int x, int y) { return Sample(patch.grey, patch.at.x + x, patch.at.y + y); };
-      const Vec3 by(0.5 * (value(u + 1, v) - value(u - 1, v)), 0.5 * (value(u, v + 1) - value(u, v - 1)), 1);
+      const auto value = [&](int x, int y) {
+        return Sample(patch.grey, patch.at.x + x, patch.at.y + y);
+      };
+      const Vec3 by(0.5 * (value(u + 1, v) - value(u - 1, v)),
+                    0.5 * (value(u, v + 1) - value(u, v - 1)), 1);
       pixels.push_back({map(u, v) - middle, value(u, v), by});
       H += by * by.transpose();
       const Eigen::Vector2d& offset = pixels.back().offset;
@@ -88,7 +96,8 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
     Vec3 gradient = Vec3::Zero();
     double squares = 0;
     for (const PatchPixel& pixel : pixels) {
-      const double error = Sample(to, at.x() + pixel.offset.x(), at.y() + pixel.offset.y()) - pixel.value - brighter;
+      const double error =
+          Sample(to, at.x() + pixel.offset.x(), at.y() + pixel.offset.y()) - pixel.value - brighter;
       gradient += pixel.by * error;
       squares += error * error;
     }
@@ -103,12 +112,14 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
   return std::nullopt;
 }
 
-std::optional<cv::Point2f> FindPatch(const Patch& patch, const Camera& camera, const Pose& T_to_from, const cv::Mat& to,
+std::optional<cv::Point2f> FindPatch(const Patch& patch, const Camera& camera,
+                                     const Pose& T_to_from, const cv::Mat& to,
                                      const cv::Point2f& guess) {
   const Vec3 facing = Vec3::UnitZ(), level = Vec3::UnitY();
   std::optional<AlignedPatch> best;
   for (const Vec3& normal : {facing, level}) {
-    const std::optional<Eigen::Matrix3d> homography = PlaneHomography(camera, T_to_from, patch.point, normal);
+    const std::optional<Eigen::Matrix3d> homography =
+        PlaneHomography(camera, T_to_from, patch.point, normal);
     if (!homography) continue;
     const std::optional<AlignedPatch> found = AlignPatch(patch, *homography, to, guess);
     if (found && (!best || found->difference < best->difference)) best = found;

@@ -11,10 +11,11 @@
 namespace sslcd {
 namespace {
 
-constexpr double kSure = 0.03;  // [px] rows that fit so well leave nothing to do; no burst tells it better
+// [px] rows that fit so well leave nothing to do; no burst tells it better
+constexpr double kSure = 0.03;
 
-std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
-                                 const StereoOdometryOptions& options) {
+std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
+                                 const PairLoader& load, const StereoOdometryOptions& options) {
   constexpr std::size_t kPairs = 8;
   std::vector<std::pair<Image, Image>> images;
   for (std::size_t i = 0; i < frames; i += (frames + kPairs - 1) / kPairs)
@@ -24,10 +25,12 @@ std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
   return RowError(camera, views, options);
 }
 
-/// Disparities at infinity of bursts of frames: as many as fill a window, from evenly spread ones on.
+/// Disparities at infinity of bursts of frames: as many as fill a window, from evenly spread ones
+/// on.
 std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                              const StereoOdometryOptions& options) {
-  constexpr std::size_t kBursts = 8, kWindows = 6;  // the most bursts; the most frames of one, in windows
+  // the most bursts; the most frames of one, in windows
+  constexpr std::size_t kBursts = 8, kWindows = 6;
   const std::size_t most = kWindows * static_cast<std::size_t>(options.window);
   std::vector<double> found;
   std::size_t next = 0;

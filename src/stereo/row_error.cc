@@ -19,10 +19,12 @@ std::optional<double> RowError(const StereoCamera& camera, const std::vector<Ste
     CheckImages(pair);
     const StereoPyramids images = BuildPyramids(pair, options);
     const std::vector<cv::Point2f> left = SpreadCorners(images, {}, options);
-    const Followed right = FollowThereAndBack(images.left, images.right, left, left, kCoarse, options);
+    const Followed right =
+        FollowThereAndBack(images.left, images.right, left, left, kCoarse, options);
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (!right.found[i] || !IsPair(camera, left[i], right.at[i], options)) continue;
-      const int column = static_cast<int>(kColumns * left[i].x / static_cast<float>(images.size.width));
+      const int column =
+          static_cast<int>(kColumns * left[i].x / static_cast<float>(images.size.width));
       const int row = static_cast<int>(kRows * left[i].y / static_cast<float>(images.size.height));
       cells[row * kColumns + column].push_back(right.at[i].y - left[i].y);
     }

@@ -12,8 +12,10 @@ Pose LevelOn(const GroundPlane& plane) {
   return {lie::SO3<double>::FromMatrix(axes), down * plane.height_m};
 }
 
-TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground, const GroundGrid& grid) {
-  constexpr int kFiner = 2;         // a cell is the mean of so many samples each way: nearby, image pixels are smaller
+TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground,
+                     const GroundGrid& grid) {
+  // a cell is the mean of so many samples each way: nearby, image pixels are smaller
+  constexpr int kFiner = 2;
   constexpr double kNearest = 0.5;  // [m]
   const int columns = kFiner * grid.columns, rows = kFiner * grid.rows;
   cv::Mat at(rows, columns, CV_32FC2), seen(rows, columns, CV_8U, cv::Scalar(0));
@@ -27,7 +29,8 @@ TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_ca
     for (int column = 0; column < columns; ++column, p += step) {
       pixel[column] = {-1, -1};
       if (!(p.z() > kNearest)) continue;
-      const double u = camera.fx * p.x() / p.z() + camera.cx, v = camera.fy * p.y() / p.z() + camera.cy;
+      const double u = camera.fx * p.x() / p.z() + camera.cx,
+                   v = camera.fy * p.y() / p.z() + camera.cy;
       if (!(u >= 0 && v >= 0 && u <= grey.cols - 1 && v <= grey.rows - 1)) continue;
       pixel[column] = {static_cast<float>(u), static_cast<float>(v)};
       inside[column] = 255;

@@ -27,7 +27,9 @@ struct TopView {
   cv::Mat seen;  ///< 8 bits: not 0 where the image shows the cell
 };
 
-/// What a camera's image shows of a grid. `T_cam_ground`: from the grid's frame to the camera's; `grey`: 8 bits.
-TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground, const GroundGrid& grid);
+/// What a camera's image shows of a grid. `T_cam_ground`: from the grid's frame to the camera's;
+/// `grey`: 8 bits.
+TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground,
+                     const GroundGrid& grid);
 
 }  // namespace sslcd

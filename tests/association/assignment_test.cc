@@ -36,7 +36,8 @@ TEST(MaximumAssignment, ReachesTheExhaustiveOptimumOnRandomMatrices) {
     const int rows = 1 + random() % 5, columns = 1 + random() % 5;
     Eigen::MatrixXd scores(rows, columns);
     for (int i = 0; i < rows; ++i)
-      for (int j = 0; j < columns; ++j) scores(i, j) = int(random() % 100) / 50. - 1.;  // half of them forbidden
+      for (int j = 0; j < columns; ++j)
+        scores(i, j) = int(random() % 100) / 50. - 1.;  // half of them forbidden
     const std::vector<int> answer = MaximumAssignment(scores);
     std::vector<bool> taken(columns, false);
     EXPECT_NEAR(Total(scores, answer), Exhaustive(scores, 0, taken), 1e-12);

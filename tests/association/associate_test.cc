@@ -48,7 +48,8 @@ TEST(Associate, LabelsNeverMix) {  // Eq. 2
   Scene scene;
   scene.Know(0, 10, "Van");
   scene.See(0, 10, "Car");
-  for (const auto method : {AssociationOptions::Method::kRobust, AssociationOptions::Method::kPaper}) {
+  for (const auto method :
+       {AssociationOptions::Method::kRobust, AssociationOptions::Method::kPaper}) {
     AssociationOptions options;
     options.method = method;
     EXPECT_EQ(Associate(scene.queries, scene.candidates, options), std::vector<int>{-1});

@@ -26,7 +26,8 @@ TEST(Gallery, TheOtherSideDoesNotDiluteThisOne) {
   gallery.Add({0, 1}, M_PI);
   EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI), 1., 1e-6);
   EXPECT_NEAR(*gallery.Compare({1, 0}, 0.1), 1., 1e-6);
-  EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI - 0.5), 1., 1e-6) << "the nearest direction that was seen answers";
+  EXPECT_NEAR(*gallery.Compare({0, 1}, M_PI - 0.5), 1., 1e-6)
+      << "the nearest direction that was seen answers";
 }
 
 TEST(Gallery, ViewsAreMeansByDirection) {
@@ -41,7 +42,8 @@ TEST(Gallery, ViewsAreMeansByDirection) {
   EXPECT_NEAR(WrapAngle(views[0].viewpoint_rad + 3.), 0, M_PI / 8);
   EXPECT_EQ(views[1].count, 2);
   EXPECT_NEAR(views[1].viewpoint_rad, 0.1, M_PI / 8);
-  EXPECT_EQ(views[1].vector, (std::vector<float>{0.5f, 0.5f})) << "its dot products are means of dot products";
+  EXPECT_EQ(views[1].vector, (std::vector<float>{0.5f, 0.5f}))
+      << "its dot products are means of dot products";
 }
 
 TEST(Gallery, MergeTurnsViewpoints) {

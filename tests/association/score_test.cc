@@ -9,11 +9,13 @@ namespace {
 TEST(AssociationScore, IsEquation3) {
   const double lambda = 0.3;
   const SimilarityCues cues{0.5, 0.7, 0.9};
-  EXPECT_NEAR(*AssociationScore(cues, lambda), 0.3 * 0.5 + 0.3 * 0.7 * 0.7 + 0.7 * 0.7 * 0.9, 1e-15);
+  EXPECT_NEAR(*AssociationScore(cues, lambda), 0.3 * 0.5 + 0.3 * 0.7 * 0.7 + 0.7 * 0.7 * 0.9,
+              1e-15);
 }
 
 TEST(AssociationScore, WeightsSumToOneForAnyLambda) {
-  for (const double lambda : {0., 0.1, 0.5, 1.}) EXPECT_NEAR(*AssociationScore({1., 1., 1.}, lambda), 1., 1e-15);
+  for (const double lambda : {0., 0.1, 0.5, 1.})
+    EXPECT_NEAR(*AssociationScore({1., 1., 1.}, lambda), 1., 1e-15);
 }
 
 TEST(AssociationScore, MissingCuesAreRenormalised) {

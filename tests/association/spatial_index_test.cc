@@ -27,7 +27,8 @@ TEST(SpatialIndex, AgreesWithALinearSearch) {
     const double x = uniform(), y = uniform(), radius = 0.5 + trial;
     std::vector<int> expected;
     for (int id = 0; id < 500; ++id)
-      if (id % 5 != 1 && std::hypot(points[id].first - x, points[id].second - y) <= radius) expected.push_back(id);
+      if (id % 5 != 1 && std::hypot(points[id].first - x, points[id].second - y) <= radius)
+        expected.push_back(id);
     EXPECT_EQ(index.Near(x, y, radius), expected);
   }
 }

@@ -17,10 +17,12 @@ namespace sslcd::baselines {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kFocal = 300, kBaseline = 0.2, kDepth = 6;  // 50 pixels of shift for a metre, 10 of disparity
+// 50 pixels of shift for a metre, 10 of disparity
+constexpr double kFocal = 300, kBaseline = 0.2, kDepth = 6;
 constexpr int kWidth = 320, kHeight = 240;
 
-// A camera goes along a painted wall, looking at it: to the right for 8 m, then it starts again at the left.
+// A camera goes along a painted wall, looking at it: to the right for 8 m, then it starts again at
+// the left.
 class Wall : public testing::Test {
  protected:
   Wall() {
@@ -50,8 +52,8 @@ class Wall : public testing::Test {
 
   static std::string Calib() {
     const std::string start = "300 0 160 ", end = " 0 300 120 0 0 0 1 0\n";
-    return "P0: " + start + "0" + end + "P1: " + start + "-60" + end + "P2: " + start + "0" + end + "P3: " + start +
-           "-60" + end;
+    return "P0: " + start + "0" + end + "P1: " + start + "-60" + end + "P2: " + start + "0" + end +
+           "P3: " + start + "-60" + end;
   }
   void WriteImages(int frame, double at_m) const {
     char name[16];
@@ -108,7 +110,8 @@ TEST_F(Wall, KnowsThePlaceInAnotherLight) {
 TEST_F(Wall, MeasuresATurn) {
   const double turn = 15 * M_PI / 180;  // about the camera's down axis: to the right
   const cv::Matx33d K(kFocal, 0, kWidth / 2., 0, kFocal, kHeight / 2., 0, 0, 1);
-  const cv::Matx33d turned_from(std::cos(turn), 0, -std::sin(turn), 0, 1, 0, std::sin(turn), 0, std::cos(turn));
+  const cv::Matx33d turned_from(std::cos(turn), 0, -std::sin(turn), 0, 1, 0, std::sin(turn), 0,
+                                std::cos(turn));
   Repaint(9, [&](const cv::Mat& image) {
     cv::Mat seen;
     cv::warpPerspective(image, seen, cv::Mat(K * turned_from * K.inv()), image.size());
@@ -127,7 +130,8 @@ TEST_F(Wall, MeasuresATurn) {
 }
 
 TEST_F(Wall, NothingToBeSeen) {
-  Repaint(9, [](const cv::Mat& image) { return cv::Mat(image.size(), image.type(), cv::Scalar(90)); });
+  Repaint(9,
+          [](const cv::Mat& image) { return cv::Mat(image.size(), image.type(), cv::Scalar(90)); });
   EXPECT_FALSE(Ask(9, 4));
 }
 

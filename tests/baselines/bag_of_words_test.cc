@@ -74,7 +74,8 @@ TEST(BagOfWords, OddVocabularies) {
   const Image image = things.See(0);
   EXPECT_TRUE(Vocabulary({}, 4, 3).Words(image).empty());
   EXPECT_TRUE(Vocabulary({{}, {}}, 4, 3).Words({}).empty());
-  EXPECT_TRUE(Vocabulary({image}, 4, 3).Words(image).empty()) << "what is in every image says nothing";
+  EXPECT_TRUE(Vocabulary({image}, 4, 3).Words(image).empty())
+      << "what is in every image says nothing";
   const Image same(50, image[0]);
   EXPECT_EQ(Vocabulary({same, image}, 4, 3).Words(same).size(), 0u);
   EXPECT_GT(Vocabulary({same, {image.begin() + 1, image.end()}}, 4, 3).Words(same).size(), 0u);

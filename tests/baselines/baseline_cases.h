@@ -30,9 +30,11 @@ inline std::vector<LayoutObject> Strewn(int count, double side_m, int labels, un
   return objects;
 }
 
-/// The objects within `radius_m` of a point, in a frame that lies at `pose` in theirs; off by up to `noise_m`.
-inline std::vector<LayoutObject> SeenFrom(const std::vector<LayoutObject>& objects, const YawShift& pose,
-                                          const Vec2& point, double radius_m, double noise_m) {
+/// The objects within `radius_m` of a point, in a frame that lies at `pose` in theirs; off by up to
+/// `noise_m`.
+inline std::vector<LayoutObject> SeenFrom(const std::vector<LayoutObject>& objects,
+                                          const YawShift& pose, const Vec2& point, double radius_m,
+                                          double noise_m) {
   std::mt19937 random(7);
   const auto noise = [&] { return noise_m * ((random() % 2000001) * 1e-6 - 1); };
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
@@ -41,7 +43,8 @@ inline std::vector<LayoutObject> SeenFrom(const std::vector<LayoutObject>& objec
     if (!((object.position.head<2>() - point).norm() <= radius_m)) continue;
     const Vec3 d = object.position - pose.t;
     seen.push_back(object);
-    seen.back().position = Vec3(c * d.x() + s * d.y() + noise(), -s * d.x() + c * d.y() + noise(), d.z());
+    seen.back().position =
+        Vec3(c * d.x() + s * d.y() + noise(), -s * d.x() + c * d.y() + noise(), d.z());
   }
   return seen;
 }

@@ -10,8 +10,8 @@ namespace {
 
 using Objects = std::vector<LayoutObject>;
 
-std::optional<Answer> Consensus(const Objects& local, const Objects& global, const ObjectPairs& pairs,
-                                int least_inliers = 3) {
+std::optional<Answer> Consensus(const Objects& local, const Objects& global,
+                                const ObjectPairs& pairs, int least_inliers = 3) {
   std::mt19937_64 random(1);
   return LargestConsensus(local, global, pairs, {1000, 1, least_inliers}, random);
 }
@@ -53,7 +53,8 @@ TEST(Consensus, FindsThePoseAmongWrongMatches) {
 }
 
 TEST(Consensus, MatchesAreOneToOne) {
-  const Objects local{At(0, 0), At(0.1, 0), At(10, 0), At(0, 10)}, global{At(0, 0), At(10, 0), At(0, 10)};
+  const Objects local{At(0, 0), At(0.1, 0), At(10, 0), At(0, 10)},
+      global{At(0, 0), At(10, 0), At(0, 10)};
   const auto answer = Consensus(local, global, AllPairs(4, 3));
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->matches.size(), 3u);

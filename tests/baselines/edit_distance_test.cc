@@ -45,10 +45,13 @@ TEST(SpokesOf, Neighbours) {
 }
 
 TEST(GraphSimilarity, CountsVerticesAndEdges) {
-  const LabelGraph triangle = MakeLabelGraph({At(0, 0), At(8, 0), At(4, 5)}, 10);            // size 6
-  const LabelGraph chain = MakeLabelGraph({At(0, 0), At(8, 0), At(16, 0), At(900, 0)}, 10);  // size 5, and one far away
+  // size 6
+  const LabelGraph triangle = MakeLabelGraph({At(0, 0), At(8, 0), At(4, 5)}, 10);
+  // size 5, and one far away
+  const LabelGraph chain = MakeLabelGraph({At(0, 0), At(8, 0), At(16, 0), At(900, 0)}, 10);
   EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, triangle, {{0, 0}, {1, 1}, {2, 2}}), 1);
-  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}, {2, 2}}), 1);  // a part of the triangle
+  // a part of the triangle
+  EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}, {2, 2}}), 1);
   EXPECT_DOUBLE_EQ(GraphSimilarity(chain, triangle, {{0, 0}, {1, 1}, {2, 2}}), 1);
   EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 1}}), 3. / 5);
   EXPECT_DOUBLE_EQ(GraphSimilarity(triangle, chain, {{0, 0}, {1, 2}}), 2. / 5);  // no such edge

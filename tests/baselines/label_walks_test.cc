@@ -11,14 +11,17 @@ namespace {
 using Labels = std::vector<int>;
 
 // 1 - 2 - 3, ten metres apart, and one on its own.
-LabelGraph Chain() { return MakeLabelGraph({At(0, 0, 1), At(10, 0, 2), At(20, 0, 3), At(90, 0, 4)}, 10); }
+LabelGraph Chain() {
+  return MakeLabelGraph({At(0, 0, 1), At(10, 0, 2), At(20, 0, 3), At(90, 0, 4)}, 10);
+}
 
 TEST(LabelGraph, EdgesByDistance) {
   const LabelGraph graph = Chain();
   EXPECT_EQ(graph.labels, (Labels{1, 2, 3, 4}));
   EXPECT_EQ(graph.neighbours, (std::vector<Labels>{{1}, {0, 2}, {1}, {}}));
   EXPECT_TRUE(MakeLabelGraph({}, 10).labels.empty());
-  EXPECT_EQ(MakeLabelGraph({At(0, 0), At(kNaN, 0), At(1, 0)}, 10).neighbours, (std::vector<Labels>{{2}, {}, {0}}));
+  EXPECT_EQ(MakeLabelGraph({At(0, 0), At(kNaN, 0), At(1, 0)}, 10).neighbours,
+            (std::vector<Labels>{{2}, {}, {0}}));
   EXPECT_EQ(MakeLabelGraph({At(0, 0), At(0, 0)}, 0).neighbours, (std::vector<Labels>{{1}, {0}}));
 }
 
@@ -27,14 +30,16 @@ TEST(AllWalks, CountsEveryPath) {
   EXPECT_EQ(walks[0], (LabelWalks{{{1, 2, 1}, 1}, {{1, 2, 3}, 1}}));
   EXPECT_EQ(walks[1], (LabelWalks{{{2, 1, 2}, 1}, {{2, 3, 2}, 1}}));
   EXPECT_TRUE(walks[3].empty());
-  const std::vector<LabelWalks> equal = AllWalks(MakeLabelGraph({At(0, 0), At(1, 0), At(2, 0)}, 10), 2);
+  const std::vector<LabelWalks> equal =
+      AllWalks(MakeLabelGraph({At(0, 0), At(1, 0), At(2, 0)}, 10), 2);
   EXPECT_EQ(equal[0], (LabelWalks{{{0, 0, 0}, 4}}));
 }
 
 TEST(RandomWalks, SampleTheSamePaths) {
   std::mt19937_64 random(1);
   const LabelGraph graph = Chain();
-  const std::vector<LabelWalks> sample = RandomWalks(graph, {10000, 3}, random), all = AllWalks(graph, 3);
+  const std::vector<LabelWalks> sample = RandomWalks(graph, {10000, 3}, random),
+                                all = AllWalks(graph, 3);
   for (int v = 0; v < 3; ++v) {
     int total = 0;
     for (const auto& [labels, count] : sample[v]) {
@@ -57,7 +62,8 @@ TEST(RandomWalks, FollowTheSeed) {
 }
 
 TEST(Similarity, CommonShareAndCosine) {
-  const LabelWalks a{{{1, 2}, 3}, {{1, 3}, 1}}, b{{{1, 2}, 1}, {{1, 4}, 3}}, doubled{{{1, 2}, 6}, {{1, 3}, 2}};
+  const LabelWalks a{{{1, 2}, 3}, {{1, 3}, 1}}, b{{{1, 2}, 1}, {{1, 4}, 3}},
+      doubled{{{1, 2}, 6}, {{1, 3}, 2}};
   EXPECT_DOUBLE_EQ(CommonShare(a, b), 0.25);
   EXPECT_DOUBLE_EQ(CommonShare(a, a), 1);
   EXPECT_DOUBLE_EQ(CommonShare(a, doubled), 0.5);

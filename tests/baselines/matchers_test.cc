@@ -11,9 +11,13 @@ namespace {
 using Objects = std::vector<LayoutObject>;
 
 LayoutMatcher Matcher(const std::string& name, const BaselineOptions& options = {}) {
-  if (name == "lin") return [=](const auto& l, const auto& g) { return MatchLin(l, g, options.lin); };
-  if (name == "x_view") return [=](const auto& l, const auto& g) { return MatchXView(l, g, options.x_view); };
-  return [=](const auto& l, const auto& g) { return MatchSemanticHistogram(l, g, options.semantic_histogram); };
+  if (name == "lin")
+    return [=](const auto& l, const auto& g) { return MatchLin(l, g, options.lin); };
+  if (name == "x_view")
+    return [=](const auto& l, const auto& g) { return MatchXView(l, g, options.x_view); };
+  return [=](const auto& l, const auto& g) {
+    return MatchSemanticHistogram(l, g, options.semantic_histogram);
+  };
 }
 
 class Baseline : public testing::TestWithParam<const char*> {
@@ -83,7 +87,8 @@ TEST_P(Baseline, NothingTellsEqualLabelsApart) {
   Objects equal = global;
   for (LayoutObject& object : equal) object.label = 0;
   const Objects part = SeenFrom(equal, pose, Vec2(30, 30), 20, 0.2);
-  const auto answer = match(part, equal);  // found or not: no crash, and a pose has matches that agree with it
+  // found or not: no crash, and a pose has matches that agree with it
+  const auto answer = match(part, equal);
   if (!answer) return;
   for (const auto& [l, g] : answer->matches)
     EXPECT_LT((Apply(answer->pose, part[l].position) - equal[g].position).norm(), 2);
@@ -105,7 +110,8 @@ INSTANTIATE_TEST_SUITE_P(All, Baseline, testing::Values("lin", "x_view", "semant
                          [](const auto& name) { return std::string(name.param); });
 
 TEST(PlaceMatcherHook, HandsOnWhatWasFound) {
-  const Objects global = Strewn(60, 60, 20, 5), local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
+  const Objects global = Strewn(60, 60, 20, 5),
+                local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
   BaselineOptions options;
   const std::vector<std::pair<PlaceMatcher, LayoutMatcher>> cases{
       {LinMatcher(options.lin), Matcher("lin")},
@@ -124,7 +130,8 @@ TEST(PlaceMatcherHook, HandsOnWhatWasFound) {
 }
 
 TEST(Lin, AcceptScoreDecidesWhatIsTaken) {
-  const Objects global = Strewn(60, 60, 20, 5), local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
+  const Objects global = Strewn(60, 60, 20, 5),
+                local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
   LinOptions options;
   const double score = MatchLin(local, global, options)->score;
   ASSERT_GT(score, options.accept_score);
@@ -134,7 +141,8 @@ TEST(Lin, AcceptScoreDecidesWhatIsTaken) {
 }
 
 TEST(SemanticHistogram, ScoreIsTheNumberOfMatches) {
-  const Objects global = Strewn(60, 60, 20, 5), local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
+  const Objects global = Strewn(60, 60, 20, 5),
+                local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(30, 30), 20, 0.2);
   SemanticHistogramOptions options;
   const auto answer = MatchSemanticHistogram(local, global, options);
   EXPECT_EQ(answer->score, static_cast<double>(answer->matches.size()));
@@ -143,7 +151,8 @@ TEST(SemanticHistogram, ScoreIsTheNumberOfMatches) {
 }
 
 TEST(XView, MoreCandidatesMoreMatches) {
-  const Objects global = Strewn(80, 80, 3, 5), local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(40, 40), 25, 0.2);
+  const Objects global = Strewn(80, 80, 3, 5),
+                local = SeenFrom(global, {1, Vec3(3, 4, 0)}, Vec2(40, 40), 25, 0.2);
   XViewOptions options;
   options.candidates = 1;
   const auto one = MatchXView(local, global, options);

@@ -37,7 +37,8 @@ TEST(BaselineOptions, LoadsStrictly) {
   EXPECT_EQ(options.lin.walks.steps, 5);
   EXPECT_EQ(options.x_view.seed, 9);
   try {
-    LoadConfigText("lin:\n  candidate: 3\nsemantic_histogram:\n  path_length: 1\n", "t.yaml", Of(options));
+    LoadConfigText("lin:\n  candidate: 3\nsemantic_histogram:\n  path_length: 1\n", "t.yaml",
+                   Of(options));
     FAIL();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("t.yaml:2:3: unknown key 'candidate'"));

@@ -31,8 +31,9 @@ class PointMatches : public testing::Test {
 };
 
 TEST_F(PointMatches, MeanConfidenceOfTheBestOldFrame) {
-  const PlaceMatcher matcher = Matcher("# query match confidence\n" + Rows(90, 3, 5, "0.6") + Rows(90, 4, 4, "0.9") +
-                                       Rows(90, 5, 4, "0.7") + Rows(90, 5, 1, "0.9") + Rows(90, 80, 9, "1"));
+  const PlaceMatcher matcher =
+      Matcher("# query match confidence\n" + Rows(90, 3, 5, "0.6") + Rows(90, 4, 4, "0.9") +
+              Rows(90, 5, 4, "0.7") + Rows(90, 5, 1, "0.9") + Rows(90, 80, 9, "1"));
   const auto answer = Ask(matcher, 90, 40);
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->match_frame, 5) << "four matches are too few, and frame 80 is too young";
@@ -51,7 +52,8 @@ TEST_F(PointMatches, TooUnsure) {
 }
 
 TEST_F(PointMatches, BadRows) {
-  for (const char* row : {"9 3", "9 3 0.5 1", "9 x 0.5", "9 3 1.5", "9 3 nan", "9 -1 0.5", "9 9 0.5", "9.5 3 0.5"}) {
+  for (const char* row :
+       {"9 3", "9 3 0.5 1", "9 x 0.5", "9 3 1.5", "9 3 nan", "9 -1 0.5", "9 9 0.5", "9.5 3 0.5"}) {
     try {
       Matcher("9 1 0.5\n" + std::string(row) + "\n");
       FAIL() << row;

@@ -33,7 +33,8 @@ MethodResults TwoRuns() {
     result.revisits = {{10, 1, 100, 1, 0.1, 5}, {20, 2, 200, 1, 3.1, 5}};
     result.times["loop detection"] = {4, 2, 1. * c, 3. * c, 9. * c};
   }
-  method.results[0].loops = {Loop(true, 9, 101, 0.2, 0.1), Loop(false, 1, 200, 0.3, 3.1), Loop(true, 2, 150, 1.5, 0.1)};
+  method.results[0].loops = {Loop(true, 9, 101, 0.2, 0.1), Loop(false, 1, 200, 0.3, 3.1),
+                             Loop(true, 2, 150, 1.5, 0.1)};
   method.results[1].loops = {Loop(true, 8, 104, 0.4, 0.1), Loop(true, 5, 199, 6., 3.1)};
   return method;
 }
@@ -42,8 +43,8 @@ TEST(HalvTables, Ate) {
   const Table table = AteTable({TwoRuns()});
   ASSERT_EQ(table.rows.size(), 8u);  // the method, the odometry, six of the paper
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size());
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"m", "0.100", "0.050", "0.500", "0.200", "0.050", "1.000", "0.150",
-                                                     "0.200", "1.000"}));
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"m", "0.100", "0.050", "0.500", "0.200",
+                                                     "0.050", "1.000", "0.150", "0.200", "1.000"}));
   EXPECT_EQ(table.rows[1][1], "1.000");
   EXPECT_EQ(table.rows[7][1], "0.501") << "the paper's own, of the cases that are there";
   EXPECT_EQ(table.rows[7].back(), "0.914");
@@ -95,7 +96,8 @@ TEST(HalvTables, PrecisionAndRecallOfAllAnswers) {
 TEST(HalvTables, RecallOverViewpoint) {
   MethodResults method = TwoRuns();
   method.method.key = "k";
-  method.results[1].revisits.push_back({30, 3, 300, 1, M_PI, 5});  // the very end is in the last bin
+  // the very end is in the last bin
+  method.results[1].revisits.push_back({30, 3, 300, 1, M_PI, 5});
   const Table table = ViewpointCurves({method}, "v");
   EXPECT_EQ(table.key, "v_curves");
   ASSERT_EQ(table.rows.size(), 2u) << "bins without a keyframe are left out";
@@ -106,7 +108,8 @@ TEST(HalvTables, RecallOverViewpoint) {
   EXPECT_EQ(opposite, (std::vector<std::string>{"k", "165-180", "3", "0", "0.000"}));
   EXPECT_GT(std::stod(table.rows[1][6]), 0.1);
   const Table side_by_side = ViewpointTable({method, method}, "v");
-  EXPECT_EQ(side_by_side.header, (std::vector<std::string>{"viewpoint [deg]", "keyframes", "m", "m"}));
+  EXPECT_EQ(side_by_side.header,
+            (std::vector<std::string>{"viewpoint [deg]", "keyframes", "m", "m"}));
   ASSERT_EQ(side_by_side.rows.size(), 2u);
   const std::string none = "0.000 (0.000 to " + table.rows[1][6] + ")";
   EXPECT_EQ(side_by_side.rows[1], (std::vector<std::string>{"165-180", "3", none, none}));
@@ -115,13 +118,15 @@ TEST(HalvTables, RecallOverViewpoint) {
 TEST(HalvTables, StageTimes) {
   const Table table = StageTable(TwoRuns().results);
   ASSERT_EQ(table.rows.size(), 1u);
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"loop detection", "4", "1.500", "4.50", "18.0", "1.8"}));
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"loop detection", "4", "1.500", "4.50", "18.0", "1.8"}));
 }
 
 TEST(HalvTables, Ablation) {
   const Table table = AblationTable({TwoRuns()});
   ASSERT_EQ(table.rows.size(), 1u);
-  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"m", "0.100", "0.200", "0.150", "0.200", "0.500", "4", "1"}));
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"m", "0.100", "0.200", "0.150", "0.200", "0.500", "4", "1"}));
 }
 
 TEST(HalvTables, OfNothing) {

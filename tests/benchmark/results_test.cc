@@ -33,10 +33,12 @@ TEST_F(Results, SameForAnyNumberOfThreadsAndNotMadeTwice) {
   const std::vector<Trial> trials = Trials();
   const ResultFolder folder(path_, "abc");
   int calls = 0;
-  const auto results = RunTrials(trials, folder, 2, {[&](int, int total) { calls += total / 4; }, {}});
+  const auto results =
+      RunTrials(trials, folder, 2, {[&](int, int total) { calls += total / 4; }, {}});
   ASSERT_TRUE(results);
   EXPECT_EQ(calls, 4);
-  const auto again = RunTrials(trials, folder, 1, {[](int, int) { ADD_FAILURE() << "nothing is left to do"; }, {}});
+  const auto again = RunTrials(trials, folder, 1,
+                               {[](int, int) { ADD_FAILURE() << "nothing is left to do"; }, {}});
   ASSERT_TRUE(again);
   std::filesystem::remove(path_ + "/trials/" + trials[3].Name() + ".json");
   const auto anew = RunTrials(trials, ResultFolder(path_, "abc"), 1);
@@ -73,7 +75,8 @@ TEST_F(Results, OfAnotherCommit) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_NE(std::string(error.what()).find("results of commit abc, but this program is def"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("results of commit abc, but this program is def"),
+              std::string::npos);
   }
   EXPECT_THROW(ResultFolder(path_, "abc", "lin: {seed: 2}\n"), Error) << "other parameters";
 }
@@ -83,7 +86,8 @@ TEST_F(Results, FromFilesThatMayChangeIsMeasuredAgain) {
   trials[0].method.from_files = true;
   const ResultFolder folder(path_, "abc");
   int calls = 0;
-  for (int i = 0; i < 2; ++i) EXPECT_TRUE(RunTrials(trials, folder, 1, {[&](int, int) { ++calls; }, {}}));
+  for (int i = 0; i < 2; ++i)
+    EXPECT_TRUE(RunTrials(trials, folder, 1, {[&](int, int) { ++calls; }, {}}));
   EXPECT_EQ(calls, 2);
   EXPECT_TRUE(folder.Find(trials[0])) << "for whoever wants to see each answer";
 }

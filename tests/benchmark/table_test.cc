@@ -8,14 +8,18 @@
 namespace sslcd::benchmark {
 namespace {
 
-const Table kTable{"t", "A title", {"name", "value"}, {{"plain", "1.50"}, {"with, \"quotes\"", ""}}, "A note."};
+const Table kTable{
+    "t", "A title", {"name", "value"}, {{"plain", "1.50"}, {"with, \"quotes\"", ""}}, "A note."};
 
 TEST(Table, Markdown) {
   EXPECT_EQ(ToMarkdown(kTable),
-            "**A title**\n\n| name | value |\n| --- | --- |\n| plain | 1.50 |\n| with, \"quotes\" | - |\n\nA note.\n");
+            "**A title**\n\n| name | value |\n| --- | --- |\n| plain | 1.50 |\n| with, \"quotes\" "
+            "| - |\n\nA note.\n");
 }
 
-TEST(Table, Csv) { EXPECT_EQ(ToCsv(kTable), "name,value\nplain,1.50\n\"with, \"\"quotes\"\"\",\n"); }
+TEST(Table, Csv) {
+  EXPECT_EQ(ToCsv(kTable), "name,value\nplain,1.50\n\"with, \"\"quotes\"\"\",\n");
+}
 
 TEST(Table, Json) {
   EXPECT_EQ(ToJson(kTable),
@@ -31,12 +35,14 @@ TEST(Table, ReplacedInADocument) {
 }
 
 TEST(Table, NoPlaceInTheDocument) {
-  for (const char* text : {"", "<!-- bench other -->\n<!-- /bench -->\n", "<!-- bench t -->\nnever ends\n"}) {
+  for (const char* text :
+       {"", "<!-- bench other -->\n<!-- /bench -->\n", "<!-- bench t -->\nnever ends\n"}) {
     try {
       ReplaceTables(text, "doc.md", {kTable});
       FAIL() << text;
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("doc.md: has no place for t"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("doc.md: has no place for t"), std::string::npos)
+          << error.what();
     }
   }
 }

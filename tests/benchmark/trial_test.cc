@@ -48,7 +48,8 @@ TEST(Trial, ACameraThatTurnsIntoAKnownLaneIsRecognisedInTheTurn) {
     ++turning;
     EXPECT_TRUE(std::any_of(result.loops.begin(), result.loops.end(),
                             [&](const LoopOutcome& loop) {
-                              return loop.accepted && loop.error_m < 1.5 && std::abs(loop.at_m - revisit.at_m) <= 5;
+                              return loop.accepted && loop.error_m < 1.5 &&
+                                     std::abs(loop.at_m - revisit.at_m) <= 5;
                             }))
         << "at " << revisit.at_m << " m";
   }
@@ -89,7 +90,8 @@ TEST(Trial, DamagedJson) {
       FAIL() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
-      EXPECT_NE(std::string(error.what()).find("x.json: is no result"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("x.json: is no result"), std::string::npos)
+          << error.what();
     }
   }
 }
@@ -99,8 +101,10 @@ std::string Dump(Options options) {
 }
 
 TEST(Method, ThePaperIsAsPrintedInEveryPart) {
-  EXPECT_EQ(Dump(Select(Methods(), {"paper"})[0].options), Dump(DefaultOptions(Options::Mode::kPaper)));
-  EXPECT_EQ(Dump(Select(Methods(), {"sslcd"})[0].options), Dump(DefaultOptions(Options::Mode::kRobust)));
+  EXPECT_EQ(Dump(Select(Methods(), {"paper"})[0].options),
+            Dump(DefaultOptions(Options::Mode::kPaper)));
+  EXPECT_EQ(Dump(Select(Methods(), {"sslcd"})[0].options),
+            Dump(DefaultOptions(Options::Mode::kRobust)));
   const Options unrefined = Select(Methods(), {"paper_unrefined"})[0].options;
   EXPECT_EQ(unrefined.association.method, AssociationOptions::Method::kPaper);
   EXPECT_EQ(unrefined.ba.residual, BaOptions::Residual::kPaper);
@@ -121,7 +125,8 @@ TEST(Method, KeysAreUniqueAndSelect) {
     Select(Methods(), {"nobody"});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("'nobody'; there are: sslcd, "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'nobody'; there are: sslcd, "), std::string::npos)
+        << error.what();
   }
 }
 

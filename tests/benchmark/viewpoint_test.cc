@@ -58,8 +58,8 @@ TEST(Viewpoint, RangesOfTheTableGoAllTheWayRound) {
 }
 
 TEST(Viewpoint, RefusesWhatIsNoRange) {
-  for (const char* range :
-       {"", "-", "45", "45-", "-60", "60-45", "60-60", "45-60-75", "45-190", "-10-20", "7.5-15", "a-b", "nan-20"})
+  for (const char* range : {"", "-", "45", "45-", "-60", "60-45", "60-60", "45-60-75", "45-190",
+                            "-10-20", "7.5-15", "a-b", "nan-20"})
     EXPECT_THROW(PlaceAtViewpoint(range), Error) << range;
 }
 
@@ -96,10 +96,10 @@ TEST_F(RenderedTest, TakesTheRightWorld) {
 }
 
 TEST_F(RenderedTest, SaysHowToMakeTheOneThatIsMissing) {
-  EXPECT_THAT(
-      Complaint(At("45-60")),
-      HasSubstr("sslcd_sim halv --case 4 --seed 1 --viewpoint-low-deg 45 --viewpoint-high-deg 60 --render --out " +
-                root_ + "/lot-v45-60-c4-s1"));
+  EXPECT_THAT(Complaint(At("45-60")),
+              HasSubstr("sslcd_sim halv --case 4 --seed 1 --viewpoint-low-deg 45 "
+                        "--viewpoint-high-deg 60 --render --out " +
+                        root_ + "/lot-v45-60-c4-s1"));
   Trial plain;
   plain.seed = 3;
   EXPECT_THAT(Complaint(plain), HasSubstr("--case 1 --seed 3 --render"));
@@ -110,8 +110,9 @@ TEST_F(RenderedTest, RefusesAnotherWorldOfThatName) {
   Write(At("60-75"), trial.World());
   EXPECT_THAT(Complaint(trial), HasSubstr("of another world"));
   std::filesystem::remove(std::filesystem::path(root_) / trial.World() / "groundtruth.txt");
-  EXPECT_THAT(Complaint(trial), AllOf(HasSubstr("groundtruth.txt"), HasSubstr("make it with: sslcd_sim"),
-                                      Not(HasSubstr("of another world"))));
+  EXPECT_THAT(Complaint(trial),
+              AllOf(HasSubstr("groundtruth.txt"), HasSubstr("make it with: sslcd_sim"),
+                    Not(HasSubstr("of another world"))));
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(DetectionNoise, CovarianceFollowsTheRay) {
 }
 
 TEST(DetectionNoise, GrowsWithRangeAndScale) {
-  const DetectionSigmas near = SigmasAt(10, {}, {}), far = SigmasAt(40, {}, {}), noisy = SigmasAt(10, {}, {3, 1, 1, 2});
+  const DetectionSigmas near = SigmasAt(10, {}, {}), far = SigmasAt(40, {}, {}),
+                        noisy = SigmasAt(10, {}, {3, 1, 1, 2});
   EXPECT_GT(far.radial, near.radial);
   EXPECT_GT(far.yaw, near.yaw);
   EXPECT_NEAR(noisy.radial, 3 * near.radial, 1e-12);
@@ -84,7 +85,8 @@ TEST(DetectionNoise, GrowsWithRangeAndScale) {
 }
 
 TEST(Label, SymmetriesAndUnknownLabels) {
-  for (const Symmetry s : {Symmetry::kNone, Symmetry::kPi, Symmetry::kFull}) EXPECT_EQ(ParseSymmetry(ToString(s)), s);
+  for (const Symmetry s : {Symmetry::kNone, Symmetry::kPi, Symmetry::kFull})
+    EXPECT_EQ(ParseSymmetry(ToString(s)), s);
   EXPECT_FALSE(ParseSymmetry("Full"));
   EXPECT_EQ(YawPeriod(Symmetry::kFull), 0);
   LabelTable table;
@@ -106,7 +108,8 @@ TEST(Image, OnesThatCannotBeReadAreRefused) {
 
 TEST(Image, ViewIsOfItsOwnPixels) {
   for (const int channels : {1, 3}) {
-    const Image image{std::vector<unsigned char>(static_cast<std::size_t>(4 * 2 * channels), 7), 4, 2, channels};
+    const Image image{std::vector<unsigned char>(static_cast<std::size_t>(4 * 2 * channels), 7), 4,
+                      2, channels};
     EXPECT_FALSE(image.empty());
     const ImageView view = image.view();
     EXPECT_EQ(view.data, image.pixels.data());
@@ -133,7 +136,8 @@ TEST(StereoCamera, HasABaseline) {
   EXPECT_EQ(RightOf(shifted).cx, 602.5);
   EXPECT_NEAR(RightOf(shifted).offset.x(), -0.48, 1e-12);
   right.cx = 603.5;
-  EXPECT_THROW(MakeStereoCamera(left, right), Error) << "another rectification, not an error of calibration";
+  EXPECT_THROW(MakeStereoCamera(left, right), Error)
+      << "another rectification, not an error of calibration";
   right = RightOf(shifted);
   right.fx = 710;
   EXPECT_THROW(MakeStereoCamera(left, right), Error);
@@ -148,7 +152,8 @@ TEST(Error, SaysWhereAndWhat) {
 TEST(Log, IsSilentUntilAHostListens) {
   Log(LogLevel::kError, "nobody hears this");
   std::string heard;
-  const LogSink before = SetLogSink([&](LogLevel, const std::string& message) { heard += message; });
+  const LogSink before =
+      SetLogSink([&](LogLevel, const std::string& message) { heard += message; });
   Log(LogLevel::kInfo, "this");
   SetLogSink(before);
   Log(LogLevel::kInfo, "not this");

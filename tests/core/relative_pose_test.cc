@@ -7,10 +7,12 @@ namespace sslcd {
 namespace {
 
 TEST(RelativePose, ComposeCarriesErrorsAlong) {
-  const Pose T_a_b = Pose::Trans(3, -1, 0.5) * Pose::RotY(2.), T_b_c = Pose::Trans(0.2, 0.1, 14) * Pose::RotX(0.3);
+  const Pose T_a_b = Pose::Trans(3, -1, 0.5) * Pose::RotY(2.),
+             T_b_c = Pose::Trans(0.2, 0.1, 14) * Pose::RotX(0.3);
   Vec6 variances;
   variances << 1e-4, 4e-4, 9e-4, 1e-6, 4e-6, 2e-6;
-  const RelativePose ab{T_a_b, variances.asDiagonal()}, bc{T_b_c, 2 * Pose::Matrix6(variances.asDiagonal())};
+  const RelativePose ab{T_a_b, variances.asDiagonal()},
+      bc{T_b_c, 2 * Pose::Matrix6(variances.asDiagonal())};
   const RelativePose ac = Compose(ab, bc);
   EXPECT_LT((ac.T_a_b.inverse() * (T_a_b * T_b_c)).Log().norm(), 1e-12);
   // One component of one error at a time, by differences.

@@ -26,9 +26,9 @@ TEST(DecodeBoxes, NothingFromNothing) {
   EXPECT_TRUE(DecodeBoxes({{{1, 0, 7}, {}}}, Output(ModelLayout::kYoloV5), 64, 64).empty());
   EXPECT_TRUE(DecodeBoxes({{{1, 6, 0}, {}}}, Output(ModelLayout::kYoloV8), 64, 64).empty());
   EXPECT_TRUE(DecodeBoxes({{{1, 0, 6}, {}}}, Output(ModelLayout::kYoloV10), 64, 64).empty());
-  EXPECT_TRUE(
-      DecodeBoxes({{{1, 0, 4}, {}}, {{1, 0}, {}}, {{1, 0}, {}}}, Output(ModelLayout::kBoxesScoresLabels), 64, 64)
-          .empty());
+  EXPECT_TRUE(DecodeBoxes({{{1, 0, 4}, {}}, {{1, 0}, {}}, {{1, 0}, {}}},
+                          Output(ModelLayout::kBoxesScoresLabels), 64, 64)
+                  .empty());
 }
 
 TEST(DecodeBoxes, AScoreAtTheThresholdIsEnough) {
@@ -49,9 +49,11 @@ TEST(DecodeBoxes, FastestDetWithoutObjectness) {  // a negative base of a power
 TEST(SuppressOverlaps, TheBestOfALabelStays) {
   const Box2d a{0, 0, 10, 10}, b{1, 0, 11, 10}, c{20, 0, 30, 10};
   const ModelOutput output = Output(ModelLayout::kYoloV8, 3);
-  EXPECT_THAT(SuppressOverlaps({{0, .6, a}, {1, .9, b}, {2, .5, a}, {0, .7, c}}, output), ElementsAre(1, 3, 2))
+  EXPECT_THAT(SuppressOverlaps({{0, .6, a}, {1, .9, b}, {2, .5, a}, {0, .7, c}}, output),
+              ElementsAre(1, 3, 2))
       << "classes 0 and 1 have one label";
-  EXPECT_THAT(SuppressOverlaps({{0, .8, a}, {0, .8, a}}, output), ElementsAre(0)) << "the first of equals";
+  EXPECT_THAT(SuppressOverlaps({{0, .8, a}, {0, .8, a}}, output), ElementsAre(0))
+      << "the first of equals";
   EXPECT_TRUE(SuppressOverlaps({}, output).empty());
   ModelOutput all = output;
   all.nms_iou = 1;

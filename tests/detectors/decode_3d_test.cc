@@ -35,10 +35,12 @@ TEST(CuboidInCamera, LooksAtTheCameraWhereverItStands) {
     to_camera.y() = 0;
     EXPECT_NEAR(ahead.dot(to_camera.normalized()), 1, 1e-9);
     EXPECT_NEAR((detection.T_cam_object.rotation() * Vec3(0, 0, 1)).y(), -1, 1e-9) << "its z is up";
-    const auto box = ProjectCuboid(Pose(detection.T_cam_object.rotation(), detection.T_cam_object.translation()),
-                                   Vec3(1e-6, 1e-6, 1e-6), camera);
+    const auto box =
+        ProjectCuboid(Pose(detection.T_cam_object.rotation(), detection.T_cam_object.translation()),
+                      Vec3(1e-6, 1e-6, 1e-6), camera);
     ASSERT_TRUE(box);
-    EXPECT_NEAR(box->left, u, 1e-3) << "seen by the left camera, which stands beside the reference camera";
+    EXPECT_NEAR(box->left, u, 1e-3)
+        << "seen by the left camera, which stands beside the reference camera";
   }
 }
 
@@ -59,7 +61,8 @@ TEST(AnchorPriors, RefusesFilesOfAnotherSize) {
   output.labels = {{0, "Car"}};
   output.anchors.scales = {1, 2};
   const NpyMatrix five{5, 6, std::vector<float>(30)};
-  output.anchors.mean_files[0] = output.anchors.std_files[0] = folder.Write("mean.npy", NpyBytes(five));
+  output.anchors.mean_files[0] = output.anchors.std_files[0] =
+      folder.Write("mean.npy", NpyBytes(five));
   ExpectError([&] { LoadAnchorPriors(output); }, {"mean.npy", "is 5x6, the anchors need 6x6"});
   output.anchors.mean_files[0] = "/nowhere/mean.npy";
   ExpectError([&] { LoadAnchorPriors(output); }, {"/nowhere/mean.npy"});
@@ -79,10 +82,13 @@ class MonoFlexMaps : public testing::Test {
     o.labels = {{0, "Car"}};
     return o;
   }();
-  std::vector<Tensor> maps = {Map(1, 2, 3, 0), Map(2, 2, 3, 0), Map(1, 2, 3, 10), Map(3, 2, 3, 1), Map(8, 2, 3, 0)};
+  std::vector<Tensor> maps = {Map(1, 2, 3, 0), Map(2, 2, 3, 0), Map(1, 2, 3, 10), Map(3, 2, 3, 1),
+                              Map(8, 2, 3, 0)};
 };
 
-TEST_F(MonoFlexMaps, FindsNothingInNothing) { EXPECT_TRUE(DecodeMonoFlex(maps, output, 12).empty()); }
+TEST_F(MonoFlexMaps, FindsNothingInNothing) {
+  EXPECT_TRUE(DecodeMonoFlex(maps, output, 12).empty());
+}
 
 TEST_F(MonoFlexMaps, RotationWithoutBins) {
   maps[0].values[4] = 0.9f;
@@ -100,17 +106,23 @@ TEST_F(MonoFlexMaps, RefusesMapsThatDoNotFitTogether) {
   ExpectError([&] { DecodeMonoFlex(maps, output, 12); }, {"1x1x4x3", "1x1x2x3"});
   maps[2] = Map(1, 2, 3, 10);
   maps[4] = Map(9, 2, 3, 0);
-  ExpectError([&] { DecodeMonoFlex(maps, output, 12); }, {"1x9x2x3", "1x2x?x?, 1x8x?x? or 1x16x?x?"});
+  ExpectError([&] { DecodeMonoFlex(maps, output, 12); },
+              {"1x9x2x3", "1x2x?x?, 1x8x?x? or 1x16x?x?"});
 }
 
 TEST(Detector3d, RefusesWhatItCannotUse) {
   SSLCD_RUNTIME();
   const Detector3d detector = Detector3d::Load(TestModel("stereo3d.yaml"));
-  const cv::Mat left(48, 64, CV_8UC3, cv::Scalar::all(9)), small(40, 64, CV_8UC3, cv::Scalar::all(9));
+  const cv::Mat left(48, 64, CV_8UC3, cv::Scalar::all(9)),
+      small(40, 64, CV_8UC3, cv::Scalar::all(9));
   const cv::Mat grey(48, 64, CV_8UC1, cv::Scalar(9));
   ExpectError([&] { detector.Detect({ViewOf(left), {}}, {}); }, {"right image", "empty"});
   ExpectError([&] { detector.Detect({ViewOf(left), ViewOf(small)}, {}); }, {"64x48", "64x40"});
-  ExpectError([&] { detector.Detect({ViewOf(left), ViewOf(grey)}, {}); }, {"right image", "needs colour"});
+  ExpectError(
+      [&] {
+        detector.Detect({ViewOf(left), ViewOf(grey)}, {});
+      },
+      {"right image", "needs colour"});
 }
 
 }  // namespace

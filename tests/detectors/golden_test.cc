@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For each layout a tiny model, whose answers scripts/make_test_models.py has computed in its own way.
+// For each layout a tiny model, whose answers scripts/make_test_models.py has computed in its own
+// way.
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
@@ -51,7 +52,8 @@ TEST_P(Golden2d, FindsWhatNumPyFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Golden2d,
-                         testing::Values("yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet"),
+                         testing::Values("yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels",
+                                         "fastestdet"),
                          [](const auto& test) { return std::string(test.param); });
 
 class Golden3d : public testing::TestWithParam<const char*> {};
@@ -66,8 +68,8 @@ TEST_P(Golden3d, FindsWhatNumPyFinds) {
   camera.left.fx = 70, camera.left.fy = 72, camera.left.cx = 31, camera.left.cy = 20;
   camera.left.offset = {0.06, -0.01, 0.002};
   camera.baseline_m = 0.5;
-  const std::vector<Detection> found =
-      detector.Detect({ViewOf(left), detector.uses_right_image() ? ViewOf(right) : ImageView()}, camera);
+  const std::vector<Detection> found = detector.Detect(
+      {ViewOf(left), detector.uses_right_image() ? ViewOf(right) : ImageView()}, camera);
   TextRows rows(TestModel(name + ".txt"));
   std::size_t count = 0;
   for (; rows.Next(); ++count) {
@@ -80,13 +82,15 @@ TEST_P(Golden3d, FindsWhatNumPyFinds) {
     ASSERT_TRUE(detection.box);
     const Box2d& box = *detection.box;
     ExpectNumbers(rows, 1,
-                  {detection.score, centre.x(), centre.y(), centre.z(), detection.dims.x(), detection.dims.y(),
-                   detection.dims.z(), same_turn, box.left, box.top, box.right, box.bottom});
+                  {detection.score, centre.x(), centre.y(), centre.z(), detection.dims.x(),
+                   detection.dims.y(), detection.dims.z(), same_turn, box.left, box.top, box.right,
+                   box.bottom});
   }
   EXPECT_EQ(count, found.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(, Golden3d, testing::Values("stereo3d", "mono3d", "monoflex", "monoflex_4"),
+INSTANTIATE_TEST_SUITE_P(, Golden3d,
+                         testing::Values("stereo3d", "mono3d", "monoflex", "monoflex_4"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST(Golden, Embeddings) {
@@ -96,7 +100,8 @@ TEST(Golden, Embeddings) {
   EXPECT_EQ(embedder.name(), "embedding");
   const cv::Mat image = LeftImage();
   TimingTable timing;
-  const std::vector<Box2d> boxes = {{5, 20, 30, 44}, {10, 70, 20, 80}, {-9, -5, 40.5, 12}, {3, 3, 3, 9}};
+  const std::vector<Box2d> boxes = {
+      {5, 20, 30, 44}, {10, 70, 20, 80}, {-9, -5, 40.5, 12}, {3, 3, 3, 9}};
   const auto found = embedder.Embed(ViewOf(image), boxes, &timing);
   ASSERT_EQ(found.size(), 4u);
   EXPECT_TRUE(found[1].empty()) << "it lies under the image";
@@ -108,7 +113,8 @@ TEST(Golden, Embeddings) {
   }
   EXPECT_EQ(timing.Summary().at("embedding run").count, 1) << "both at once";
   EXPECT_TRUE(embedder.Embed(ViewOf(image), {}).empty());
-  EXPECT_EQ(embedder.Embed(ViewOf(image), std::vector<Box2d>(70, boxes[0])).back(), found[0]) << "in several batches";
+  EXPECT_EQ(embedder.Embed(ViewOf(image), std::vector<Box2d>(70, boxes[0])).back(), found[0])
+      << "in several batches";
 
   const Embedder in_pairs = Embedder::Load(TestModel("embedding_pairs.yaml"));
   EXPECT_EQ(in_pairs.Embed(ViewOf(image), {boxes[0], boxes[2], boxes[0]}),

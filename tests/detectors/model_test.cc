@@ -15,8 +15,10 @@
 namespace sslcd {
 namespace {
 
-/// Loading a test model with another description than its own fails, and the message has all `parts`.
-void ExpectRefused(const std::string& model, const std::string& yaml, const std::vector<std::string>& parts) {
+/// Loading a test model with another description than its own fails, and the message has all
+/// `parts`.
+void ExpectRefused(const std::string& model, const std::string& yaml,
+                   const std::vector<std::string>& parts) {
   const TempFolder folder;
   const std::string path = folder.Write("m.yaml", "file: " + TestModel(model) + "\n" + yaml);
   ExpectError([&] { Detector2d::Load(path); }, parts);
@@ -28,19 +30,25 @@ TEST(Model, InputsThatDoNotFit) {
   SSLCD_RUNTIME();
   ExpectRefused(
       "yolo_v5.onnx", "input: {width_px: 640, height_px: 480}\n" + kThree,
-      {"m.yaml", "input 'images' of the model is 1x3x48x64, the description says ?x3x480x640", "yolo_v5.onnx"});
-  ExpectRefused("yolo_v5.onnx", "input: {left: pixels}\n" + kThree, {"no input 'pixels', only 'images'"});
-  ExpectRefused("boxes_scores_labels.onnx", kThree, {"the model has 2 inputs, the description fills 1"});
+      {"m.yaml", "input 'images' of the model is 1x3x48x64, the description says ?x3x480x640",
+       "yolo_v5.onnx"});
+  ExpectRefused("yolo_v5.onnx", "input: {left: pixels}\n" + kThree,
+                {"no input 'pixels', only 'images'"});
+  ExpectRefused("boxes_scores_labels.onnx", kThree,
+                {"the model has 2 inputs, the description fills 1"});
 }
 
 TEST(Model, OutputsThatDoNotFit) {
   SSLCD_RUNTIME();
   ExpectRefused("yolo_v5.onnx", "output: {layout: yolo_v5, labels: {0: Car}}\n",
                 {"output 'output0' of the model is 1x5x8, the layout expects 1x?x85"});
-  ExpectRefused("yolo_v5.onnx", "output: {layout: fastestdet, labels: {0: Car}}\n", {"1x5x8", "1x85x?x?"});
-  ExpectRefused("yolo_v5.onnx", "output: {layout: boxes_scores_labels, labels: {0: Car}}\n", {"1x5x8", "1x?x4"});
+  ExpectRefused("yolo_v5.onnx", "output: {layout: fastestdet, labels: {0: Car}}\n",
+                {"1x5x8", "1x85x?x?"});
+  ExpectRefused("yolo_v5.onnx", "output: {layout: boxes_scores_labels, labels: {0: Car}}\n",
+                {"1x5x8", "1x?x4"});
   ExpectRefused("boxes_scores_labels.onnx",
-                "input: {size: sizes}\noutput: {layout: boxes_scores_labels, names: {0: bxs}, labels: {0: Car}}\n",
+                "input: {size: sizes}\noutput: {layout: boxes_scores_labels, names: {0: bxs}, "
+                "labels: {0: Car}}\n",
                 {"no output 'bxs', only 'labels', 'unused'"});
 }
 
@@ -49,8 +57,10 @@ TEST(Model, FilesThatAreNotThere) {
   const TempFolder folder;
   const std::string path = folder.Write("m.yaml", "file: none.onnx\n" + kThree);
   ExpectError([&] { Detector2d::Load(path); }, {folder.path() + "/none.onnx", "cannot be read"});
-  ExpectError([] { Embedder::Load(TestModel("yolo_v5.yaml")); }, {"yolo_v5.yaml", "for Detector2d, not for Embedder"});
-  ExpectError([] { Detector2d::Load(TestModel("embedding.yaml")); }, {"for Embedder, not for Detector2d"});
+  ExpectError([] { Embedder::Load(TestModel("yolo_v5.yaml")); },
+              {"yolo_v5.yaml", "for Detector2d, not for Embedder"});
+  ExpectError([] { Detector2d::Load(TestModel("embedding.yaml")); },
+              {"for Embedder, not for Detector2d"});
 }
 
 TEST(Model, RefusesGreyImages) {

@@ -19,7 +19,8 @@ std::vector<float> Planes(const cv::Mat& image, const ModelInput& input, int wid
   return planes;
 }
 
-void ExpectMap(const InputMap& map, double scale_x, double scale_y, double offset_x, double offset_y) {
+void ExpectMap(const InputMap& map, double scale_x, double scale_y, double offset_x,
+               double offset_y) {
   EXPECT_DOUBLE_EQ(map.scale_x, scale_x);
   EXPECT_DOUBLE_EQ(map.scale_y, scale_y);
   EXPECT_DOUBLE_EQ(map.offset_x, offset_x);
@@ -95,10 +96,12 @@ TEST(Prepare, RefusesGreyEmptyAndTooLow) {
   float plane[3];
   const cv::Mat grey(4, 4, CV_8UC1, cv::Scalar(1)), colour(4, 4, CV_8UC3, cv::Scalar::all(1));
   ModelInput input;
-  ExpectError([&] { Prepare(ViewOf(grey), input, 1, 1, "left image", plane); }, {"left image", "grey", "needs colour"});
+  ExpectError([&] { Prepare(ViewOf(grey), input, 1, 1, "left image", plane); },
+              {"left image", "grey", "needs colour"});
   ExpectError([&] { Prepare({}, input, 1, 1, "left image", plane); }, {"left image", "empty"});
   input.crop_top_px = 4;
-  ExpectError([&] { Prepare(ViewOf(colour), input, 1, 1, "image", plane); }, {"4 rows", "crop_top_px"});
+  ExpectError([&] { Prepare(ViewOf(colour), input, 1, 1, "image", plane); },
+              {"4 rows", "crop_top_px"});
 }
 
 }  // namespace

@@ -16,11 +16,13 @@ namespace sslcd {
 namespace {
 
 constexpr int kFirst = 3;
-/// The car in frames 3 to 12, marked by hand to about 3 px. It is wholly visible in all of them (in frame 12 its bumper
-/// touches the border) and, by its height in the image (1.45 m at 719 px), nearer than 30 m from frame 5 on.
+/// The car in frames 3 to 12, marked by hand to about 3 px. It is wholly visible in all of them (in
+/// frame 12 its bumper touches the border) and, by its height in the image (1.45 m at 719 px),
+/// nearer than 30 m from frame 5 on.
 const std::vector<Box2d> kOncoming = {
-    {457, 180, 498, 210}, {446, 180, 492, 212}, {432, 180, 484, 217}, {415, 180, 474, 221}, {392, 181, 462, 228},
-    {364, 183, 447, 237}, {323, 183, 427, 249}, {264, 184, 400, 264}, {169, 184, 359, 289}, {2, 186, 302, 327}};
+    {457, 180, 498, 210}, {446, 180, 492, 212}, {432, 180, 484, 217}, {415, 180, 474, 221},
+    {392, 181, 462, 228}, {364, 183, 447, 237}, {323, 183, 427, 249}, {264, 184, 400, 264},
+    {169, 184, 359, 289}, {2, 186, 302, 327}};
 
 cv::Mat Frame(const std::string& data, int number) {
   char name[32];
@@ -29,7 +31,8 @@ cv::Mat Frame(const std::string& data, int number) {
 }
 
 /// The shipped description of a model, beside the model in the data folder.
-std::string Description(const TempFolder& folder, const std::string& name, const std::string& models) {
+std::string Description(const TempFolder& folder, const std::string& name,
+                        const std::string& models) {
   std::string text = ReadFileBytes(std::string(SSLCD_MODEL_CONFIGS) + "/" + name + ".yaml");
   text.replace(text.find("file: ") + 6, 0, models + "/");
   return folder.Write(name + ".yaml", text);
@@ -39,7 +42,8 @@ std::string Description(const TempFolder& folder, const std::string& name, const
 Box2d NearestCar(const Detector2d& detector, const cv::Mat& image, const Box2d& expected) {
   Box2d nearest;
   for (const ImageDetection& found : detector.Detect(ViewOf(image)))
-    if (found.label == "Car" && Iou(found.box, expected) > Iou(nearest, expected)) nearest = found.box;
+    if (found.label == "Car" && Iou(found.box, expected) > Iou(nearest, expected))
+      nearest = found.box;
   return nearest;
 }
 
@@ -59,7 +63,8 @@ TEST(RealModels, TheOncomingCarIsFoundInEveryFrameAndKnownAgainInTheNext) {
     EXPECT_GE(Iou(box, kOncoming[i]), 0.5);
     const std::vector<float> now = embedder.Embed(ViewOf(image), {box}).at(0);
     EXPECT_NEAR(std::inner_product(now.begin(), now.end(), now.begin(), 0.), 1, 1e-5);
-    const double same = before.empty() ? 1 : std::inner_product(now.begin(), now.end(), before.begin(), 0.);
+    const double same =
+        before.empty() ? 1 : std::inner_product(now.begin(), now.end(), before.begin(), 0.);
     EXPECT_GE(same, 0.7);
     before = now;
   }

@@ -15,13 +15,17 @@ using outside::Quoted;
 
 constexpr double kTolerance = 1e-6;
 
-std::map<std::string, double> AskEvo(const Trajectory& est, const Trajectory& ref, double max_difference_s) {
+std::map<std::string, double> AskEvo(const Trajectory& est, const Trajectory& ref,
+                                     double max_difference_s) {
   const outside::TempDir folder;
-  const auto est_file = outside::WriteFile(folder.path() / "est.txt", outside::TumText(est.stamps, est.poses));
-  const auto ref_file = outside::WriteFile(folder.path() / "ref.txt", outside::TumText(ref.stamps, ref.poses));
+  const auto est_file =
+      outside::WriteFile(folder.path() / "est.txt", outside::TumText(est.stamps, est.poses));
+  const auto ref_file =
+      outside::WriteFile(folder.path() / "ref.txt", outside::TumText(ref.stamps, ref.poses));
   const auto script = outside::SourceDir() / "tests/eval/evo_reference.py";
-  const outside::CommandResult run = outside::RunCommand("python3 " + Quoted(script) + " " + Quoted(est_file) + " " +
-                                                         Quoted(ref_file) + " " + std::to_string(max_difference_s));
+  const outside::CommandResult run =
+      outside::RunCommand("python3 " + Quoted(script) + " " + Quoted(est_file) + " " +
+                          Quoted(ref_file) + " " + std::to_string(max_difference_s));
   EXPECT_EQ(run.status, 0) << run.output;
   std::map<std::string, double> answers;
   std::istringstream rows(run.output);
@@ -30,7 +34,8 @@ std::map<std::string, double> AskEvo(const Trajectory& est, const Trajectory& re
   return answers;
 }
 
-void ExpectEqual(const ErrorStats& ours, std::map<std::string, double>& evo, const std::string& key) {
+void ExpectEqual(const ErrorStats& ours, std::map<std::string, double>& evo,
+                 const std::string& key) {
   ASSERT_TRUE(evo.count(key + ".rmse")) << key;
   EXPECT_EQ(ours.count, evo[key + ".count"]) << key;
   EXPECT_NEAR(ours.rmse, evo[key + ".rmse"], kTolerance) << key;
@@ -58,8 +63,10 @@ void ExpectAgreement(const Trajectory& est, const Trajectory& ref, double max_di
     const char* name;
     RpeOptions options;
   };
-  for (const Case& c : {Case{"rpe1f", {1, DeltaUnit::kFrames, false}}, Case{"rpe7f", {7, DeltaUnit::kFrames, false}},
-                        Case{"rpe7fall", {7, DeltaUnit::kFrames, true}}, Case{"rpe5m", {5, DeltaUnit::kMetres, false}},
+  for (const Case& c : {Case{"rpe1f", {1, DeltaUnit::kFrames, false}},
+                        Case{"rpe7f", {7, DeltaUnit::kFrames, false}},
+                        Case{"rpe7fall", {7, DeltaUnit::kFrames, true}},
+                        Case{"rpe5m", {5, DeltaUnit::kMetres, false}},
                         Case{"rpe5mall", {5, DeltaUnit::kMetres, true}}}) {
     const RpeResult rpe = ComputeRpe(matched.est, matched.ref, c.options);
     ExpectEqual(rpe.translation, evo, std::string(c.name) + ".translation_part");
@@ -70,11 +77,13 @@ void ExpectAgreement(const Trajectory& est, const Trajectory& ref, double max_di
 class EvoAgreement : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (!outside::PythonHas("evo, scipy")) GTEST_SKIP() << "skipped: python3 with evo and scipy is not installed";
+    if (!outside::PythonHas("evo, scipy"))
+      GTEST_SKIP() << "skipped: python3 with evo and scipy is not installed";
   }
 };
 
-/// A winding path, and the same seen by an odometry that drifts, is off in scale and starts elsewhere.
+/// A winding path, and the same seen by an odometry that drifts, is off in scale and starts
+/// elsewhere.
 TEST_F(EvoAgreement, SyntheticDriftingPathWithStampsThatDoNotMeet) {
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
@@ -108,7 +117,8 @@ TEST_F(EvoAgreement, RealOdometryAgainstOxts) {
     for (std::size_t i = 0; i < t->size(); ++i) t->stamps.push_back(0.1 * static_cast<double>(i));
   }
   ExpectAgreement(est, ref, 0.01);
-  EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSe3).error.rmse, 3.33, 0.005);  // as in the data's notes
+  // as in the data's notes
+  EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSe3).error.rmse, 3.33, 0.005);
   EXPECT_NEAR(ComputeAte(est.poses, ref.poses, Alignment::kSim3).error.rmse, 1.02, 0.005);
 }
 

@@ -126,7 +126,8 @@ TEST(Iou3dTest, EqualsMonteCarlo) {
     int common = 0;  // points of a that lie in b
     for (int k = 0; k < samples; ++k) {
       Vec3 p;
-      for (int j = 0; j < 3; ++j) p[j] = std::uniform_real_distribution<double>(-0.5, 0.5)(random) * a.dims[j];
+      for (int j = 0; j < 3; ++j)
+        p[j] = std::uniform_real_distribution<double>(-0.5, 0.5)(random) * a.dims[j];
       common += Contains(b, lie::SO3<double>::RotZ(a.yaw) * p + a.centre);
     }
     const double volume = a.Volume() * common / samples;
@@ -142,7 +143,8 @@ TEST(ToCuboidTest, UsesTheGravityFrame) {
   EXPECT_NEAR(box.yaw, 0.6, 1e-12);
   EXPECT_NEAR(HorizontalDistance(box, Cuboid{}), std::hypot(3, 20), 1e-12);
 
-  // Roll and pitch are dropped, and the IoU does not depend on which vertical frame the boxes are in.
+  // Roll and pitch are dropped, and the IoU does not depend on which vertical frame the boxes are
+  // in.
   const Pose tilted = T_cam_object * Pose::RotX(0.2);
   EXPECT_NEAR(ToCuboid(tilted, Vec3(4, 2, 1.5), kitti).yaw, 0.6, 1e-12);
 }

@@ -18,7 +18,9 @@ class Verdict {
  public:
   explicit Verdict(std::string json) : json_(std::move(json)) {}
 
-  bool Has(const std::string& key) const { return json_.find("\"" + key + "\":") != std::string::npos; }
+  bool Has(const std::string& key) const {
+    return json_.find("\"" + key + "\":") != std::string::npos;
+  }
 
   /// The number behind a key, wherever it is nested; none for null and NaN.
   std::optional<double> operator[](const std::string& key) const {
@@ -49,12 +51,14 @@ inline std::string MapJson(const std::vector<MapObject>& objects) {
   json << R"({"format":"sslcd-map","version":1,"up_axis":[0,-1,0],"objects":[)";
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const MapObject& o = objects[i];
-    json << (i > 0 ? ",\n" : "\n") << "{\"id\":" << o.id.value << ",\"label\":\"" << o.label << "\",\"state\":\""
-         << ToString(o.state) << "\",\"pose_world_object\":[";
+    json << (i > 0 ? ",\n" : "\n") << "{\"id\":" << o.id.value << ",\"label\":\"" << o.label
+         << "\",\"state\":\"" << ToString(o.state) << "\",\"pose_world_object\":[";
     for (int k = 0; k < 7; ++k) json << (k > 0 ? "," : "") << o.T_world_object.data()[k];
-    json << "],\"dimensions_lwh\":[" << o.dims[0] << "," << o.dims[1] << "," << o.dims[2] << "],\"observations\":[";
+    json << "],\"dimensions_lwh\":[" << o.dims[0] << "," << o.dims[1] << "," << o.dims[2]
+         << "],\"observations\":[";
     for (std::size_t k = 0; k < o.observations.size(); ++k) {
-      json << (k > 0 ? "," : "") << "[" << o.observations[k].frame << "," << o.observations[k].detection_row << "]";
+      json << (k > 0 ? "," : "") << "[" << o.observations[k].frame << ","
+           << o.observations[k].detection_row << "]";
     }
     json << "]}";
   }
@@ -62,9 +66,11 @@ inline std::string MapJson(const std::vector<MapObject>& objects) {
   return json.str();
 }
 
-/// A map as a simple mapper would make it, mistakes included: each detection goes to the nearest object of its frame's
-/// world that is within the gate, and an object is the mean of its detections.
-inline std::vector<MapObject> ClusterDetections(const std::vector<Frame>& frames, const std::vector<Pose>& T_world_cam,
+/// A map as a simple mapper would make it, mistakes included: each detection goes to the nearest
+/// object of its frame's world that is within the gate, and an object is the mean of its
+/// detections.
+inline std::vector<MapObject> ClusterDetections(const std::vector<Frame>& frames,
+                                                const std::vector<Pose>& T_world_cam,
                                                 double min_score, double gate_m) {
   const GravityFrame gravity;
   std::vector<MapObject> objects;
@@ -87,7 +93,8 @@ inline std::vector<MapObject> ClusterDetections(const std::vector<Frame>& frames
       }
       nearest->observations.push_back({frame.index, detection.row});
       const double weight = 1. / static_cast<double>(nearest->observations.size());
-      const Vec3 mean = nearest->T_world_object.translation() * (1 - weight) + T.translation() * weight;
+      const Vec3 mean =
+          nearest->T_world_object.translation() * (1 - weight) + T.translation() * weight;
       nearest->T_world_object = Pose(gravity.Upright(gravity.YawOf(T.so3())), mean);
       nearest->dims = nearest->dims * (1 - weight) + detection.dims * weight;
     }

@@ -13,7 +13,9 @@ constexpr const char* kCar = "3 7 Car 0 0 -1.5 100 120 200 220 1.5 1.6 4.0 2.0 1
 
 class GroundTruthReader : public ::testing::Test {
  protected:
-  std::string File(const std::string& text) { return outside::WriteFile(folder_.path() / "0001.txt", text).string(); }
+  std::string File(const std::string& text) {
+    return outside::WriteFile(folder_.path() / "0001.txt", text).string();
+  }
 
   void ExpectError(const std::string& text, const std::string& part) {
     try {
@@ -29,8 +31,8 @@ class GroundTruthReader : public ::testing::Test {
 };
 
 TEST_F(GroundTruthReader, ReadsBoxesAtTheirCentre) {
-  const auto boxes = ReadKittiTrackingLabels(
-      File(std::string("0 -1 DontCare -1 -1 -10 1 2 3 4 -1000 -1000 -1000 -10 -1 -1 -1\r\n\n") + kCar));
+  const auto boxes = ReadKittiTrackingLabels(File(
+      std::string("0 -1 DontCare -1 -1 -10 1 2 3 4 -1000 -1000 -1000 -10 -1 -1 -1\r\n\n") + kCar));
   ASSERT_EQ(boxes.size(), 1u);
   const GroundTruthBox& car = boxes[0];
   EXPECT_EQ(car.frame, 3);
@@ -38,7 +40,9 @@ TEST_F(GroundTruthReader, ReadsBoxesAtTheirCentre) {
   EXPECT_EQ(car.label, "Car");
   EXPECT_EQ(car.dims, Vec3(4.0, 1.6, 1.5));
   EXPECT_LT((car.T_cam_object.translation() - Vec3(2.0, 1.05, 20.0)).norm(), 1e-12);
-  EXPECT_LT((car.T_cam_object.so3() * Vec3(1, 0, 0) - Vec3(std::cos(0.5), 0, -std::sin(0.5))).norm(), 1e-12);
+  EXPECT_LT(
+      (car.T_cam_object.so3() * Vec3(1, 0, 0) - Vec3(std::cos(0.5), 0, -std::sin(0.5))).norm(),
+      1e-12);
   EXPECT_LT((car.T_cam_object.so3() * Vec3(0, 0, 1) - Vec3(0, -1, 0)).norm(), 1e-12);
 }
 

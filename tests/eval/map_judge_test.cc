@@ -35,7 +35,8 @@ std::vector<Frame> ReadDetections(const outside::fs::path& path) {
     detection.label = "Car";
     detection.score = Sigmoid(v[6]);
     detection.dims = {v[9], v[8], v[7]};
-    detection.T_cam_object = Pose(GravityFrame().Upright(-v[13]), Vec3(v[10], v[11] - 0.5 * v[7], v[12]));
+    detection.T_cam_object =
+        Pose(GravityFrame().Upright(-v[13]), Vec3(v[10], v[11] - 0.5 * v[7], v[12]));
     frames[static_cast<std::size_t>(v[0])].detections.push_back(detection);
   }
   return frames;
@@ -47,8 +48,10 @@ TEST_P(MapJudge, AgreesInEveryFigure) {
   const Case& c = GetParam();
   const auto data = outside::DataDir() / "kitti-tracking";
   const auto judge = outside::ToolsDir() / "eval_map.py";
-  if (!outside::fs::exists(data) || !outside::fs::exists(judge)) GTEST_SKIP() << "skipped: no data or no judge";
-  if (!outside::PythonHas("numpy, shapely")) GTEST_SKIP() << "skipped: python3 with numpy and shapely is not installed";
+  if (!outside::fs::exists(data) || !outside::fs::exists(judge))
+    GTEST_SKIP() << "skipped: no data or no judge";
+  if (!outside::PythonHas("numpy, shapely"))
+    GTEST_SKIP() << "skipped: python3 with numpy and shapely is not installed";
   const std::string file = std::string(c.sequence) + ".txt";
   const auto detections = data / c.detections / file;
   const std::vector<Pose> odometry = outside::ReadKittiPoses(data / "orbslam3_poses" / file);
@@ -59,8 +62,8 @@ TEST_P(MapJudge, AgreesInEveryFigure) {
   run.estimate.resize(run.estimate.size() - c.frames_left_out);
   run.frames = ReadDetections(detections);
   run.objects = judge::ClusterDetections(run.frames, run.estimate, 0.5, c.gate_m);
-  run.reference =
-      has_reference ? outside::ReadKittiPoses(data / "oxts_cam0_poses" / file) : ScaledPath(odometry, 0.975);
+  run.reference = has_reference ? outside::ReadKittiPoses(data / "oxts_cam0_poses" / file)
+                                : ScaledPath(odometry, 0.975);
   run.truth = ReadKittiTrackingLabels((data / "label_02" / file).string());
   const MapMetrics ours = ComputeMapMetrics(run);
 
@@ -68,8 +71,8 @@ TEST_P(MapJudge, AgreesInEveryFigure) {
   outside::WriteFile(folder.path() / "trajectory_kitti.txt", outside::KittiText(run.estimate));
   outside::WriteFile(folder.path() / "map.json", judge::MapJson(run.objects));
   const outside::CommandResult answer =
-      outside::RunCommand("python3 " + Quoted(judge) + " " + Quoted(folder.path()) + " " + Quoted(data) + " " +
-                          c.sequence + " " + Quoted(detections));
+      outside::RunCommand("python3 " + Quoted(judge) + " " + Quoted(folder.path()) + " " +
+                          Quoted(data) + " " + c.sequence + " " + Quoted(detections));
   ASSERT_EQ(answer.status, 0) << answer.output;
   const judge::Verdict verdict(answer.output);
 
@@ -91,7 +94,8 @@ TEST_P(MapJudge, AgreesInEveryFigure) {
   const auto ate = [&](std::vector<Pose> est, Alignment alignment) {
     const std::size_t n = std::min(est.size(), run.reference.size());
     est.resize(n);
-    return ComputeAte(est, {run.reference.begin(), run.reference.begin() + n}, alignment).error.rmse;
+    return ComputeAte(est, {run.reference.begin(), run.reference.begin() + n}, alignment)
+        .error.rmse;
   };
   judge::ExpectSame(verdict, "ate", ate(run.estimate, Alignment::kSe3));
   judge::ExpectSame(verdict, "ate_odometry", ate(odometry, Alignment::kSe3));
@@ -103,7 +107,9 @@ INSTANTIATE_TEST_SUITE_P(KittiTracking, MapJudge,
                                            Case{"0001", "det_pointrcnn_car", 1., 60, 4.},
                                            Case{"0011", "det_stereo_grade_car", 0.975, 0, 2.5},
                                            Case{"0009", "det_stereo_grade_car", 0.971, 0, 30.}),
-                         [](const auto& test) { return std::string("Sequence") + test.param.sequence; });
+                         [](const auto& test) {
+                           return std::string("Sequence") + test.param.sequence;
+                         });
 
 }  // namespace
 }  // namespace sslcd

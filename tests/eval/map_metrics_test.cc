@@ -15,8 +15,9 @@ namespace {
 const GravityFrame kCamera;
 const Vec3 kDims(4, 2, 1.5);
 
-/// Ten frames, a camera that drives along z at 1 m a frame; track 1 is parked, track 2 drives ahead of the camera.
-/// Detections are perfect: row 2 f sees track 1, row 2 f + 1 sees track 2. The map has the parked car.
+/// Ten frames, a camera that drives along z at 1 m a frame; track 1 is parked, track 2 drives ahead
+/// of the camera. Detections are perfect: row 2 f sees track 1, row 2 f + 1 sees track 2. The map
+/// has the parked car.
 MapRun SmallRun() {
   MapRun run;
   MapObject parked;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the tests of eval share about the world outside: files, real data and reference implementations in Python.
+// What the tests of eval share about the world outside: files, real data and reference
+// implementations in Python.
 #pragma once
 
 #include <sys/wait.h>
@@ -66,7 +67,8 @@ inline CommandResult RunCommand(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   char buffer[4096];
-  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) result.output.append(buffer, n);
+  while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe))
+    result.output.append(buffer, n);
   result.status = WEXITSTATUS(pclose(pipe));
   return result;
 }
@@ -93,7 +95,8 @@ inline std::vector<std::vector<double>> ReadNumbers(const fs::path& path, char s
 inline std::vector<Pose> ReadKittiPoses(const fs::path& path) {
   std::vector<Pose> poses;
   for (const std::vector<double>& row : ReadNumbers(path)) {
-    poses.push_back(Pose::FromMatrix(Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(row.data())));
+    poses.push_back(Pose::FromMatrix(
+        Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(row.data())));
   }
   return poses;
 }
@@ -114,8 +117,8 @@ inline std::string TumText(const std::vector<double>& stamps, const std::vector<
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Vec3& t = poses[i].translation();
     const auto& q = poses[i].unit_quaternion();
-    text << stamps[i] << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z()
-         << ' ' << q.w() << '\n';
+    text << stamps[i] << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x() << ' '
+         << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
   }
   return text.str();
 }

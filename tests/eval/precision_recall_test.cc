@@ -31,7 +31,8 @@ TEST(PrecisionRecallTest, ByHand) {
 }
 
 TEST(PrecisionRecallTest, EqualScoresCannotBeToldApart) {
-  const PrecisionRecall result = ComputePrecisionRecall({{1, true, 0}, {1, false, 0}, {1, true, 0}}, 2);
+  const PrecisionRecall result =
+      ComputePrecisionRecall({{1, true, 0}, {1, false, 0}, {1, true, 0}}, 2);
   ASSERT_EQ(result.curve.size(), 1u);
   EXPECT_DOUBLE_EQ(result.curve[0].precision, 2. / 3);
   EXPECT_DOUBLE_EQ(result.average_precision, 2. / 3);
@@ -40,7 +41,8 @@ TEST(PrecisionRecallTest, EqualScoresCannotBeToldApart) {
 
 TEST(PrecisionRecallTest, AllRightAllWrongNothing) {
   EXPECT_DOUBLE_EQ(ComputePrecisionRecall({{3, true, 0}, {2, true, 0}}, 2).average_precision, 1);
-  EXPECT_DOUBLE_EQ(ComputePrecisionRecall({{3, true, 0}, {2, true, 0}}, 2).recall_at_full_precision, 1);
+  EXPECT_DOUBLE_EQ(ComputePrecisionRecall({{3, true, 0}, {2, true, 0}}, 2).recall_at_full_precision,
+                   1);
   EXPECT_EQ(ComputePrecisionRecall({{3, false, 0}, {2, false, 0}}, 2).average_precision, 0);
   EXPECT_TRUE(ComputePrecisionRecall({}, 4).curve.empty());
   const PrecisionRecall nothing_to_find = ComputePrecisionRecall({{3, false, 0}}, 0);
@@ -51,7 +53,8 @@ TEST(PrecisionRecallTest, AllRightAllWrongNothing) {
 TEST(PrecisionRecallTest, TheOrderOfTheAnswersDoesNotMatter) {
   std::mt19937 random(1);
   std::vector<ScoredAnswer> answers;
-  for (int i = 0; i < 200; ++i) answers.push_back({static_cast<double>(random() % 20), random() % 3 > 0, 0});
+  for (int i = 0; i < 200; ++i)
+    answers.push_back({static_cast<double>(random() % 20), random() % 3 > 0, 0});
   const PrecisionRecall a = ComputePrecisionRecall(answers, 200);
   std::shuffle(answers.begin(), answers.end(), random);
   const PrecisionRecall b = ComputePrecisionRecall(answers, 200);
@@ -85,8 +88,8 @@ TEST(ViewpointBinTest, EdgesSignsAndTurns) {
 }
 
 TEST(PrecisionRecallByViewpointTest, SplitsAnswersAndPositives) {
-  const auto results =
-      ComputePrecisionRecallByViewpoint({{1, true, 0.1}, {2, false, -0.1}, {3, true, 3.1}}, {1, 0, 0, 2});
+  const auto results = ComputePrecisionRecallByViewpoint(
+      {{1, true, 0.1}, {2, false, -0.1}, {3, true, 3.1}}, {1, 0, 0, 2});
   EXPECT_EQ(results[0].curve.size(), 2u);
   EXPECT_DOUBLE_EQ(results[0].average_precision, 0.5);
   EXPECT_TRUE(results[1].curve.empty());

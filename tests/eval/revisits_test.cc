@@ -10,8 +10,8 @@
 namespace sslcd {
 namespace {
 
-/// Out along z for 100 m and straight back 3 m beside it, a metre a frame, looking where it goes. A tree at every third
-/// metre of the first 60 is seen from next to it, both times.
+/// Out along z for 100 m and straight back 3 m beside it, a metre a frame, looking where it goes. A
+/// tree at every third metre of the first 60 is seen from next to it, both times.
 struct OutAndBack {
   std::vector<Pose> reference;
   std::vector<Frame> frames;
@@ -21,7 +21,8 @@ struct OutAndBack {
     for (int f = 0; f <= 200; ++f) {
       const bool back = f > 100;
       const int z = back ? 200 - f : f;
-      reference.push_back(Pose(lie::SO3<double>::RotY(back ? M_PI : 0.), Vec3(back ? 3. : 0., 0, z)));
+      reference.push_back(
+          Pose(lie::SO3<double>::RotY(back ? M_PI : 0.), Vec3(back ? 3. : 0., 0, z)));
       Frame frame;
       frame.index = f;
       if (z < 60 && z % 3 == 0) {
@@ -46,9 +47,11 @@ struct OutAndBack {
 
 TEST(Revisits, WhereTheCameraHasBeenAndKnowsEnough) {
   const OutAndBack drive;
-  const std::vector<Revisit> revisits = FindRevisits(drive.reference, drive.frames, drive.identities);
+  const std::vector<Revisit> revisits =
+      FindRevisits(drive.reference, drive.frames, drive.identities);
   ASSERT_FALSE(revisits.empty());
-  // Old cameras are near from z = 69 on, 60 m of path and the turn before; five trees within 20 m from z = 65 on.
+  // Old cameras are near from z = 69 on, 60 m of path and the turn before; five trees within 20 m
+  // from z = 65 on.
   EXPECT_NEAR(200 - revisits.front().frame, 65, 5);
   EXPECT_GE(revisits.back().frame, 195);
   for (const Revisit& revisit : revisits) {
@@ -57,7 +60,8 @@ TEST(Revisits, WhereTheCameraHasBeenAndKnowsEnough) {
     EXPECT_NEAR(revisit.distance_m, 3, 1e-9);
     EXPECT_GE(revisit.common, 5);
   }
-  for (std::size_t i = 1; i < revisits.size(); ++i) EXPECT_NEAR(revisits[i].at_m - revisits[i - 1].at_m, 5, 1e-9);
+  for (std::size_t i = 1; i < revisits.size(); ++i)
+    EXPECT_NEAR(revisits[i].at_m - revisits[i - 1].at_m, 5, 1e-9);
 
   RevisitOptions nearer;
   nearer.radius_m = 2.9;
@@ -96,11 +100,12 @@ TEST(Revisits, RightAnswersOnceAndWrongOnesEachTime) {
   const std::vector<Revisit> two = {all[1], all[8]};  // 35 m apart
   const auto near = [&](int i, int shift) { return two[i].frame + shift; };
   const auto old = [&](int i) { return two[i].old_frame; };
-  const std::vector<LoopOutcome> loops =
-      JudgeLoops({drive.Loop(near(0, 0), old(0), 0, 3), drive.Loop(near(0, 2), old(0), 1, 4),  // one place, right twice
-                  drive.Loop(near(1, 0), old(1), 6, 9), drive.Loop(near(1, 1), old(1), 7, 8),  // wrong twice
-                  drive.Loop(near(0, 20), old(0), 0, 5)},  // right, but not asked for
-                 drive.reference);
+  const std::vector<LoopOutcome> loops = JudgeLoops(
+      {drive.Loop(near(0, 0), old(0), 0, 3),
+       drive.Loop(near(0, 2), old(0), 1, 4),  // one place, right twice
+       drive.Loop(near(1, 0), old(1), 6, 9), drive.Loop(near(1, 1), old(1), 7, 8),  // wrong twice
+       drive.Loop(near(0, 20), old(0), 0, 5)},  // right, but not asked for
+      drive.reference);
   std::vector<ScoredAnswer> answers = AnswersOf(two, loops, 5.);
   ASSERT_EQ(answers.size(), 3u);
   EXPECT_TRUE(answers[0].correct);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops, map and trajectory against tools/eval_sequence.py, on a real sequence with true identities.
+// Loops, map and trajectory against tools/eval_sequence.py, on a real sequence with true
+// identities.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,7 +82,8 @@ std::vector<LoopClosure> FakeLoops(const std::vector<Pose>& reference) {
 std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
   std::ostringstream csv;
   csv.precision(17);
-  csv << "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,ty,tz,qx,qy,qz,qw,"
+  csv << "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,"
+         "tx,ty,tz,qx,qy,qz,qw,"
          "pairs\n5,1,ambiguous,margin,1,1,3,0,0,0,0,0,0,0,1,\n";
   for (const LoopClosure& loop : loops) {
     csv << loop.query_frame << ',' << loop.match_frame << ",accepted,,1,0,5,0";
@@ -95,7 +97,8 @@ std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
 TEST(SequenceJudge, AgreesInEveryFigure) {
   const auto data = outside::DataDir() / "victoria-park";
   const auto judge = outside::ToolsDir() / "eval_sequence.py";
-  if (!outside::fs::exists(data) || !outside::fs::exists(judge)) GTEST_SKIP() << "skipped: no data or no judge";
+  if (!outside::fs::exists(data) || !outside::fs::exists(judge))
+    GTEST_SKIP() << "skipped: no data or no judge";
   if (!outside::PythonHas("numpy")) GTEST_SKIP() << "skipped: python3 with numpy is not installed";
 
   const Stamped reference = ReadTum(data / "reference.txt");
@@ -116,11 +119,12 @@ TEST(SequenceJudge, AgreesInEveryFigure) {
   const outside::TempDir folder;
   outside::WriteFile(
       folder.path() / "trajectory_tum.txt",
-      outside::TumText({reference.stamps.begin(), reference.stamps.begin() + run.estimate.size()}, run.estimate));
+      outside::TumText({reference.stamps.begin(), reference.stamps.begin() + run.estimate.size()},
+                       run.estimate));
   outside::WriteFile(folder.path() / "map.json", judge::MapJson(run.objects));
   outside::WriteFile(folder.path() / "loops.csv", LoopsCsv(run.loops));
-  const outside::CommandResult answer =
-      outside::RunCommand("python3 " + Quoted(judge) + " " + Quoted(folder.path()) + " " + Quoted(data));
+  const outside::CommandResult answer = outside::RunCommand(
+      "python3 " + Quoted(judge) + " " + Quoted(folder.path()) + " " + Quoted(data));
   ASSERT_EQ(answer.status, 0) << answer.output;
   const judge::Verdict verdict(answer.output);
 
@@ -138,7 +142,8 @@ TEST(SequenceJudge, AgreesInEveryFigure) {
   judge::ExpectSame(verdict, "landmarks_per_true", ours.landmarks_per_true);
   judge::ExpectSame(verdict, "purity", ours.purity);
   for (int k = 0; k < kViewpointBins; ++k) {
-    EXPECT_EQ(ours.true_by_viewpoint[k], verdict[kViewpointBinNames[k]].value_or(0)) << kViewpointBinNames[k];
+    EXPECT_EQ(ours.true_by_viewpoint[k], verdict[kViewpointBinNames[k]].value_or(0))
+        << kViewpointBinNames[k];
   }
   EXPECT_GT(ours.loops - ours.wrong_loops, 20);
   EXPECT_GT(ours.wrong_loops, 10);

@@ -10,13 +10,14 @@
 namespace sslcd {
 namespace {
 
-/// Out along z for 100 m and straight back, a metre a frame, looking where it goes. Ten trees stand at the first 30 m
-/// and are seen from next to them, both times: identity k at 3 k metres.
+/// Out along z for 100 m and straight back, a metre a frame, looking where it goes. Ten trees stand
+/// at the first 30 m and are seen from next to them, both times: identity k at 3 k metres.
 SequenceRun OutAndBack() {
   SequenceRun run;
   for (int f = 0; f <= 200; ++f) {
     const bool back = f > 100;
-    run.reference.push_back(Pose(lie::SO3<double>::RotY(back ? M_PI : 0.), Vec3(0.02 * f, 0, back ? 200 - f : f)));
+    run.reference.push_back(
+        Pose(lie::SO3<double>::RotY(back ? M_PI : 0.), Vec3(0.02 * f, 0, back ? 200 - f : f)));
     Frame frame;
     frame.index = f;
     const int z = back ? 200 - f : f;
@@ -47,9 +48,10 @@ LoopClosure LoopWithError(const SequenceRun& run, int query, int match, const Po
 
 TEST(SequenceMetricsTest, LoopsByErrorAndViewpoint) {
   SequenceRun run = OutAndBack();
-  run.loops = {LoopWithError(run, 195, 5, Pose()), LoopWithError(run, 196, 4, Pose::Trans(4.9, 30, 0)),
-               LoopWithError(run, 197, 3, Pose::Trans(3.6, 0, 3.6)), LoopWithError(run, 198, 2, Pose::RotX(0.1)),
-               LoopWithError(run, 60, 40, Pose::RotZ(0.05))};
+  run.loops = {
+      LoopWithError(run, 195, 5, Pose()), LoopWithError(run, 196, 4, Pose::Trans(4.9, 30, 0)),
+      LoopWithError(run, 197, 3, Pose::Trans(3.6, 0, 3.6)),
+      LoopWithError(run, 198, 2, Pose::RotX(0.1)), LoopWithError(run, 60, 40, Pose::RotZ(0.05))};
   const SequenceMetrics metrics = ComputeSequenceMetrics(run);
   EXPECT_EQ(metrics.loops, 5);
   EXPECT_EQ(metrics.wrong_loops, 2);  // 5.1 m, and 5.7 degrees; height does not count
@@ -74,7 +76,8 @@ TEST(SequenceMetricsTest, RefusedLoopsDoNotCount) {
 
 TEST(SequenceMetricsTest, RevisitedStretches) {
   SequenceRun run = OutAndBack();
-  // Five trees have come back into the last 40 m at 185 m, where the path ends at 200.04 m: marks at 190 and 200.
+  // Five trees have come back into the last 40 m at 185 m, where the path ends at 200.04 m: marks
+  // at 190 and 200.
   SequenceMetrics metrics = ComputeSequenceMetrics(run);
   EXPECT_EQ(metrics.revisited_stretches, 2);
   EXPECT_EQ(metrics.recall, 0);

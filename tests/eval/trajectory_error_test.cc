@@ -57,7 +57,8 @@ TEST(AteTest, RecoversTheMotionThatEachAlignmentMayUndo) {
     const AteResult ate = ComputeAte(Moved(undo, ref), ref, c.alignment);
     EXPECT_LT(ate.error.max, 1e-9) << ToString(c.alignment);
     EXPECT_NEAR(ate.S_ref_est.scale, c.S.scale, 1e-12);
-    EXPECT_LT((ate.S_ref_est.T_ref_est.inverse() * c.S.T_ref_est).Log().norm(), 1e-9) << ToString(c.alignment);
+    EXPECT_LT((ate.S_ref_est.T_ref_est.inverse() * c.S.T_ref_est).Log().norm(), 1e-9)
+        << ToString(c.alignment);
     EXPECT_TRUE(ate.unique);
     EXPECT_EQ(ate.error.count, 40);
   }
@@ -67,7 +68,8 @@ TEST(AteTest, FreerAlignmentsAreNeverWorse) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const std::vector<Pose> est = RandomPath(30, seed), ref = RandomPath(30, seed + 100);
     double last = std::numeric_limits<double>::infinity();
-    for (const Alignment alignment : {Alignment::kNone, Alignment::k4Dof, Alignment::kSe3, Alignment::kSim3}) {
+    for (const Alignment alignment :
+         {Alignment::kNone, Alignment::k4Dof, Alignment::kSe3, Alignment::kSim3}) {
       const double rmse = ComputeAte(est, ref, alignment).error.rmse;
       EXPECT_LE(rmse, last + 1e-12);
       last = rmse;
@@ -81,7 +83,8 @@ TEST(AteTest, FourDofTurnsAboutTheGivenUpOnly) {
   const std::vector<Pose> est = RandomPath(25, 8);
   const AteResult ate = ComputeAte(est, Moved({1, turn}, est), Alignment::k4Dof, up);
   EXPECT_LT(ate.error.max, 1e-9);
-  EXPECT_GT(ComputeAte(est, Moved({1, turn}, est), Alignment::k4Dof, Vec3::UnitX()).error.rmse, 0.1);
+  EXPECT_GT(ComputeAte(est, Moved({1, turn}, est), Alignment::k4Dof, Vec3::UnitX()).error.rmse,
+            0.1);
   EXPECT_THROW(ComputeAte(est, est, Alignment::k4Dof, Vec3::Zero()), Error);
   EXPECT_THROW(ComputeAte(est, est, Alignment::k4Dof, Vec3(0, kNan, 0)), Error);
 }
@@ -98,8 +101,10 @@ TEST(AteTest, ThePosesTurnWithTheirPositions) {
   const Similarity S{2, Pose(lie::SO3<double>::RotZ(M_PI / 2), Vec3(1, 0, 0))};
   const Pose T = S * Pose(lie::SO3<double>::RotX(0.3), Vec3(1, 2, 3));
   EXPECT_LT((T.translation() - Vec3(-3, 2, 6)).norm(), 1e-12);
-  EXPECT_LT((T.so3().matrix() - (lie::SO3<double>::RotZ(M_PI / 2) * lie::SO3<double>::RotX(0.3)).matrix()).norm(),
-            1e-12);
+  EXPECT_LT(
+      (T.so3().matrix() - (lie::SO3<double>::RotZ(M_PI / 2) * lie::SO3<double>::RotX(0.3)).matrix())
+          .norm(),
+      1e-12);
 }
 
 struct OpenCase {
@@ -113,9 +118,10 @@ TEST(AteTest, PositionsThatLeaveTheAlignmentOpenStillHaveAnError) {
       {"one pose", At({{1, 2, 3}}), At({{7, 8, 9}}), 0.},
       {"two poses of equal distance", At({{0, 0, 0}, {1, 0, 0}}), At({{5, 5, 5}, {5, 6, 5}}), 0.},
       {"two poses, one metre longer", At({{0, 0, 0}, {1, 0, 0}}), At({{0, 0, 0}, {0, 0, 2}}), 0.5},
-      {"all equal", At({{4, 4, 4}, {4, 4, 4}, {4, 4, 4}}), At({{0, 0, 0}, {0, 3, 0}, {0, -3, 0}}), std::sqrt(6.)},
-      {"all equal, large numbers", At(std::vector<Vec3>(7, {1e6 + 0.1, 0.1, 0.3})), At(std::vector<Vec3>(7, {3, 0, 0})),
-       0},
+      {"all equal", At({{4, 4, 4}, {4, 4, 4}, {4, 4, 4}}), At({{0, 0, 0}, {0, 3, 0}, {0, -3, 0}}),
+       std::sqrt(6.)},
+      {"all equal, large numbers", At(std::vector<Vec3>(7, {1e6 + 0.1, 0.1, 0.3})),
+       At(std::vector<Vec3>(7, {3, 0, 0})), 0},
       {"on one line", At({{0, 0, 0}, {1, 1, 1}, {3, 3, 3}, {9, 9, 9}}),
        At({{0, 0, 0}, {0, 0, std::sqrt(3.)}, {0, 0, std::sqrt(27.)}, {0, 0, std::sqrt(243.)}}), 0.},
   };
@@ -139,7 +145,8 @@ TEST(AteTest, BadInputIsNamed) {
   const std::vector<Pose> good = RandomPath(5, 1);
   std::vector<Pose> bad = good;
   bad[3].translation().y() = kNan;
-  const auto message = [](const std::vector<Pose>& est, const std::vector<Pose>& ref) -> std::string {
+  const auto message = [](const std::vector<Pose>& est,
+                          const std::vector<Pose>& ref) -> std::string {
     try {
       ComputeAte(est, ref);
     } catch (const Error& e) {
@@ -157,7 +164,8 @@ TEST(AteTest, BadInputIsNamed) {
 }
 
 TEST(AlignmentTest, NamesGoBothWays) {
-  for (const Alignment a : {Alignment::kNone, Alignment::k4Dof, Alignment::kSe3, Alignment::kSim3}) {
+  for (const Alignment a :
+       {Alignment::kNone, Alignment::k4Dof, Alignment::kSe3, Alignment::kSim3}) {
     EXPECT_EQ(ParseAlignment(ToString(a)), a);
   }
   EXPECT_THROW(ParseAlignment("SE3"), Error);
@@ -197,7 +205,8 @@ TEST(MatchByStampTest, TakesTheNearestWithinTheLimit) {
 
 TEST(MatchByStampTest, BadStamps) {
   const Trajectory good{{0, 1}, At({{0, 0, 0}, {1, 0, 0}})};
-  const Trajectory backwards{{1, 0}, good.poses}, nan{{0, kNan}, good.poses}, short_of{{0}, good.poses};
+  const Trajectory backwards{{1, 0}, good.poses}, nan{{0, kNan}, good.poses},
+      short_of{{0}, good.poses};
   const Trajectory elsewhere{{100, 101}, good.poses};
   EXPECT_THROW(MatchByStamp(backwards, good), Error);
   EXPECT_THROW(MatchByStamp(good, nan), Error);
@@ -225,7 +234,8 @@ TEST(RpeTest, AConstantErrorPerStep) {
   EXPECT_EQ(ComputeRpe(est, ref, {6, DeltaUnit::kFrames, false}).rotation_rad.count, 3);
   EXPECT_NEAR(ComputeRpe(est, ref, {6, DeltaUnit::kFrames, false}).rotation_rad.mean, 0.06, 1e-12);
   EXPECT_EQ(ComputeRpe(est, ref, {6, DeltaUnit::kFrames, true}).translation.count, 15);
-  EXPECT_EQ(ComputeRpe(est, ref, {3, DeltaUnit::kMetres, false}).translation.count, 6);  // 3.3 m each
+  // 3.3 m each
+  EXPECT_EQ(ComputeRpe(est, ref, {3, DeltaUnit::kMetres, false}).translation.count, 6);
 }
 
 TEST(RpeTest, TooShortAndBadDeltas) {

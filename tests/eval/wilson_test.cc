@@ -16,8 +16,8 @@ TEST(WilsonTest, EqualsPublishedValues) {
     int successes, trials;
     double low, high;
   };
-  for (const Case& c : {Case{81, 263, 0.2553, 0.3662}, Case{15, 148, 0.0624, 0.1605}, Case{0, 20, 0., 0.1611},
-                        Case{1, 29, 0.0061, 0.1718}}) {
+  for (const Case& c : {Case{81, 263, 0.2553, 0.3662}, Case{15, 148, 0.0624, 0.1605},
+                        Case{0, 20, 0., 0.1611}, Case{1, 29, 0.0061, 0.1718}}) {
     const Interval interval = WilsonInterval(c.successes, c.trials);
     EXPECT_NEAR(interval.low, c.low, 5e-5);
     EXPECT_NEAR(interval.high, c.high, 5e-5);

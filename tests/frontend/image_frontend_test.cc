@@ -19,10 +19,11 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 
 constexpr int kWidth = 320, kHeight = 200;
-constexpr double kFocal = 200, kBaseline = 0.5, kWall = 12;  // [px], [m], [m] in front of the first camera
+// [px], [m], [m] in front of the first camera
+constexpr double kFocal = 200, kBaseline = 0.5, kWall = 12;
 
-// A wall with a random pattern that the camera comes nearer to by 0.2 m a frame; without its right image there is
-// nothing to tell how fast.
+// A wall with a random pattern that the camera comes nearer to by 0.2 m a frame; without its right
+// image there is nothing to tell how fast.
 Image Wall(int frame, bool right) {
   static const std::vector<unsigned char> pattern = [] {
     std::vector<unsigned char> dots(400 * 400);
@@ -40,13 +41,15 @@ Image Wall(int frame, bool right) {
       const double c = 200 + 10 * x, r = 200 + 10 * y;
       const int c0 = static_cast<int>(std::floor(c)), r0 = static_cast<int>(std::floor(r));
       const auto dot = [](int column, int row) {
-        return pattern[static_cast<std::size_t>(std::clamp(row, 0, 399) * 400 + std::clamp(column, 0, 399))];
+        return pattern[static_cast<std::size_t>(std::clamp(row, 0, 399) * 400 +
+                                                std::clamp(column, 0, 399))];
       };
       const double a = c - c0, b = r - r0;
       const double value = (1 - b) * ((1 - a) * dot(c0, r0) + a * dot(c0 + 1, r0)) +
                            b * ((1 - a) * dot(c0, r0 + 1) + a * dot(c0 + 1, r0 + 1));
       for (int k = 0; k < 3; ++k)
-        image.pixels[static_cast<std::size_t>(3 * (v * kWidth + u) + k)] = static_cast<unsigned char>(value);
+        image.pixels[static_cast<std::size_t>(3 * (v * kWidth + u) + k)] =
+            static_cast<unsigned char>(value);
     }
   }
   return image;
@@ -63,7 +66,8 @@ Image Load(const std::string& path) {
 
 ImageSequence Approach(int frames) {
   ImageSequence sequence;
-  sequence.camera = {{kFocal, kFocal, kWidth / 2, kHeight / 2, {0, 0, 0}, kWidth, kHeight}, kBaseline};
+  sequence.camera = {{kFocal, kFocal, kWidth / 2, kHeight / 2, {0, 0, 0}, kWidth, kHeight},
+                     kBaseline};
   for (int i = 0; i < frames; ++i) {
     Frame& frame = sequence.frames.emplace_back();
     frame.index = i;
@@ -85,7 +89,8 @@ std::vector<Frame> All(ImageFrontend& frontend) {
 class ImageFrontendTest : public testing::Test {
  protected:
   ImageFrontendTest()
-      : before_(SetLogSink([this](LogLevel, const std::string& message) { messages_.push_back(message); })) {}
+      : before_(SetLogSink(
+            [this](LogLevel, const std::string& message) { messages_.push_back(message); })) {}
   ~ImageFrontendTest() override { SetLogSink(before_); }
 
   std::vector<std::string> messages_;
@@ -94,8 +99,9 @@ class ImageFrontendTest : public testing::Test {
 
 TEST_F(ImageFrontendTest, FindsItsWayAndLooksIntoBoxes) {
   std::vector<int> watched;
-  ImageFrontend frontend(Approach(12), {}, {},
-                         {Load, [&](const Frame& frame, const ImageView&) { watched.push_back(frame.index); }}, 4);
+  ImageFrontend frontend(
+      Approach(12), {}, {},
+      {Load, [&](const Frame& frame, const ImageView&) { watched.push_back(frame.index); }}, 4);
   const std::vector<Frame> frames = All(frontend);
   ASSERT_EQ(frames.size(), 12u);
   for (int i = 0; i < 12; ++i) {
@@ -126,7 +132,8 @@ TEST_F(ImageFrontendTest, IsTheSameForAnyNumberOfThreads) {
     for (std::size_t k = 0; k < a[i].detections.size(); ++k) {
       EXPECT_EQ(a[i].detections[k].row, b[i].detections[k].row);
       EXPECT_EQ(a[i].detections[k].colour, b[i].detections[k].colour);
-      EXPECT_TRUE(a[i].detections[k].T_cam_object.matrix() == b[i].detections[k].T_cam_object.matrix());
+      EXPECT_TRUE(a[i].detections[k].T_cam_object.matrix() ==
+                  b[i].detections[k].T_cam_object.matrix());
     }
   }
 }
@@ -149,7 +156,8 @@ TEST_F(ImageFrontendTest, AnOdometryThatHasFollowedNothingIsNone) {
   for (const bool swapped : {true, false}) {
     ImageSequence sequence = Approach(5);
     for (Frame& frame : sequence.frames)
-      swapped ? std::swap(frame.image_left, frame.image_right) : void(frame.image_right = "broken/0");
+      swapped ? std::swap(frame.image_left, frame.image_right)
+              : void(frame.image_right = "broken/0");
     ImageFrontend frontend(std::move(sequence), {}, {}, {Load}, 2);
     for (int i = 0; i < 5; ++i) EXPECT_TRUE(frontend.Next());
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands for a libonnxruntime.so that is too old: it knows no table of functions of the version that is asked for.
+// Stands for a libonnxruntime.so that is too old: it knows no table of functions of the version
+// that is asked for.
 #include <cstdint>
 
 namespace {
@@ -12,6 +13,7 @@ struct ApiBase {
 }  // namespace
 
 extern "C" const ApiBase* OrtGetApiBase() {
-  static const ApiBase base{[](std::uint32_t) -> const void* { return nullptr; }, [] { return "1.4.0"; }};
+  static const ApiBase base{[](std::uint32_t) -> const void* { return nullptr; },
+                            [] { return "1.4.0"; }};
   return &base;
 }

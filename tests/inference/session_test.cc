@@ -54,15 +54,18 @@ TEST(Session, FallsBackToTheCpuAloud) {
   InferenceOptions options;
   options.provider = InferenceOptions::Provider::kCuda;
   std::string heard;
-  const LogSink before = SetLogSink([&heard](LogLevel, const std::string& message) { heard += message; });
+  const LogSink before =
+      SetLogSink([&heard](LogLevel, const std::string& message) { heard += message; });
   const Session session(TestModel("yolo_v5.onnx"), options);
   SetLogSink(before);
   const bool fell_back = session.provider() == InferenceOptions::Provider::kCpu;
-  const bool said_so = heard.find("yolo_v5.onnx: runs on the CPU, CUDA is not there (") != std::string::npos;
+  const bool said_so =
+      heard.find("yolo_v5.onnx: runs on the CPU, CUDA is not there (") != std::string::npos;
   EXPECT_EQ(said_so, fell_back) << heard;
-  EXPECT_THAT(session.Run(Image(0.3f)).at("output0").values,
-              testing::Pointwise(testing::FloatNear(1e-3f),
-                                 Session(TestModel("yolo_v5.onnx")).Run(Image(0.3f)).at("output0").values));
+  EXPECT_THAT(
+      session.Run(Image(0.3f)).at("output0").values,
+      testing::Pointwise(testing::FloatNear(1e-3f),
+                         Session(TestModel("yolo_v5.onnx")).Run(Image(0.3f)).at("output0").values));
 }
 
 TEST(Session, RefusesWrongInputs) {
@@ -81,17 +84,24 @@ TEST(Session, RefusesBadModels) {
   SSLCD_RUNTIME();
   const TempFolder folder;
   ExpectError([] { Session("/nowhere/a.onnx"); }, {"/nowhere/a.onnx", "cannot be read"});
-  ExpectError([&] { Session(folder.Write("text.onnx", "this is no model")); }, {"text.onnx", "ONNX Runtime says"});
+  ExpectError([&] { Session(folder.Write("text.onnx", "this is no model")); },
+              {"text.onnx", "ONNX Runtime says"});
   ExpectError([&] { Session(folder.Write("empty.onnx", "")); }, {"empty.onnx"});
-  ExpectError([] { Session(TestModel("bad_opset.onnx")); }, {"bad_opset.onnx", "opset", "export the model again"});
-  ExpectError([] { Session(TestModel("bad_type.onnx")); }, {"bad_type.onnx", "'x' is no tensor of float32"});
+  ExpectError([] { Session(TestModel("bad_opset.onnx")); },
+              {"bad_opset.onnx", "opset", "export the model again"});
+  ExpectError([] { Session(TestModel("bad_type.onnx")); },
+              {"bad_type.onnx", "'x' is no tensor of float32"});
 }
 
 TEST(Session, RefusesValuesThatAreNotFinite) {
   SSLCD_RUNTIME();
   const Session session(TestModel("bad_values.onnx"));
   EXPECT_EQ(session.Run({{"x", {{1, 2}, {1, 1}}}}).at("y").values, (std::vector<float>{0, 0}));
-  ExpectError([&] { session.Run({{"x", {{1, 2}, {1, -1}}}}); }, {"bad_values.onnx", "'y' holds NaN"});
+  ExpectError(
+      [&] {
+        session.Run({{"x", {{1, 2}, {1, -1}}}});
+      },
+      {"bad_values.onnx", "'y' holds NaN"});
   ExpectError([&] { session.Run({{"x", {{1, 2}, {1, 0}}}}); }, {"infinity"});
 }
 
@@ -107,7 +117,8 @@ class Library : public testing::Test {
 
 TEST_F(Library, Missing) {
   ExpectError([] { Open("/nowhere/libonnxruntime.so"); },
-              {"not found where 'library' says", "/nowhere/libonnxruntime.so", "install it", "SSLCD_ORT_LIB"});
+              {"not found where 'library' says", "/nowhere/libonnxruntime.so", "install it",
+               "SSLCD_ORT_LIB"});
 }
 
 TEST_F(Library, SomethingElse) {
@@ -115,7 +126,8 @@ TEST_F(Library, SomethingElse) {
 }
 
 TEST_F(Library, TooOld) {
-  ExpectError([] { Open(SSLCD_OLD_RUNTIME); }, {"is ONNX Runtime 1.4.0, but 1.17 or later is needed"});
+  ExpectError([] { Open(SSLCD_OLD_RUNTIME); },
+              {"is ONNX Runtime 1.4.0, but 1.17 or later is needed"});
 }
 
 TEST_F(Library, FromTheEnvironment) {

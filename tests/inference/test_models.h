@@ -13,7 +13,9 @@ namespace sslcd {
 
 /// A file of tests/data/models.
 inline std::string TestModel(const std::string& name) {
-  return (std::filesystem::path(__FILE__).parent_path() / "../data/models" / name).lexically_normal().string();
+  return (std::filesystem::path(__FILE__).parent_path() / "../data/models" / name)
+      .lexically_normal()
+      .string();
 }
 
 /// Why no model can be run here; empty: they can.
@@ -22,13 +24,15 @@ inline std::string NoRuntime() {
     Session(TestModel("yolo_v5.onnx"));
   } catch (const Error& error) {
     const std::string why = error.what();
-    if (why.find("which was not found") != std::string::npos || why.find("this build cannot") != std::string::npos)
+    if (why.find("which was not found") != std::string::npos ||
+        why.find("this build cannot") != std::string::npos)
       return why;
   }
   return "";
 }
 
-#define SSLCD_RUNTIME() \
-  if (const std::string why = NoRuntime(); !why.empty()) GTEST_SKIP() << "skipped: no ONNX Runtime: " << why
+#define SSLCD_RUNTIME()                                  \
+  if (const std::string why = NoRuntime(); !why.empty()) \
+  GTEST_SKIP() << "skipped: no ONNX Runtime: " << why
 
 }  // namespace sslcd

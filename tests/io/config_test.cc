@@ -77,7 +77,8 @@ TEST(Config, UnknownKeysAreSuggestedWithTheirPlace) {
 }
 
 TEST(Config, AllProblemsAtOnce) {
-  const std::string text = ErrorOf("mode: slow\non: 1\nloop: {topology_m: 11, neighbours: 3.0, neighbours: 4}\n");
+  const std::string text =
+      ErrorOf("mode: slow\non: 1\nloop: {topology_m: 11, neighbours: 3.0, neighbours: 4}\n");
   EXPECT_THAT(text, HasSubstr("c.yaml:1:7: 'mode' is 'slow', must be one of fast, safe"));
   EXPECT_THAT(text, HasSubstr("c.yaml:2:5: 'on' is '1', must be true or false"));
   EXPECT_THAT(text, HasSubstr("c.yaml:3:20: 'topology_m' is 11, must be in [0, 10]"));
@@ -106,7 +107,9 @@ TEST(Config, SettingsNameThemselves) {
     ApplySettings({"loop.neighbours=7", "loop.topolgy_m=3", "nonsense", "on=maybe"}, Of(root));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--set loop.topolgy_m=3: unknown key 'topolgy_m' in 'loop' - did you mean"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("--set loop.topolgy_m=3: unknown key 'topolgy_m' in 'loop' - did you mean"));
     EXPECT_THAT(error.what(), HasSubstr("--set nonsense: expected key=value"));
     EXPECT_THAT(error.what(), HasSubstr("--set on=maybe: 'on' is 'maybe'"));
   }
@@ -144,7 +147,8 @@ TEST(Config, ListsAndNames) {
   EXPECT_EQ(again.names, lists.names);
   LoadConfigText("weights: []\nnames: {}\n", "c.yaml", Of(lists));
   EXPECT_TRUE(lists.weights.empty() && lists.names.empty());
-  EXPECT_THAT(ConfigReference(Of(again)), HasSubstr("| `weights` | numbers | [0.5, 3, 10] | 0 .. 10 | how much"));
+  EXPECT_THAT(ConfigReference(Of(again)),
+              HasSubstr("| `weights` | numbers | [0.5, 3, 10] | 0 .. 10 | how much"));
 }
 
 TEST(Config, BadListsAndNames) {
@@ -157,12 +161,15 @@ TEST(Config, BadListsAndNames) {
     }
     return "";
   };
-  EXPECT_EQ(error_of("weights: 3"), "c.yaml:1:10: 'weights' is '3', must be a list of numbers, e.g. [1, 2]");
+  EXPECT_EQ(error_of("weights: 3"),
+            "c.yaml:1:10: 'weights' is '3', must be a list of numbers, e.g. [1, 2]");
   EXPECT_EQ(error_of("weights: [1, 11]"), "c.yaml:1:14: 'weights' is 11, must be in [0, 10]");
   EXPECT_THAT(error_of("weights: [1, [2]]"), HasSubstr("c.yaml:1:14: 'weights' is a list or map"));
   EXPECT_THAT(error_of("weights: [1, .nan]"), HasSubstr("must be"));
-  EXPECT_THAT(error_of("names: [a]"), HasSubstr("must be names by number, e.g. {2: Car, 7: Truck}"));
-  EXPECT_THAT(error_of("names: {-1: a}"), HasSubstr("'names' has '-1', must be a whole number >= 0"));
+  EXPECT_THAT(error_of("names: [a]"),
+              HasSubstr("must be names by number, e.g. {2: Car, 7: Truck}"));
+  EXPECT_THAT(error_of("names: {-1: a}"),
+              HasSubstr("'names' has '-1', must be a whole number >= 0"));
   EXPECT_THAT(error_of("names: {1: [a]}"), HasSubstr("must be names by number"));
   EXPECT_THAT(error_of("names: {1: a, 01: b}"), HasSubstr("duplicate number 01 in 'names'"));
   EXPECT_EQ(lists.weights, (std::vector<double>{1, 2})) << "a bad file must change nothing";

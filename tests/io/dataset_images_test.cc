@@ -13,11 +13,13 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const char kCalib[] = "P2: 700 0 600 0 0 700 180 0 0 0 1 0\nP3: 700 0 600 -350 0 700 180 0 0 0 1 0\n";
+const char kCalib[] =
+    "P2: 700 0 600 0 0 700 180 0 0 0 1 0\nP3: 700 0 600 -350 0 700 180 0 0 0 1 0\n";
 const char kRow[] = "1 -1 Car -1 -1 -10 -1 -1 -1 -1 1.5 2 4 1 2 10 0 0.9\n";
 const char kPoses[] = "0 1 2 3 0 0 0 1\n0.5 1 2 4 0 0 0 1\n1 1 2 5 0 0 0 1\n";
 
-/// A folder with calibration and three pairs of images, of which nobody looks at more than the names.
+/// A folder with calibration and three pairs of images, of which nobody looks at more than the
+/// names.
 class Images : public testing::Test {
  protected:
   Images() {
@@ -62,7 +64,8 @@ TEST_F(Images, AreEnough) {
 
 TEST_F(Images, InColourAreTakenBeforeGreyOnes) {
   const std::string rows = "700 0 600 0 0 700 180 0 0 0 1 0\n700 0 600 -280 0 700 180 0 0 0 1 0\n";
-  for (const auto& [left, right] : {std::pair("image_0", "image_1"), std::pair("image_l", "image_r")}) {
+  for (const auto& [left, right] :
+       {std::pair("image_0", "image_1"), std::pair("image_l", "image_r")}) {
     folder_.Write(left + std::string("/000000.png"), "picture");
     folder_.Write(right + std::string("/000000.png"), "picture");
     EXPECT_THAT(Load().frames[0].image_left, EndsWith("image_2/000000.png"));

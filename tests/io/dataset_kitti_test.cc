@@ -9,7 +9,8 @@ using testing::Contains;
 using testing::HasSubstr;
 
 const char kCalib[] =
-    "P2: 700 0 600 0 0 700 180 0 0 0 1 0\nTr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\nR0_rect: 1 0 0 0 1 0 0 0 1\n"
+    "P2: 700 0 600 0 0 700 180 0 0 0 1 0\nTr_velo_to_cam: 0 -1 0 0 0 0 -1 0 1 0 0 0\nR0_rect: 1 0 "
+    "0 0 1 0 0 0 1\n"
     "Tr_imu_to_velo: 1 0 0 0 0 1 0 0 0 0 1 0\n";
 const char kPoses[] = "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n";
 const char kCsv[] = "1,2,10,20,30,40,2.5,1.5,2,4,1,2,10,0,0\n";
@@ -55,7 +56,8 @@ TEST(KittiTracking, LoadsWhatTheRequestNames) {
   EXPECT_EQ(dataset.frames[1].detections.at(0).label, "Car");
   EXPECT_EQ(dataset.camera->width, 1242);
   ASSERT_TRUE(dataset.groundtruth.has_value());
-  EXPECT_LT((dataset.groundtruth->poses.at(1).translation() - Vec3(0, -2, 0)).norm(), 1e-9) << "two metres up";
+  EXPECT_LT((dataset.groundtruth->poses.at(1).translation() - Vec3(0, -2, 0)).norm(), 1e-9)
+      << "two metres up";
 }
 
 TEST(KittiTracking, PathsMayBeRelativeToTheCurrentFolder) {
@@ -109,16 +111,19 @@ TEST(KittiOdometry, FindsSequencesAndPoses) {
 class RawDrive : public testing::Test {
  protected:
   RawDrive() {
-    folder_.Write("day/calib_cam_to_cam.txt", "P_rect_02: 700 0 600 0 0 700 180 0 0 0 1 0\nS_rect_02: 1242 375\n");
+    folder_.Write("day/calib_cam_to_cam.txt",
+                  "P_rect_02: 700 0 600 0 0 700 180 0 0 0 1 0\nS_rect_02: 1242 375\n");
     folder_.Write("day/calib_velo_to_cam.txt", "R: 0 -1 0 0 0 -1 1 0 0\nT: 0 0 0\n");
     folder_.Write("day/calib_imu_to_velo.txt", "R: 1 0 0 0 1 0 0 0 1\nT: 0 0 0\n");
     folder_.Write("day/drive/oxts/data/0000000000.txt", Packet(0));
     folder_.Write("day/drive/oxts/data/0000000001.txt", Packet(2));
-    folder_.Write("day/drive/oxts/timestamps.txt", "2011-09-26 13:02:25.9\n2011-09-26 13:02:26.0\n");
+    folder_.Write("day/drive/oxts/timestamps.txt",
+                  "2011-09-26 13:02:25.9\n2011-09-26 13:02:26.0\n");
     folder_.Write(
         "day/drive/tracklet_labels.xml",
         "<boost_serialization><tracklets><item><objectType>Car</objectType><h>2</h><w>2</w><l>4</l>"
-        "<first_frame>1</first_frame><poses><item><tx>10</tx><ty>3</ty><tz>-2</tz><rz>0</rz></item></poses></item>"
+        "<first_frame>1</first_frame><poses><item><tx>10</tx><ty>3</ty><tz>-2</tz><rz>0</rz></"
+        "item></poses></item>"
         "</tracklets></boost_serialization>");
     request_ = Request(folder_.path() + "/day/drive");
   }

@@ -17,7 +17,8 @@ TEST(RealData, KittiTracking0007) {
   request.groundtruth = "oxts_cam0_poses";
   const auto start = std::chrono::steady_clock::now();
   const Dataset dataset = LoadDataset(request);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RecordProperty("load_ms", static_cast<int>(1e3 * seconds));
   EXPECT_LT(seconds, 1.) << "tens of milliseconds, here with room for sanitizers";
 
@@ -43,9 +44,11 @@ TEST(RealData, KittiTrackingSaysWhatThereIs) {
   request.sequence = "0007";
   ExpectError([&] { LoadDataset(request); }, {"orbslam3_poses/0007.txt"});
   request.odometry = "orbslam3_poses";
-  ExpectError([&] { LoadDataset(request); }, {"det_pointrcnn_car/0007.txt", "det_stereo_grade_car/0007.txt"});
+  ExpectError([&] { LoadDataset(request); },
+              {"det_pointrcnn_car/0007.txt", "det_stereo_grade_car/0007.txt"});
   request.sequence = "0008";
-  ExpectError([&] { LoadDataset(request); }, {"no sequence '0008'", "0001, 0005, 0007, 0009, 0011"});
+  ExpectError([&] { LoadDataset(request); },
+              {"no sequence '0008'", "0001, 0005, 0007, 0009, 0011"});
 }
 
 TEST(RealData, VictoriaPark) {

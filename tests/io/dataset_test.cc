@@ -15,7 +15,8 @@ const char kCalib[] = "P2: 700 0 600 0 0 700 180 0 0 0 1 0\n";
 /// `count` poses, a metre apart along z, every `step` seconds.
 std::string Tum(int count, double step = 0.1) {
   std::string text;
-  for (int i = 0; i < count; ++i) text += std::to_string(i * step) + " 0 0 " + std::to_string(i) + " 0 0 0 1\n";
+  for (int i = 0; i < count; ++i)
+    text += std::to_string(i * step) + " 0 0 " + std::to_string(i) + " 0 0 0 1\n";
   return text;
 }
 std::string Kitti(int count) {
@@ -105,7 +106,8 @@ TEST_F(SequenceFolder, ImageSizeComesFromTheImages) {
 TEST_F(SequenceFolder, ABrokenImageDoesNotSayHowLargeTheOthersAre) {
   folder_.Write("calib.txt", kCalib);
   folder_.Write("image_2/000000.png", Png(30000, 30000));
-  for (int i = 1; i < 4; ++i) folder_.Write("image_2/00000" + std::to_string(i) + ".png", Png(640, 480));
+  for (int i = 1; i < 4; ++i)
+    folder_.Write("image_2/00000" + std::to_string(i) + ".png", Png(640, 480));
   EXPECT_EQ(Load().camera->width, 640);
   folder_.Write("image_2/000000.png", "none");
   EXPECT_EQ(Load().camera->width, 640);
@@ -183,7 +185,8 @@ TEST_F(SequenceFolder, StampsComeFromTheOdometryWhereThereAreNoTimes) {
 
 TEST_F(SequenceFolder, VinsWorldsHaveZUp) {
   folder_.Write("odometry.txt",
-                "0,0,0,0,1,0,0,0\n100000000,0,0,0,1,0,0,0\n200000000,0,0,0,1,0,0,0\n300000000,0,0,0,1,0,0,0\n");
+                "0,0,0,0,1,0,0,0\n100000000,0,0,0,1,0,0,0\n200000000,0,0,0,1,0,0,0\n300000000,0,0,"
+                "0,1,0,0,0\n");
   const Dataset dataset = Load();
   EXPECT_EQ(dataset.up_axis, Vec3(0, 0, 1));
   EXPECT_THAT(dataset.warnings, Contains(HasSubstr("taken as the camera's")));
@@ -207,7 +210,8 @@ TEST_F(SequenceFolder, StampsMustIncrease) {
 TEST_F(SequenceFolder, GapsAreWarnedOf) {
   folder_.Write("times.txt", "0\n0.1\n0.2\n9\n");
   folder_.Write("odometry.txt", Kitti(4));
-  EXPECT_THAT(Load().warnings, Contains(HasSubstr("1 gap(s) in the stamps, the first of 8.800 s before frame 3")));
+  EXPECT_THAT(Load().warnings,
+              Contains(HasSubstr("1 gap(s) in the stamps, the first of 8.800 s before frame 3")));
 }
 
 TEST_F(SequenceFolder, DetectionsAfterTheLastPoseAreDropped) {
@@ -215,7 +219,8 @@ TEST_F(SequenceFolder, DetectionsAfterTheLastPoseAreDropped) {
   const Dataset dataset = Load();
   EXPECT_EQ(dataset.rows_beyond_end, 2);
   EXPECT_EQ(dataset.frames[3].detections.size(), 1u);
-  EXPECT_THAT(dataset.warnings, Contains(HasSubstr("dropped 2 detections of frames after the last pose (3)")));
+  EXPECT_THAT(dataset.warnings,
+              Contains(HasSubstr("dropped 2 detections of frames after the last pose (3)")));
 }
 
 TEST_F(SequenceFolder, RunsWithoutDetectionsAndSaysSo) {
@@ -233,7 +238,8 @@ TEST_F(SequenceFolder, UnknownLabelsAreWarnedOf) {
 TEST_F(SequenceFolder, EmbeddingsBelongToRows) {
   const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2), }\n";
   const float values[] = {3, 4, 9, 9, 0, 0};
-  std::string npy = std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header;
+  std::string npy =
+      std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header;
   npy.append(reinterpret_cast<const char*>(values), sizeof(values));
   folder_.Write("embeddings.npy", npy);
   const Dataset dataset = Load();
@@ -281,7 +287,8 @@ TEST(Dataset, UnknownFoldersSayWhatWasLookedFor) {
   const TempFolder folder;
   DatasetRequest request;
   request.path = folder.path();
-  ExpectError([&] { LoadDataset(request); }, {"times.txt", "sequences/", "oxts/data/", "label_02/"});
+  ExpectError([&] { LoadDataset(request); },
+              {"times.txt", "sequences/", "oxts/data/", "label_02/"});
   request.path += "/none";
   ExpectError([&] { LoadDataset(request); }, {"none: no such folder"});
 }

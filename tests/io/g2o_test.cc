@@ -29,7 +29,8 @@ TEST(G2o, ReadsSe3) {
       "VERTEX_SE3:QUAT 4 2 2 3 0 0 1 0\n"
       "FIX 3\n"
       "VERTEX_TRACKXYZ 9 1 1 1\n"
-      "EDGE_SE3:QUAT 3 4 1 0 0 0 0 1 0 11 12 13 14 15 16 22 23 24 25 26 330 34 35 36 440 45 46 550 56 660\n");
+      "EDGE_SE3:QUAT 3 4 1 0 0 0 0 1 0 11 12 13 14 15 16 22 23 24 25 26 330 34 35 36 440 45 46 550 "
+      "56 660\n");
   EXPECT_FALSE(file.planar);
   EXPECT_EQ(file.rows_ignored, 1);
   ASSERT_EQ(file.graph.vertices.size(), 2u);
@@ -70,16 +71,19 @@ TEST(G2o, MarksLoops) {
       "EDGE_SE2 2 5 1 0 0 1 0 0 1 0 1\nEDGE_SE2 5 0 -3 0 0 1 0 0 1 0 1\n");
   std::vector<bool> loops;
   for (const auto& edge : file.graph.edges) loops.push_back(edge.loop);
-  EXPECT_EQ(loops, (std::vector<bool>{false, false, false, true})) << "2 -> 5: there is nothing in between";
+  EXPECT_EQ(loops, (std::vector<bool>{false, false, false, true}))
+      << "2 -> 5: there is nothing in between";
 }
 
 TEST(G2o, VerticesFromEdgesFollowTheOdometry) {
-  const G2oFile file =
-      Read("EDGE_SE2 2 0 7 7 0 1 0 0 1 0 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n");
+  const G2oFile file = Read(
+      "EDGE_SE2 2 0 7 7 0 1 0 0 1 0 1\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 "
+      "0 1\n");
   ASSERT_EQ(file.graph.vertices.size(), 3u);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(file.graph.vertices[i].id, i);
-    EXPECT_NEAR((file.graph.vertices[i].T_world_vertex.translation() - Vec3(i, 0, 0)).norm(), 0, 1e-12);
+    EXPECT_NEAR((file.graph.vertices[i].T_world_vertex.translation() - Vec3(i, 0, 0)).norm(), 0,
+                1e-12);
   }
 }
 
@@ -95,7 +99,9 @@ TEST(G2o, ReadsWhatTheRunFolderWrites) {
   const PoseGraph back = Read(G2oText(graph)).graph;
   ASSERT_EQ(back.vertices.size(), 2u);
   EXPECT_TRUE(back.vertices[0].fixed);
-  EXPECT_NEAR((back.vertices[1].T_world_vertex.inverse() * graph.vertices[1].T_world_vertex).Log().norm(), 0, 1e-8);
+  EXPECT_NEAR(
+      (back.vertices[1].T_world_vertex.inverse() * graph.vertices[1].T_world_vertex).Log().norm(),
+      0, 1e-8);
   EXPECT_EQ(back.edges[0].information, edge.information);
 }
 
@@ -113,7 +119,8 @@ TEST(G2o, RefusesBadRows) {
   ExpectError([] { ReadG2o("/nonexistent.g2o"); }, {"/nonexistent.g2o"});
   ExpectRefused("VERTEX_SE3:QUAT 0 0 0 0 0 0 0\n", {"a.g2o:1", "expected 8 fields", "found 7"});
   ExpectRefused("VERTEX_SE2 0 0 0\n", {"a.g2o:1", "expected 4 fields"});
-  ExpectRefused(two + "EDGE_SE3:QUAT 0 1" + step + "\n", {"a.g2o:3", "expected 30 fields", "found 9"});
+  ExpectRefused(two + "EDGE_SE3:QUAT 0 1" + step + "\n",
+                {"a.g2o:3", "expected 30 fields", "found 9"});
   ExpectRefused("VERTEX_SE2 0 0 x 0\n", {"a.g2o:1", "x"});
   ExpectRefused("VERTEX_SE2 zero 0 0 0\n", {"a.g2o:1", "zero"});
   ExpectRefused("VERTEX_SE2 0 0 nan 0\n", {"a.g2o:1", "not finite"});
@@ -121,12 +128,14 @@ TEST(G2o, RefusesBadRows) {
   ExpectRefused("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n", {"a.g2o:1", "length is 0"});
   ExpectRefused("VERTEX_SE3:QUAT 0 0 0 0 1 1 0 1\n", {"a.g2o:1", "x y z qx qy qz qw"});
   ExpectRefused(two + two, {"a.g2o:3", "vertex 0 was given before, in line 1"});
-  ExpectRefused(two + "EDGE_SE3:QUAT 0 2" + step + kUnit3d + "\n", {"a.g2o:3", "vertex 2 has no VERTEX row"});
+  ExpectRefused(two + "EDGE_SE3:QUAT 0 2" + step + kUnit3d + "\n",
+                {"a.g2o:3", "vertex 2 has no VERTEX row"});
   ExpectRefused(two + "EDGE_SE3:QUAT 1 1" + step + kUnit3d + "\n", {"a.g2o:3", "to itself"});
   ExpectRefused(two + "FIX 5\n", {"a.g2o:3", "FIX names vertex 5"});
   ExpectRefused("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 nan\n", {"a.g2o:1", "not finite"});
   for (const char* bad : {"0 0 0 1 0 1", "-1 0 0 1 0 1", "1 2 0 1 0 1"})
-    ExpectRefused(std::string("EDGE_SE2 0 1 1 0 0 ") + bad + "\n", {"a.g2o:1", "not positive definite"});
+    ExpectRefused(std::string("EDGE_SE2 0 1 1 0 0 ") + bad + "\n",
+                  {"a.g2o:1", "not positive definite"});
 }
 
 }  // namespace

@@ -11,11 +11,12 @@ std::string Bytes(const std::vector<T>& values) {
   return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-std::string Npy(const std::string& type, const std::string& shape, const std::string& data, int version = 1,
-                const std::string& fortran = "False") {
-  const std::string header = "{'descr': '" + type + "', 'fortran_order': " + fortran + ", 'shape': " + shape + ", }\n";
-  std::string file =
-      std::string("\x93NUMPY") + static_cast<char>(version) + '\0' + static_cast<char>(header.size()) + '\0';
+std::string Npy(const std::string& type, const std::string& shape, const std::string& data,
+                int version = 1, const std::string& fortran = "False") {
+  const std::string header =
+      "{'descr': '" + type + "', 'fortran_order': " + fortran + ", 'shape': " + shape + ", }\n";
+  std::string file = std::string("\x93NUMPY") + static_cast<char>(version) + '\0' +
+                     static_cast<char>(header.size()) + '\0';
   if (version > 1) file += std::string(2, '\0');
   return file + header + data;
 }
@@ -25,8 +26,9 @@ const std::vector<float> kValues = {1, 2, 3, 4, 5, -6.5f};
 TEST(Npy, ReadsFloatsOfEveryVersion) {
   const TempFolder folder;
   const std::vector<double> doubles(kValues.begin(), kValues.end());
-  for (const std::string& file : {Npy("<f4", "(2, 3)", Bytes(kValues)), Npy("<f4", "(2, 3)", Bytes(kValues), 2),
-                                  Npy("<f8", "(2, 3)", Bytes(doubles), 3)}) {
+  for (const std::string& file :
+       {Npy("<f4", "(2, 3)", Bytes(kValues)), Npy("<f4", "(2, 3)", Bytes(kValues), 2),
+        Npy("<f8", "(2, 3)", Bytes(doubles), 3)}) {
     const NpyMatrix matrix = ReadNpy(folder.Write("a.npy", file));
     EXPECT_EQ(matrix.rows, 2u);
     EXPECT_EQ(matrix.columns, 3u);

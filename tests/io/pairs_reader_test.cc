@@ -12,11 +12,14 @@ const char kPair[] = "PAIR 4 street/n0.1 2 1 0.5 1 2 3\n";
 const char kLocal[] = "L 7 2 1.5 2.5 3.5\n";
 const char kGlobal[] = "G -1 0 -1 -2 -3\n";
 
-std::string File(const std::string& pair, const std::string& rows) { return "# comment\n" + pair + rows; }
+std::string File(const std::string& pair, const std::string& rows) {
+  return "# comment\n" + pair + rows;
+}
 
 TEST(PairsReader, ReadsPairs) {
   const TempFolder folder;
-  const std::string text = File(kPair, std::string(kLocal) + kGlobal + kLocal) + "\nPAIR 0 empty 0 0 0 0 0 0\n";
+  const std::string text =
+      File(kPair, std::string(kLocal) + kGlobal + kLocal) + "\nPAIR 0 empty 0 0 0 0 0 0\n";
   const std::vector<LayoutPair> pairs = ReadLayoutPairs(folder.Write("p.txt", text));
   ASSERT_EQ(pairs.size(), 2u);
   EXPECT_EQ(pairs[0].id, 4);
@@ -42,7 +45,8 @@ TEST(PairsReader, NamesFileAndLineOfWhatIsWrong) {
   refuse("# nothing\n", {"p.txt: holds no pair"});
   refuse(kLocal, {"p.txt:1: an object before the first 'PAIR' row"});
   refuse(File(kPair, rows) + "X 1 2 3\n", {"p.txt:6: ", "PAIR, L or G", "'X'"});
-  refuse(File(kPair, std::string(kLocal) + kGlobal), {"p.txt:2: pair 4 announces 2 L rows, but has 1"});
+  refuse(File(kPair, std::string(kLocal) + kGlobal),
+         {"p.txt:2: pair 4 announces 2 L rows, but has 1"});
   refuse(File(kPair, rows + kGlobal), {"p.txt:2: ", "1 G rows, but has 2"});
   refuse(File(kPair, rows) + File(kPair, rows), {"p.txt:7: pair 4 comes twice"});
   refuse(File("PAIR 4 street 2 1 0.5 1 2\n", rows), {"p.txt:2: found 8 columns"});

@@ -29,7 +29,8 @@ TEST(PoseReader, TellsTheFormatsApart) {
   EXPECT_EQ(tum.format, PoseFormat::kTum);
   EXPECT_EQ(kitti.format, PoseFormat::kKitti);
   EXPECT_EQ(vins.format, PoseFormat::kVinsCsv);
-  for (const PoseFile* file : {&tum, &kitti, &vins}) ExpectQuarterTurn(file->trajectory.poses.at(0));
+  for (const PoseFile* file : {&tum, &kitti, &vins})
+    ExpectQuarterTurn(file->trajectory.poses.at(0));
   EXPECT_THAT(tum.trajectory.stamps, testing::ElementsAre(10.5));
   EXPECT_THAT(kitti.trajectory.stamps, testing::ElementsAre(0, 1));
   EXPECT_THAT(vins.trajectory.stamps, testing::ElementsAre(10.5));
@@ -43,12 +44,14 @@ TEST(PoseReader, EmptyFileIsAnEmptyTrajectory) {
 TEST(PoseReader, MendsSmallErrorsAndRefusesLargeOnes) {
   const TempFolder folder;
   ExpectQuarterTurn(ReadTrajectory(folder.Write("a.txt", "0 1 2 3 0 0.7072 0 0.7072")).poses.at(0));
-  const Pose mended = ReadTrajectory(folder.Write("b.txt", "1.001 0 0 0 0 1 0 0 0 0 1 0")).poses.at(0);
+  const Pose mended =
+      ReadTrajectory(folder.Write("b.txt", "1.001 0 0 0 0 1 0 0 0 0 1 0")).poses.at(0);
   const Eigen::Matrix3d R = mended.so3().matrix();
   EXPECT_LT((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 
   const auto refuse = [&](const char* row, const char* part) {
-    ExpectError([&] { ReadTrajectory(folder.Write("c.txt", std::string("\n") + row)); }, {"c.txt:2: ", part});
+    ExpectError([&] { ReadTrajectory(folder.Write("c.txt", std::string("\n") + row)); },
+                {"c.txt:2: ", part});
   };
   refuse("0 1 2 3 0 0.8 0 0.7", "unit length");
   refuse("0 1 2 3 0 0 0 0", "unit length");
@@ -73,7 +76,8 @@ TEST(PoseReader, RefusesMalformedRows) {
   refuse("0 1 2 3 0 0 0 1x\n", {"a.txt:1: column 8", "'1x'"});
   refuse("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n", {"a.txt:2: stamp 0", "must increase"});
   refuse("1 0 0 0 0 0 0 1\n0.5 0 0 0 0 0 0 1\n", {"a.txt:2: stamp 0.5", "must increase"});
-  ExpectError([&] { ReadTrajectory(folder.Write("b.txt", kTum), PoseFormat::kKitti); }, {"b.txt:1", "expected 12"});
+  ExpectError([&] { ReadTrajectory(folder.Write("b.txt", kTum), PoseFormat::kKitti); },
+              {"b.txt:1", "expected 12"});
   ExpectError([&] { ReadTrajectory(folder.path() + "/none.txt"); }, {"none.txt", "No such file"});
 }
 

@@ -23,8 +23,9 @@ using ::testing::HasSubstr;
 class RunFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder = fs::path(::testing::TempDir()) /
-             (std::string("sslcd_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder =
+        fs::path(::testing::TempDir()) /
+        (std::string("sslcd_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
@@ -69,7 +70,8 @@ TEST_F(RunFolder, TrajectoriesReadBack) {
     for (std::size_t i = 0; i < path.size(); ++i)
       EXPECT_LT((read.poses[i].inverse() * path.poses[i]).Log().norm(), 1e-7);
   }
-  EXPECT_EQ(TumText(path).find(" \n"), std::string::npos) << "evo refuses a blank at the end of a row";
+  EXPECT_EQ(TumText(path).find(" \n"), std::string::npos)
+      << "evo refuses a blank at the end of a row";
   EXPECT_EQ(TumText(path).find("-0.000000000"), std::string::npos);
 }
 
@@ -83,7 +85,10 @@ TEST_F(RunFolder, MapReadsBackToTheBit) {
   EXPECT_EQ(read.objects[0].dims, map.objects[0].dims);
   EXPECT_EQ(read.objects[0].observations[1].detection_row, 20);
   EXPECT_EQ(read.objects[1].state, LandmarkState::kDynamic);
-  EXPECT_LT((read.objects[0].T_world_object.translation() - map.objects[0].T_world_object.translation()).norm(), 1e-15);
+  EXPECT_LT(
+      (read.objects[0].T_world_object.translation() - map.objects[0].T_world_object.translation())
+          .norm(),
+      1e-15);
 }
 
 TEST_F(RunFolder, BadMapsAreRefusedWithTheirLine) {
@@ -98,8 +103,10 @@ TEST_F(RunFolder, BadMapsAreRefusedWithTheirLine) {
   };
   EXPECT_THAT(error("{\"format\":\"x\"}"), HasSubstr("not an sslcd map"));
   EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":2}"), HasSubstr("version 2"));
-  EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":[0,1]}"), HasSubstr("list of 3 numbers"));
-  EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\n\"up_axis\":[0,-1,0],\"objects\":[\n{\"id\":1}]}"),
+  EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":[0,1]}"),
+              HasSubstr("list of 3 numbers"));
+  EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\n\"up_axis\":[0,-1,0],\"objects\":["
+                    "\n{\"id\":1}]}"),
               HasSubstr("map.json:3: key 'label' is missing"));
   EXPECT_THAT(error("{\"format\": ["), HasSubstr("not JSON"));
   EXPECT_THROW(ReadMapJson(In("none.json")), Error);
@@ -120,7 +127,8 @@ TEST_F(RunFolder, WritesEveryFileAndNoTemporaryOnes) {
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(In("deep/run"))) ++files;
   EXPECT_EQ(files, paths.size());
-  EXPECT_EQ(ReadFileBytes(In("deep/run/metrics.json")), "{\n\"ate_m\":1.25,\n\"iou\":null,\n\"nan\":null\n}\n");
+  EXPECT_EQ(ReadFileBytes(In("deep/run/metrics.json")),
+            "{\n\"ate_m\":1.25,\n\"iou\":null,\n\"nan\":null\n}\n");
   EXPECT_THAT(ReadFileBytes(In("deep/run/graph.g2o")), HasSubstr("VERTEX_SE3:QUAT 0 0.000000000"));
   EXPECT_THAT(ReadFileBytes(In("deep/run/graph.g2o")), HasSubstr("FIX 0\n"));
   EXPECT_THAT(ReadFileBytes(In("deep/run/map.ply")), HasSubstr("element vertex 13\n"));
@@ -147,7 +155,8 @@ TEST_F(RunFolder, OfSeveralFilesAllAreWrittenOrNone) {
   EXPECT_EQ(ReadFileBytes(In("a")), "new");
   EXPECT_EQ(ReadFileBytes(In("b")), "too");
   for (const auto& entry : fs::directory_iterator(In("")))
-    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("tmp"))) << "nothing is left behind";
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(HasSubstr("tmp")))
+        << "nothing is left behind";
 }
 
 TEST_F(RunFolder, FoldersThatCannotBe) {

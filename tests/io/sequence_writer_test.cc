@@ -114,8 +114,10 @@ TEST_F(SequenceWriter, GroundTruthComesBackBesideTheOdometry) {
   ASSERT_TRUE(dataset.groundtruth);
   ASSERT_EQ(dataset.groundtruth->size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_LT((dataset.groundtruth->poses[i].inverse() * files_.groundtruth->poses[i]).Log().norm(), 1e-8);
-    EXPECT_LT((dataset.frames[i].T_odom_cam.inverse() * files_.odometry.poses[i]).Log().norm(), 1e-8);
+    EXPECT_LT((dataset.groundtruth->poses[i].inverse() * files_.groundtruth->poses[i]).Log().norm(),
+              1e-8);
+    EXPECT_LT((dataset.frames[i].T_odom_cam.inverse() * files_.odometry.poses[i]).Log().norm(),
+              1e-8);
   }
   files_.groundtruth.reset();
   EXPECT_FALSE(WriteAndLoad().groundtruth) << "groundtruth.txt of before is gone";

@@ -8,10 +8,10 @@ namespace {
 
 TEST(SequenceYaml, ReadsUpAxisSizeAndLabels) {
   const TempFolder folder;
-  const SequenceInfo info =
-      ReadSequenceYaml(folder.Write("s.yaml",
-                                    "up_axis: [0, 0, 2]\nimage_size_px: [640, 480]\n"
-                                    "labels: {Tree: {symmetry: full}, Box: {symmetry: pi}, Car: {}}\n"));
+  const SequenceInfo info = ReadSequenceYaml(
+      folder.Write("s.yaml",
+                   "up_axis: [0, 0, 2]\nimage_size_px: [640, 480]\n"
+                   "labels: {Tree: {symmetry: full}, Box: {symmetry: pi}, Car: {}}\n"));
   EXPECT_EQ(info.image_width, 640);
   EXPECT_EQ(info.image_height, 480);
   EXPECT_EQ(info.up_axis.value(), Vec3(0, 0, 1));

@@ -53,8 +53,10 @@ void ExpectError(const Call& call, const std::vector<std::string>& parts) {
 /// Folder of real data, or empty. Without SSLCD_DATA_DIR it is looked for beside the source tree.
 inline std::string RealData(const std::string& name) {
   const char* root = std::getenv("SSLCD_DATA_DIR");
-  const std::filesystem::path beside = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
-  const std::filesystem::path folder = (root != nullptr ? std::filesystem::path(root) : beside) / name;
+  const std::filesystem::path beside =
+      std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+  const std::filesystem::path folder =
+      (root != nullptr ? std::filesystem::path(root) : beside) / name;
   return std::filesystem::exists(folder) ? folder.string() : "";
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 TEST(TextRows, SkipsBlankLinesAndCommentsAndCountsLines) {
   const TempFolder folder;
-  TextRows rows(folder.Write("a.txt", "\xEF\xBB\xBF# head\r\n\r\n 1\t+2.5  -3e1 \r\n\n4,5 , 6,\nlast"));
+  TextRows rows(
+      folder.Write("a.txt", "\xEF\xBB\xBF# head\r\n\r\n 1\t+2.5  -3e1 \r\n\n4,5 , 6,\nlast"));
   ASSERT_TRUE(rows.Next());
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_FALSE(rows.has_commas());
@@ -53,7 +54,8 @@ TEST(TextRows, NumbersKnowNoLocaleAndNoRest) {
 
 TEST(TextRows, SaysWhyAFileCannotBeRead) {
   const TempFolder folder;
-  ExpectError([&] { TextRows rows(folder.path() + "/none.txt"); }, {"none.txt: cannot be read", "No such file"});
+  ExpectError([&] { TextRows rows(folder.path() + "/none.txt"); },
+              {"none.txt: cannot be read", "No such file"});
   ExpectError([&] { TextRows rows(folder.path()); }, {"is a folder"});
   TextRows empty(folder.Write("empty.txt", ""));
   EXPECT_FALSE(empty.Next());

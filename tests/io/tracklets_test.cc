@@ -8,15 +8,18 @@
 namespace sslcd {
 namespace {
 
-std::string Item(const std::string& label, const std::string& h, int first_frame, const std::string& tx) {
+std::string Item(const std::string& label, const std::string& h, int first_frame,
+                 const std::string& tx) {
   const std::string pose =
-      "<item><tx>" + tx + "</tx><ty>2</ty><tz>-1.7</tz><rx>0</rx><ry>0</ry><rz>1.5707963267948966</rz></item>";
+      "<item><tx>" + tx +
+      "</tx><ty>2</ty><tz>-1.7</tz><rx>0</rx><ry>0</ry><rz>1.5707963267948966</rz></item>";
   return "<item version=\"1\">\n<objectType>" + label + "</objectType><h>" + h +
          "</h><w>1.8</w><l>4.2</l><first_frame>" + std::to_string(first_frame) +
          "</first_frame>\n<poses><count>2</count>" + pose + pose + "</poses></item>\n";
 }
 std::string Document(const std::string& items) {
-  return "<?xml version=\"1.0\"?>\n<!DOCTYPE boost_serialization>\n<!-- <item> -->\n<boost_serialization "
+  return "<?xml version=\"1.0\"?>\n<!DOCTYPE boost_serialization>\n<!-- <item> "
+         "-->\n<boost_serialization "
          "version=\"9\">\n"
          "<tracklets><count>1</count><empty/>\n" +
          items + "</tracklets>\n</boost_serialization>\n";
@@ -24,7 +27,8 @@ std::string Document(const std::string& items) {
 
 TEST(Tracklets, ReadsCentresInTheLidarFrame) {
   const TempFolder folder;
-  const auto tracklets = ReadTracklets(folder.Write("t.xml", Document(Item("Car", "1.5", 3, "10"))));
+  const auto tracklets =
+      ReadTracklets(folder.Write("t.xml", Document(Item("Car", "1.5", 3, "10"))));
   ASSERT_EQ(tracklets.size(), 1u);
   EXPECT_EQ(tracklets[0].label, "Car");
   EXPECT_EQ(tracklets[0].dims, Vec3(4.2, 1.8, 1.5));
@@ -35,7 +39,8 @@ TEST(Tracklets, ReadsCentresInTheLidarFrame) {
 }
 
 TEST(Tracklets, BecomeDetectionsInFrameOrder) {
-  Tracklet late{"Car", Vec3(4, 2, 1), 1, std::vector<Pose>(2)}, early{"Van", Vec3(5, 2, 2), 0, std::vector<Pose>(2)};
+  Tracklet late{"Car", Vec3(4, 2, 1), 1, std::vector<Pose>(2)},
+      early{"Van", Vec3(5, 2, 2), 0, std::vector<Pose>(2)};
   const auto by_frame = TrackletDetections({late, early}, Pose::Trans(0, 0, 7));
   ASSERT_EQ(by_frame.size(), 3u);
   EXPECT_EQ(by_frame.at(0)[0].label, "Van");
@@ -59,7 +64,8 @@ TEST(Tracklets, RefusesBrokenFiles) {
   refuse("<boost_serialization></tracklets>", {"t.xml:1", "unexpected </tracklets>"});
   refuse("<boost_serialization></boost_serialization>", {"has no <tracklets>"});
   refuse(Document("<item><h>1</h></item>"), {"t.xml:6", "<item> has no <objectType>"});
-  refuse(Document(Item("Car", "1.5x", 0, "10")), {"t.xml:7", "<h>: expected a number, found '1.5x'"});
+  refuse(Document(Item("Car", "1.5x", 0, "10")),
+         {"t.xml:7", "<h>: expected a number, found '1.5x'"});
   refuse(Document(Item("Car", "0", 0, "10")), {"t.xml:6", "must be positive"});
   refuse(Document(Item("Car", "1.5", -1, "10")), {"t.xml:6", "first frame"});
   refuse(Document(Item("Car", "1.5", 0, "nan")), {"t.xml:8", "<tx>"});

@@ -15,7 +15,8 @@ inline constexpr double kPi = 3.141592653589793238462643383279502884;
 
 /// |a - b| <= tol in the Frobenius norm; false for NaN.
 template <class A, class B>
-::testing::AssertionResult Near(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b, double tol) {
+::testing::AssertionResult Near(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b,
+                                double tol) {
   const double distance = (a - b).norm();
   if (!(distance <= tol)) {
     return ::testing::AssertionFailure() << "distance " << distance << " > " << tol << "\n"
@@ -59,8 +60,9 @@ inline std::vector<double> Angles() {
 }
 
 inline std::vector<Eigen::Vector3d> Axes() {
-  std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(),
-                                       {0.6, 0.0, -0.8},         {1e-9, 1.0, 0.0},          {1.0, -2.0, 3.0},
+  std::vector<Eigen::Vector3d> axes = {Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(),
+                                       Eigen::Vector3d::UnitZ(), {0.6, 0.0, -0.8},
+                                       {1e-9, 1.0, 0.0},         {1.0, -2.0, 3.0},
                                        {-0.3, -0.2, -0.1}};
   for (auto& a : axes) a.normalize();
   return axes;

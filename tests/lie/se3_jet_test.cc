@@ -50,19 +50,22 @@ TEST(SE3Jet, RelativePoseResidual) {
   const double h = 1e-5;
   for (const auto& xi : Twists()) {
     const Pair pair = MakePair(xi);
-    const auto residual =
-        (pair.A.inverse().cast<Jet>() * pair.B.cast<Jet>() * SE3<Jet>::Exp(Variables(Tangent::Zero()))).Log();
+    const auto residual = (pair.A.inverse().cast<Jet>() * pair.B.cast<Jet>() *
+                           SE3<Jet>::Exp(Variables(Tangent::Zero())))
+                              .Log();
     const auto jets = SplitJets(residual);
     const SE3d relative = pair.A.inverse() * pair.B;
     const Tangent r = jets.value;  // at pi the two scalar types may pick either logarithm
     EXPECT_TRUE(Near(LogNear(relative, r), r, 2e-14 * (1 + r.norm()))) << xi.transpose();
     const double scale = 1 + r.norm();
-    EXPECT_TRUE(Near(jets.jacobian, SE3d::RightJacobianInverse(r), 2e-13 * scale)) << xi.transpose();
+    EXPECT_TRUE(Near(jets.jacobian, SE3d::RightJacobianInverse(r), 2e-13 * scale))
+        << xi.transpose();
 
     Matrix6d differences;
     for (int i = 0; i < 6; ++i) {
       const Tangent d = h * Tangent::Unit(i);
-      differences.col(i) = (LogNear(relative * SE3d::Exp(d), r) - LogNear(relative * SE3d::Exp(-d), r)) / (2 * h);
+      differences.col(i) =
+          (LogNear(relative * SE3d::Exp(d), r) - LogNear(relative * SE3d::Exp(-d), r)) / (2 * h);
     }
     EXPECT_TRUE(Near(jets.jacobian, differences, 2e-8 * scale)) << xi.transpose();
   }
@@ -79,7 +82,8 @@ TEST(SE3Jet, ExpGivesTheRightJacobian) {
   for (const auto& xi : Twists()) {
     const SE3<Jet> T = SE3<Jet>::Exp(Variables(xi));
     const auto jets = SplitJets((SE3d::Exp(xi).inverse().cast<Jet>() * T).Log());
-    EXPECT_TRUE(Near(jets.jacobian, SE3d::RightJacobian(xi), 5e-14 * (1 + xi.norm()))) << xi.transpose();
+    EXPECT_TRUE(Near(jets.jacobian, SE3d::RightJacobian(xi), 5e-14 * (1 + xi.norm())))
+        << xi.transpose();
   }
 }
 
@@ -87,7 +91,8 @@ TEST(SE3Jet, ExpGivesTheRightJacobian) {
 TEST(SE3Jet, LogOfExpHasUnitDerivative) {
   for (const auto& xi : Twists(kPi - 1e-9)) {
     const auto jets = SplitJets(SE3<Jet>::Exp(Variables(xi)).Log());
-    EXPECT_TRUE(Near(jets.jacobian, Matrix6d::Identity(), 2e-13 * (1 + xi.norm()))) << xi.transpose();
+    EXPECT_TRUE(Near(jets.jacobian, Matrix6d::Identity(), 2e-13 * (1 + xi.norm())))
+        << xi.transpose();
   }
 }
 
@@ -101,7 +106,8 @@ TEST(SE3Jet, JacobianInverseIsDifferentiable) {
     Matrix6d differences;
     for (int i = 0; i < 6; ++i) {
       const Tangent d = h * Tangent::Unit(i);
-      differences.col(i) = (SE3d::RightJacobianInverse(xi + d) - SE3d::RightJacobianInverse(xi - d)) * u / (2 * h);
+      differences.col(i) =
+          (SE3d::RightJacobianInverse(xi + d) - SE3d::RightJacobianInverse(xi - d)) * u / (2 * h);
     }
     EXPECT_TRUE(Near(jets.jacobian, differences, 1e-8 * (1 + xi.norm()))) << xi.transpose();
   }
@@ -137,7 +143,8 @@ TEST(SE3Jet, PointAndMatrixRoundTrip) {
     Eigen::Matrix<double, 3, 6> expected;  // d(T Exp(d) p)/dd = [R, -R p^]
     expected << T.so3().matrix(), -T.so3().matrix() * SO3d::hat(p);
     EXPECT_TRUE(Near(SplitJets(moved * p).jacobian, expected, 2e-14));
-    EXPECT_TRUE(Near(SplitJets(SE3<Jet>::FromMatrix(moved.matrix()) * p).jacobian, expected, 5e-14));
+    EXPECT_TRUE(
+        Near(SplitJets(SE3<Jet>::FromMatrix(moved.matrix()) * p).jacobian, expected, 5e-14));
   }
 }
 

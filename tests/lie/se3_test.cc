@@ -69,7 +69,8 @@ TEST(SE3, ActsLikeItsMatrix) {
     EXPECT_TRUE(Near(T.matrix3x4(), T.matrix().topRows<3>(), 0.0));
     EXPECT_TRUE(Near(SE3d::FromMatrix(T.matrix()), T, 3e-15));
     EXPECT_TRUE(Near(SE3d::FromMatrix(T.matrix3x4()), T, 3e-15));
-    EXPECT_TRUE(Near(SE3d::FromQuaternionTranslation(T.unit_quaternion(), T.translation()), T, 1e-15));
+    EXPECT_TRUE(
+        Near(SE3d::FromQuaternionTranslation(T.unit_quaternion(), T.translation()), T, 1e-15));
   }
 }
 
@@ -125,7 +126,8 @@ TEST(SE3, JacobiansMatchDifferences) {
     const SE3d inverse = SE3d::Exp(xi).inverse();
     Matrix6d left, right;
     for (int i = 0; i < 6; ++i) {
-      const SE3d plus = SE3d::Exp(xi + h * Tangent::Unit(i)), minus = SE3d::Exp(xi - h * Tangent::Unit(i));
+      const SE3d plus = SE3d::Exp(xi + h * Tangent::Unit(i)),
+                 minus = SE3d::Exp(xi - h * Tangent::Unit(i));
       left.col(i) = ((plus * inverse).Log() - (minus * inverse).Log()) / (2 * h);
       right.col(i) = ((inverse * plus).Log() - (inverse * minus).Log()) / (2 * h);
     }

@@ -114,7 +114,8 @@ TEST(SO3, JacobiansMatchDifferences) {
     const SO3d inverse = SO3d::Exp(phi).inverse();
     Matrix3d left, right;
     for (int i = 0; i < 3; ++i) {
-      const SO3d plus = SO3d::Exp(phi + h * Vector3d::Unit(i)), minus = SO3d::Exp(phi - h * Vector3d::Unit(i));
+      const SO3d plus = SO3d::Exp(phi + h * Vector3d::Unit(i)),
+                 minus = SO3d::Exp(phi - h * Vector3d::Unit(i));
       left.col(i) = ((plus * inverse).Log() - (minus * inverse).Log()) / (2 * h);
       right.col(i) = ((inverse * plus).Log() - (inverse * minus).Log()) / (2 * h);
     }
@@ -147,7 +148,8 @@ TEST(SO3, StorageAndCast) {
   static_assert(sizeof(SO3d) == 4 * sizeof(double) && alignof(SO3d) == alignof(double));
   const SO3d R(Eigen::Quaterniond(0.1, 0.2, 0.3, 0.4));  // w x y z
   const double n = std::sqrt(0.01 + 0.04 + 0.09 + 0.16);
-  EXPECT_TRUE(Near(Eigen::Map<const Eigen::Vector4d>(R.data()), Eigen::Vector4d(0.2, 0.3, 0.4, 0.1) / n, 1e-15));
+  EXPECT_TRUE(Near(Eigen::Map<const Eigen::Vector4d>(R.data()),
+                   Eigen::Vector4d(0.2, 0.3, 0.4, 0.1) / n, 1e-15));
   EXPECT_TRUE(Near(R.cast<float>().cast<double>(), R, 1e-7));
   EXPECT_TRUE(Near(R.cast<double>(), R, 0.0));
 }

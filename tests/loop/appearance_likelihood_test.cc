@@ -39,7 +39,8 @@ TEST(AppearanceGain, KnowsTheViewingAngle) {
 
 TEST(AppearanceGain, IsEvidenceAndNeverAGate) {
   const AppearanceOptions options;
-  for (const double cosine : {-1., 0., 0.5, 1.}) EXPECT_LE(std::abs(Gain(0, cosine)), options.limit);
+  for (const double cosine : {-1., 0., 0.5, 1.})
+    EXPECT_LE(std::abs(Gain(0, cosine)), options.limit);
   LayoutObject a, b;
   a.colour = {View(0, 1)};
   b.colour = {View(0, 1)};

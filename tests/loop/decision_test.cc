@@ -36,8 +36,10 @@ TEST(MatchLayouts, HoldsFromAnyDirection) {
 TEST(MatchLayouts, RefusesWhatIsTooLittle) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 1);
   for (std::size_t count = 0; count < 4; ++count) {
-    const std::vector<LayoutObject> few(map.begin(), map.begin() + static_cast<std::ptrdiff_t>(count));
-    for (const LayoutAnswer& answer : {MatchMaps(few, map), MatchMaps(map, few), MatchMaps(few, few)}) {
+    const std::vector<LayoutObject> few(map.begin(),
+                                        map.begin() + static_cast<std::ptrdiff_t>(count));
+    for (const LayoutAnswer& answer :
+         {MatchMaps(few, map), MatchMaps(map, few), MatchMaps(few, few)}) {
       EXPECT_EQ(answer.decision, LoopDecision::kNone) << count << " objects";
       EXPECT_THAT(answer.reason, testing::Not(testing::IsEmpty()));
     }
@@ -59,7 +61,8 @@ TEST(MatchLayouts, DoesNotMatchTheMirrorImageOfAFewObjects) {
   for (unsigned seed = 1; seed <= 60; ++seed) {
     const std::vector<LayoutObject> map = Strewn(80, 90, seed);
     std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 16, 0.3, seed);
-    if (mirrored.size() < 6 || mirrored.size() > 12 || MatchMaps(mirrored, map).decision != LoopDecision::kAccepted)
+    if (mirrored.size() < 6 || mirrored.size() > 12 ||
+        MatchMaps(mirrored, map).decision != LoopDecision::kAccepted)
       continue;
     ++cases;
     for (LayoutObject& object : mirrored) object.position.y() *= -1;
@@ -68,7 +71,8 @@ TEST(MatchLayouts, DoesNotMatchTheMirrorImageOfAFewObjects) {
   EXPECT_GT(cases, 30);
 }
 
-TEST(MatchLayouts, AnswersAreProperTurns) {  // even the best pose of a mirror image keeps left on the left
+TEST(MatchLayouts,
+     AnswersAreProperTurns) {  // even the best pose of a mirror image keeps left on the left
   const std::vector<LayoutObject> map = Strewn(40, 60, 5);
   std::vector<LayoutObject> mirrored = map;
   for (LayoutObject& object : mirrored) object.position.y() *= -1;
@@ -82,18 +86,21 @@ TEST(MatchLayouts, IsLostInAPerfectGrid) {
   const std::vector<LayoutObject> part = SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1);
   ASSERT_GE(part.size(), 8u);
   EXPECT_EQ(MatchMaps(part, grid).decision, LoopDecision::kAmbiguous) << "many shifts fit";
-  EXPECT_EQ(MatchMaps(grid, grid).decision, LoopDecision::kAmbiguous) << "the half-turn fits as well";
+  EXPECT_EQ(MatchMaps(grid, grid).decision, LoopDecision::kAmbiguous)
+      << "the half-turn fits as well";
 }
 
 TEST(MatchLayouts, IsLostOnAnEvenLine) {
   std::vector<LayoutObject> even;
   for (int i = 0; i < 8; ++i) even.push_back(ObjectAt({6. * i, 0.1 * i, 0}));
-  EXPECT_EQ(MatchMaps(even, even).decision, LoopDecision::kAmbiguous) << "the half-turn fits as well";
+  EXPECT_EQ(MatchMaps(even, even).decision, LoopDecision::kAmbiguous)
+      << "the half-turn fits as well";
 }
 
 TEST(MatchLayouts, UnevenSpacingsTellTheEndsOfALineApart) {
   std::vector<LayoutObject> line;
-  for (const double x : {0., 7., 12., 21., 35., 41., 60.}) line.push_back(ObjectAt({x, 0.2 * x, 0}));
+  for (const double x : {0., 7., 12., 21., 35., 41., 60.})
+    line.push_back(ObjectAt({x, 0.2 * x, 0}));
   const LayoutAnswer answer = MatchMaps(line, line);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(60, 12, 0)), 0.01);
@@ -111,7 +118,8 @@ TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
   three.resize(3);
   std::vector<LayoutObject> doubled = three;
   for (int copy = 0; copy < 4; ++copy) doubled.insert(doubled.end(), three.begin(), three.end());
-  EXPECT_NE(MatchMaps(doubled, map).decision, LoopDecision::kAccepted) << "three places, seen five times each";
+  EXPECT_NE(MatchMaps(doubled, map).decision, LoopDecision::kAccepted)
+      << "three places, seen five times each";
 
   std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), global = map;
   local.push_back(local[0]);

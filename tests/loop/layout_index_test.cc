@@ -37,7 +37,8 @@ TEST(LayoutIndex, FindsAllPairsOfADistance) {
     for (std::size_t i = 0; i < map.size(); ++i) {
       for (std::size_t j = i + 1; j < map.size(); ++j) {
         const double d = (map[i].position - map[j].position).head<2>().norm();
-        if (std::minmax(map[i].label, map[j].label) == std::minmax(0, 1)) expected += std::abs(d - distance) < 0.5;
+        if (std::minmax(map[i].label, map[j].label) == std::minmax(0, 1))
+          expected += std::abs(d - distance) < 0.5;
       }
     }
     const auto end = index.PairsEnd(0, 1, distance + 0.5);
@@ -62,7 +63,8 @@ TEST(LayoutIndex, VisitsABoxOnce) {
   for (const double half : {0., 3., 25., 1e300}) {
     const Vec2 low(-12 - half, 4 - half), high(-12 + half, 4 + half);
     std::set<int> visited;
-    index.VisitBox(low, high, [&](int j) { EXPECT_TRUE(visited.insert(j).second) << "visited twice"; });
+    index.VisitBox(low, high,
+                   [&](int j) { EXPECT_TRUE(visited.insert(j).second) << "visited twice"; });
     for (int j = 0; j < static_cast<int>(map.size()); ++j) {
       const Vec2 p = map[j].position.head<2>();
       const bool inside = (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
@@ -119,7 +121,9 @@ std::set<std::pair<std::set<int>, std::array<float, 3>>> Found(const LayoutIndex
   index.triangles()->Find(triangle, 1., 100000, found);
   std::set<std::pair<std::set<int>, std::array<float, 3>>> result;
   for (const ObjectTriangle* other : found)
-    EXPECT_TRUE(result.insert({Ids(index, {other->vertex.begin(), other->vertex.end()}), other->side}).second);
+    EXPECT_TRUE(
+        result.insert({Ids(index, {other->vertex.begin(), other->vertex.end()}), other->side})
+            .second);
   return result;
 }
 
@@ -153,10 +157,13 @@ TEST(LayoutIndex, AnswersAfterUpdatesAsABuiltOneDoes) {
   for (const int count : {60, 2500}) {
     const double side = std::sqrt(count / 0.0075);
     std::mt19937 random(static_cast<unsigned>(count));
-    const auto uniform = [&](double from, double to) { return from + (to - from) * (random() % 1000001) * 1e-6; };
+    const auto uniform = [&](double from, double to) {
+      return from + (to - from) * (random() % 1000001) * 1e-6;
+    };
     const auto somewhere = [&](int id) {
-      LayoutObject object = ObjectAt({uniform(-side / 2, side / 2), uniform(-side / 2, side / 2), uniform(0, 2)},
-                                     static_cast<int>(random() % 3));
+      LayoutObject object =
+          ObjectAt({uniform(-side / 2, side / 2), uniform(-side / 2, side / 2), uniform(0, 2)},
+                   static_cast<int>(random() % 3));
       object.id = id;
       object.yaw = uniform(-3, 3);
       object.symmetry = random() % 2 == 0 ? Symmetry::kPi : Symmetry::kNone;
@@ -173,7 +180,8 @@ TEST(LayoutIndex, AnswersAfterUpdatesAsABuiltOneDoes) {
       const auto any = [&] {
         return std::next(now.begin(), static_cast<std::ptrdiff_t>(random() % now.size()))->second;
       };
-      for (int i = static_cast<int>(random() % 12); i > 0; --i) changed.push_back(somewhere(next_id++));
+      for (int i = static_cast<int>(random() % 12); i > 0; --i)
+        changed.push_back(somewhere(next_id++));
       for (int i = 0; i < 3; ++i) {
         LayoutObject moved = any(), turned = any();
         moved.position += Vec3(uniform(-3, 3), uniform(-3, 3), uniform(-1, 1));
@@ -192,8 +200,10 @@ TEST(LayoutIndex, AnswersAfterUpdatesAsABuiltOneDoes) {
         now.erase(id);
       }
       if (round == 20) {  // a heap, and one that is lost
-        for (int i = 0; i < 9; ++i) changed.push_back(now.at(changed[0].id)), changed.back().id = next_id++;
-        for (int i = 0; i < 9; ++i) now[next_id - 1 - i] = changed[changed.size() - 1 - static_cast<std::size_t>(i)];
+        for (int i = 0; i < 9; ++i)
+          changed.push_back(now.at(changed[0].id)), changed.back().id = next_id++;
+        for (int i = 0; i < 9; ++i)
+          now[next_id - 1 - i] = changed[changed.size() - 1 - static_cast<std::size_t>(i)];
         changed.push_back(any());
         changed.back().position.x() = NAN;
         now.erase(changed.back().id);
@@ -226,14 +236,17 @@ TEST(LayoutIndex, UpdatesOfAllAndOfNothing) {
 
 TEST(LayoutIndex, TakesOddMaps) {
   EXPECT_TRUE(LayoutIndex({}, 50, 2).Near(0, 0).empty());
-  const std::vector<LayoutObject> odd = {ObjectAt({NAN, 0, 0}), ObjectAt({0, INFINITY, 0}), ObjectAt({1, 1, 1})};
+  const std::vector<LayoutObject> odd = {ObjectAt({NAN, 0, 0}), ObjectAt({0, INFINITY, 0}),
+                                         ObjectAt({1, 1, 1})};
   const LayoutIndex index(odd, 50, 2);
   EXPECT_EQ(index.objects().size(), 1u);
   EXPECT_EQ(*index.Near(1, 1).begin(), 0);
-  const LayoutIndex far({ObjectAt({0, 0, 0}), ObjectAt({1e7, -1e7, 0})}, 50, 2);  // no memory for what lies between
+  // no memory for what lies between
+  const LayoutIndex far({ObjectAt({0, 0, 0}), ObjectAt({1e7, -1e7, 0})}, 50, 2);
   EXPECT_FALSE(far.Near(1e7, -1e7).empty());
   const LayoutIndex heap(std::vector<LayoutObject>(20, ObjectAt({3, 3, 3})), 50, 2);
-  EXPECT_GE(heap.PairsBegin(0, 0, 0), heap.PairsEnd(0, 0, 50)) << "no direction between equal points";
+  EXPECT_GE(heap.PairsBegin(0, 0, 0), heap.PairsEnd(0, 0, 50))
+      << "no direction between equal points";
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ namespace {
 const YawShift kPose{2.5, {30, -20, 1.5}};
 
 struct Case {
-  std::vector<LayoutObject> map = Strewn(80, 80, 1), local = SeenFrom(map, kPose, {0, 0}, 20, 0.2, 2);
+  std::vector<LayoutObject> map = Strewn(80, 80, 1),
+                            local = SeenFrom(map, kPose, {0, 0}, 20, 0.2, 2);
   LayoutIndex index{map, 50, 2};
 };
 
@@ -55,11 +56,13 @@ TEST(LayoutLikelihood, MissesOnBothSidesCost) {
   const double score = LayoutLikelihood(c.local, c.index, {}).Evaluate(kPose).score;
   std::vector<LayoutObject> more = c.local;
   more.push_back(ObjectAt(c.local[0].position + Vec3(3, 3, 0)));
-  EXPECT_LT(LayoutLikelihood(more, c.index, {}).Evaluate(kPose).score, score) << "the map lacks one";
+  EXPECT_LT(LayoutLikelihood(more, c.index, {}).Evaluate(kPose).score, score)
+      << "the map lacks one";
   std::vector<LayoutObject> map = c.map;
   map.push_back(ObjectAt({0.5, 0.5, 0}));
   const LayoutIndex fuller(map, 50, 2);
-  EXPECT_LT(LayoutLikelihood(c.local, fuller, {}).Evaluate(kPose).score, score) << "one of the map was not seen";
+  EXPECT_LT(LayoutLikelihood(c.local, fuller, {}).Evaluate(kPose).score, score)
+      << "one of the map was not seen";
 }
 
 TEST(LayoutLikelihood, AWrongLabelCostsButDoesNotForbid) {

@@ -21,7 +21,8 @@ TEST(LayoutVector, IsSortedAndSumsToOne) {
   EXPECT_LT((*w - Eigen::Vector3d(1. / 8, 3. / 8, 4. / 8)).norm(), 1e-15);
 }
 
-TEST(LayoutVector, DoesNotChangeWithPoseOrScale) {  // scale being lost is the printed method's trouble
+TEST(LayoutVector,
+     DoesNotChangeWithPoseOrScale) {  // scale being lost is the printed method's trouble
   std::mt19937 random(4);
   const auto uniform = [&] { return (random() % 100000) * 1e-3; };
   ObjectGraph graph, moved;
@@ -50,7 +51,8 @@ TEST(LayoutVector, ThereIsNoneWithoutKNeighboursOrOnOneSpot) {
 }
 
 TEST(LayoutDifference, IsEquation10) {
-  EXPECT_NEAR(LayoutDifference(Eigen::Vector2d(0.2, 0.8), Eigen::Vector2d(0.5, 0.5)), 0.3 * std::sqrt(2.), 1e-15);
+  EXPECT_NEAR(LayoutDifference(Eigen::Vector2d(0.2, 0.8), Eigen::Vector2d(0.5, 0.5)),
+              0.3 * std::sqrt(2.), 1e-15);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ namespace {
 using Vertices = std::map<int, Vec3>;
 
 /// Every other vertex, sorted by distance, then id.
-std::vector<GraphEdge> BruteForce(const Vertices& vertices, const Vec3& point, int k, int without = -1) {
+std::vector<GraphEdge> BruteForce(const Vertices& vertices, const Vec3& point, int k,
+                                  int without = -1) {
   std::vector<GraphEdge> edges;
   for (const auto& [id, position] : vertices)
     if (id != without) edges.push_back({id, (position - point).norm()});
@@ -65,7 +66,8 @@ TEST(ObjectGraph, AgreesWithBruteForceWhileVerticesComeMoveAndLeave) {
         const Vec3 p = grid ? walk.GridPoint() : walk.Point();
         graph.Put(id, p);
         vertices[id] = p;
-        ExpectEqual(graph.Neighbours(id, 5), BruteForce(vertices, p, 5, id));  // right after the addition
+        // right after the addition
+        ExpectEqual(graph.Neighbours(id, 5), BruteForce(vertices, p, 5, id));
       }
       if (step % 10 == 0) {
         const Vec3 p = grid ? walk.GridPoint() : walk.Point();
@@ -83,7 +85,8 @@ TEST(ObjectGraph, DoesNotDependOnTheOrderOfArrival) {
   for (int id = 0; id < 300; ++id) vertices[id] = walk.GridPoint();
   ObjectGraph forward, backward;
   for (auto it = vertices.begin(); it != vertices.end(); ++it) forward.Put(it->first, it->second);
-  for (auto it = vertices.rbegin(); it != vertices.rend(); ++it) backward.Put(it->first, it->second);
+  for (auto it = vertices.rbegin(); it != vertices.rend(); ++it)
+    backward.Put(it->first, it->second);
   for (const auto& [id, position] : vertices) {
     const auto a = forward.Neighbours(id, 6), b = backward.Neighbours(id, 6);
     ASSERT_EQ(a.size(), b.size());

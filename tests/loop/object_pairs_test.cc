@@ -15,13 +15,15 @@ namespace {
 
 std::string PairsFile(const std::string& name) {
   const char* root = std::getenv("SSLCD_DATA_DIR");
-  const std::filesystem::path beside = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
+  const std::filesystem::path beside =
+      std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
   return (root != nullptr ? std::filesystem::path(root) : beside) / "object-pairs" / name;
 }
 
 Vec3 Centre(const std::vector<LayoutObject>& objects) {
   Vec3 centre = Vec3::Zero();
-  for (const LayoutObject& object : objects) centre += object.position / static_cast<double>(objects.size());
+  for (const LayoutObject& object : objects)
+    centre += object.position / static_cast<double>(objects.size());
   return centre;
 }
 
@@ -49,7 +51,8 @@ Count Judge(const std::vector<LayoutPair>& pairs, const std::string& scene) {
 
 TEST(ObjectPairs, StreetsAndLots) {
   const std::string file = PairsFile("pairs_seed7.txt");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
   const std::vector<LayoutPair> pairs = ReadLayoutPairs(file);
   const Count street = Judge(pairs, "street"), lot = Judge(pairs, "lot");
   EXPECT_EQ(street.right + street.wrong + street.refused, 180);
@@ -62,7 +65,8 @@ TEST(ObjectPairs, StreetsAndLots) {
 
 TEST(ObjectPairs, TwoScansOfOneRealPlace) {
   const std::string file = PairsFile("pair_kitti00_52_4501.txt");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
+  if (!std::filesystem::exists(file))
+    GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
   const LayoutPair pair = ReadLayoutPairs(file).at(0);
   const LayoutAnswer answer = MatchMaps(pair.local, pair.global);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;

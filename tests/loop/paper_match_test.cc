@@ -62,7 +62,9 @@ TEST(PaperMatch, KeepsToItsThresholdsAndTakesTheMostSimilar) {
     int best = -1;
     double highest = 0;
     for (int j = 0; j < 12; ++j) {
-      if (LayoutDifference(*LayoutVector(local_graph, i, 3), *LayoutVector(global_graph, j, 3)) >= 0.1) continue;
+      if (LayoutDifference(*LayoutVector(local_graph, i, 3), *LayoutVector(global_graph, j, 3)) >=
+          0.1)
+        continue;
       const double similarity = SemanticSimilarity(local[i], global[j], options.mu);
       if (similarity < 1.1 || similarity <= highest) continue;
       best = j;

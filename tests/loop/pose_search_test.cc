@@ -12,7 +12,8 @@ namespace {
 
 const YawShift kPose{-1.2, {-300, 200, 3}};
 
-std::vector<PoseHypothesis> Search(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& map,
+std::vector<PoseHypothesis> Search(const std::vector<LayoutObject>& local,
+                                   const std::vector<LayoutObject>& map,
                                    const PoseSearchOptions& options = {}) {
   return SearchPoses(LayoutLikelihood(local, LayoutIndex(map, 50, 2), {}), options);
 }
@@ -41,7 +42,8 @@ TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GE(found[j].fit.evidence, found[i].fit.evidence);
       EXPECT_TRUE(ShiftBetween(found[i].pose, found[j].pose, centre) >= options.distinct_m ||
-                  std::abs(WrapAngle(found[i].pose.yaw - found[j].pose.yaw)) >= options.distinct_rad);
+                  std::abs(WrapAngle(found[i].pose.yaw - found[j].pose.yaw)) >=
+                      options.distinct_rad);
     }
   }
 }

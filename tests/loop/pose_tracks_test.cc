@@ -22,7 +22,9 @@ struct Attempts {
   PoseTracks tracks;
 
   explicit Attempts(std::vector<LayoutObject> objects, const PoseTrackOptions& options = {})
-      : map(std::move(objects)), index(Numbered(map), match.max_pair_m, match.reach_m), tracks(options) {}
+      : map(std::move(objects)),
+        index(Numbered(map), match.max_pair_m, match.reach_m),
+        tracks(options) {}
 
   static const std::vector<LayoutObject>& Numbered(std::vector<LayoutObject>& objects) {
     for (std::size_t i = 0; i < objects.size(); ++i) objects[i].id = static_cast<int>(i);
@@ -31,12 +33,14 @@ struct Attempts {
   std::vector<LayoutObject> SeenAt(double x, double y, double radius_m = 18) const {
     return SeenFrom(map, kPose, {x, y}, radius_m, 0.1, 2);
   }
-  void Update(const std::vector<LayoutObject>& local, double path_m, const PoseTracks::Prior& prior = NoPrior) {
+  void Update(const std::vector<LayoutObject>& local, double path_m,
+              const PoseTracks::Prior& prior = NoPrior) {
     const LayoutLikelihood likelihood(local, index, match.likelihood);
     tracks.Update(likelihood, SearchPoses(likelihood, match.search), match.search, path_m, prior);
   }
   void UpdateWithoutSearch(const std::vector<LayoutObject>& local, double path_m) {
-    tracks.Update(LayoutLikelihood(local, index, match.likelihood), {}, match.search, path_m, NoPrior);
+    tracks.Update(LayoutLikelihood(local, index, match.likelihood), {}, match.search, path_m,
+                  NoPrior);
   }
 };
 
@@ -78,7 +82,8 @@ TEST(PoseTracks, NewObjectsDo) {
   Attempts attempts(Strewn(120, 120, 1));
   attempts.Update(attempts.SeenAt(-20, 0), 100);
   const PoseTrack first = attempts.tracks.tracks()[0];
-  for (int i = 1; i <= 8; ++i) attempts.UpdateWithoutSearch(attempts.SeenAt(-20 + 5 * i, 0), 100 + 5 * i);
+  for (int i = 1; i <= 8; ++i)
+    attempts.UpdateWithoutSearch(attempts.SeenAt(-20 + 5 * i, 0), 100 + 5 * i);
   ASSERT_FALSE(attempts.tracks.tracks().empty());
   const PoseTrack& last = attempts.tracks.tracks()[0];
   EXPECT_EQ(last.id, first.id) << "followed, not found again";
@@ -106,7 +111,8 @@ TEST(PoseTracks, EndWhereTheLayoutsNoLongerAgree) {
 
 TEST(PoseTracks, TwinsHaveNoMargin) {
   std::vector<LayoutObject> map = Strewn(20, 40, 4);
-  for (int i = 0; i < 20; ++i) map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
+  for (int i = 0; i < 20; ++i)
+    map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
   Attempts attempts(map);
   const auto local = attempts.SeenAt(0, 0, 25);
   attempts.Update(local, 100);
@@ -115,7 +121,9 @@ TEST(PoseTracks, TwinsHaveNoMargin) {
   EXPECT_NEAR(attempts.tracks.Margin(0), 0, 0.1);
   EXPECT_NEAR(attempts.tracks.Margin(1), 0, 0.1);
   // A prior settles it: the margin is that of the two, as "nowhere" is far behind.
-  attempts.Update(local, 105, [](const YawShift& pose, const LayoutFit&) { return pose.t.x() > 150 ? -4. : 0.; });
+  attempts.Update(local, 105, [](const YawShift& pose, const LayoutFit&) {
+    return pose.t.x() > 150 ? -4. : 0.;
+  });
   EXPECT_NEAR(attempts.tracks.Margin(0), 4, 0.2);
   EXPECT_NEAR(attempts.tracks.Margin(1), -4, 0.2);
 }

@@ -38,7 +38,8 @@ TEST(PaperSemantics, AreEquations12To16AsPrinted) {
   EXPECT_NEAR(*cues.position, std::exp(-0.5), 1e-12);
   EXPECT_NEAR(*cues.colour, std::exp(-0.6), 1e-6);
   EXPECT_NEAR(*cues.embedding, 1, 1e-12) << "nothing in common counts as best: as printed";
-  EXPECT_NEAR(*PaperSimilarity(cues, 0.3), 0.3 * 2 * std::exp(-0.5) + 0.7 * (std::exp(-0.6) + 1), 1e-6);
+  EXPECT_NEAR(*PaperSimilarity(cues, 0.3), 0.3 * 2 * std::exp(-0.5) + 0.7 * (std::exp(-0.6) + 1),
+              1e-6);
   EXPECT_NEAR(SemanticSimilarity(a, b, 0.3), *PaperSimilarity(cues, 0.3), 1e-15);
 }
 
@@ -62,7 +63,8 @@ TEST(PaperSemantics, MissingCuesDropOutAndTheRestIsScaledUp) {
   cues = CompareAsPrinted(Car(), plain);
   EXPECT_FALSE(PaperSimilarity(cues, 0.5));
   EXPECT_EQ(SemanticSimilarity(Car(), plain, 0.5), 0);
-  EXPECT_FALSE(PaperSimilarity({0.5, 0.5, {}, {}}, 0.)) << "mu 0 listens to colour and embedding only";
+  EXPECT_FALSE(PaperSimilarity({0.5, 0.5, {}, {}}, 0.))
+      << "mu 0 listens to colour and embedding only";
 }
 
 TEST(PaperSemantics, SeveralViewsCountBySightings) {

@@ -30,7 +30,8 @@ double Difference(const ObjectTriangle& a, const ObjectTriangle& b) {
 
 TEST(NeighbourTriangles, AreTheSameWithAndWithoutAnIndex) {
   const LayoutIndex index(Strewn(150, 100, 1), 50, 2);
-  const auto with = Vertices(NeighbourTriangles(index)), without = Vertices(NeighbourTriangles(index.points()));
+  const auto with = Vertices(NeighbourTriangles(index)),
+             without = Vertices(NeighbourTriangles(index.points()));
   EXPECT_GT(with.size(), 150u * 5);
   EXPECT_EQ(with, without);
 }
@@ -39,7 +40,8 @@ TEST(NeighbourTriangles, SignaturesStayInTurnedMaps) {
   const std::vector<LayoutObject> map = Strewn(40, 60, 2);
   const YawShift pose{2.1, {30, -20, 1}};
   const auto a = NeighbourTriangles(LayoutIndex(map, 50, 2).points());
-  const auto b = NeighbourTriangles(LayoutIndex(SeenFrom(map, pose, {0, 0}, 100, 0, 1), 50, 2).points());
+  const auto b =
+      NeighbourTriangles(LayoutIndex(SeenFrom(map, pose, {0, 0}, 100, 0, 1), 50, 2).points());
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_EQ(a[i].label, b[i].label);
@@ -59,12 +61,14 @@ TEST(TriangleIndex, FindsAllOfTheSameSides) {
   const LayoutIndex map(Strewn(300, 150, 3), 50, 2);
   const TriangleIndex index(map);
   const std::vector<ObjectTriangle> all = NeighbourTriangles(map);
-  const std::vector<ObjectTriangle> wanted = NeighbourTriangles(LayoutIndex(Strewn(30, 50, 4), 50, 2));
+  const std::vector<ObjectTriangle> wanted =
+      NeighbourTriangles(LayoutIndex(Strewn(30, 50, 4), 50, 2));
   std::size_t total = 0;
   for (const ObjectTriangle& triangle : wanted) {
     std::set<std::array<int, 3>> expected, got;
     for (const ObjectTriangle& other : all)
-      if (other.label == triangle.label && Difference(triangle, other) < 1.5) expected.insert(other.vertex);
+      if (other.label == triangle.label && Difference(triangle, other) < 1.5)
+        expected.insert(other.vertex);
     std::vector<const ObjectTriangle*> found, again;
     index.Find(triangle, 1.5, 1000, found);
     index.Find(triangle, 1.5, 1000, again);

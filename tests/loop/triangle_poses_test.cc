@@ -28,12 +28,14 @@ TEST(TrianglePoses, FindTheTruthInALargeMap) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const Vec2 point(-250 + 25. * seed, 200 - 20. * seed);
     std::vector<LayoutObject> local = SeenFrom(LargeMap(), kPose, point, 30, 0.4, seed);
-    for (std::size_t i = 0; i < local.size(); i += 4) local.erase(local.begin() + static_cast<std::ptrdiff_t>(i));
+    for (std::size_t i = 0; i < local.size(); i += 4)
+      local.erase(local.begin() + static_cast<std::ptrdiff_t>(i));
     ASSERT_GT(local.size(), 10u);
     const LayoutAnswer answer = MatchLayouts(local, Index(), {});
     EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << "seed " << seed;
     ASSERT_FALSE(answer.hypotheses.empty());
-    EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 1.) << "seed " << seed;
+    EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 1.)
+        << "seed " << seed;
   }
 }
 
@@ -41,7 +43,8 @@ TEST(TrianglePoses, MirrorImagesAreNotTaken) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     std::vector<LayoutObject> local = SeenFrom(LargeMap(), kPose, {0, 40. * seed}, 35, 0.2, seed);
     for (LayoutObject& object : local) object.position.y() *= -1;
-    EXPECT_NE(MatchLayouts(local, Index(), {}).decision, LoopDecision::kAccepted) << "seed " << seed;
+    EXPECT_NE(MatchLayouts(local, Index(), {}).decision, LoopDecision::kAccepted)
+        << "seed " << seed;
   }
 }
 
@@ -58,7 +61,8 @@ TEST(TrianglePoses, ARegularLargeMapIsAmbiguous) {
 TEST(TrianglePoses, AreBoundedAndRepeatable) {
   std::vector<LayoutPoint> points;
   for (const LayoutObject& object : SeenFrom(LargeMap(), {}, {0, 0}, 60, 0.3, 1))
-    points.push_back({static_cast<float>(object.position.x()), static_cast<float>(object.position.y()),
+    points.push_back({static_cast<float>(object.position.x()),
+                      static_cast<float>(object.position.y()),
                       static_cast<float>(object.position.z()), object.label});
   const auto a = TrianglePoses(points, Index(), {}), b = TrianglePoses(points, Index(), {});
   EXPECT_GT(a.size(), 100u);

@@ -15,7 +15,9 @@ Sighting Of(const Vec3& dims, double range) {
   return sighting;
 }
 
-TEST(FuseDims, OneSightingIsItself) { EXPECT_EQ(FuseDims({Of({4, 1.6, 1.5}, 20)}), Vec3(4, 1.6, 1.5)); }
+TEST(FuseDims, OneSightingIsItself) {
+  EXPECT_EQ(FuseDims({Of({4, 1.6, 1.5}, 20)}), Vec3(4, 1.6, 1.5));
+}
 
 TEST(FuseDims, OneWildSizeChangesLittle) {
   std::vector<Sighting> sightings(9, Of({4, 1.6, 1.5}, 20));

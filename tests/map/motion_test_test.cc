@@ -9,7 +9,8 @@
 namespace sslcd {
 namespace {
 
-// Positions of an object that moves with `speed` along x, seen 10 times a second with noise `sigma`.
+// Positions of an object that moves with `speed` along x, seen 10 times a second with noise
+// `sigma`.
 MotionTest Watch(double speed, double sigma, int frames, unsigned seed) {
   std::mt19937 random(seed);
   const auto gauss = [&] {  // sum of twelve uniforms
@@ -38,13 +39,17 @@ TEST(MotionTest, ParkedIsParked) {
 TEST(MotionTest, DrivingIsDriving) {
   for (const double speed : {2., 5., 15., -10.}) {
     for (unsigned seed = 0; seed < 20; ++seed)
-      EXPECT_EQ(Watch(speed, 0.3, 25, seed).Verdict({}), Motion::kDriving) << "speed " << speed << " seed " << seed;
+      EXPECT_EQ(Watch(speed, 0.3, 25, seed).Verdict({}), Motion::kDriving)
+          << "speed " << speed << " seed " << seed;
   }
 }
 
-TEST(MotionTest, OneSightingDecidesNothing) { EXPECT_EQ(Watch(0, 0.1, 1, 1).Verdict({}), Motion::kUndecided); }
+TEST(MotionTest, OneSightingDecidesNothing) {
+  EXPECT_EQ(Watch(0, 0.1, 1, 1).Verdict({}), Motion::kUndecided);
+}
 
-TEST(MotionTest, ACreepingBiasIsNotDriving) {  // a detector's bias turns with the viewing ray: 1 m in 4 s
+TEST(MotionTest,
+     ACreepingBiasIsNotDriving) {  // a detector's bias turns with the viewing ray: 1 m in 4 s
   EXPECT_NE(Watch(0.25, 0.1, 40, 1).Verdict({}), Motion::kDriving);
 }
 
@@ -57,7 +62,8 @@ TEST(MotionTest, PredictsWithTheRightModel) {
 TEST(MotionTest, ADrivingObjectThatStopsIsNoticedAndForgiven) {
   MotionTest test = Watch(5, 0.1, 20, 4);
   ASSERT_EQ(test.Verdict({}), Motion::kDriving);
-  for (int i = 20; i < 60; ++i) test.Add(Vec2(9.5, 0), 0.01 * Eigen::Matrix2d::Identity(), 0.1 * i, {});
+  for (int i = 20; i < 60; ++i)
+    test.Add(Vec2(9.5, 0), 0.01 * Eigen::Matrix2d::Identity(), 0.1 * i, {});
   EXPECT_GT(test.Stamp() - test.StandingSince(), 1.5);
   test.Restart();
   EXPECT_NE(test.Verdict({}), Motion::kDriving);
@@ -72,7 +78,8 @@ TEST(MotionTest, ALongGapStartsAnew) {
 
 TEST(MotionTest, ShiftMovesBothModels) {
   MotionTest test = Watch(0, 0.1, 20, 6);
-  const double x = test.PredictParked(2., {}).position.x(), driving = test.PredictDriving(2., {}).position.x();
+  const double x = test.PredictParked(2., {}).position.x(),
+               driving = test.PredictDriving(2., {}).position.x();
   test.Shift(Vec2(3, 0));
   EXPECT_NEAR(test.PredictParked(2., {}).position.x(), x + 3, 1e-12);
   EXPECT_NEAR(test.PredictDriving(2., {}).position.x(), driving + 3, 1e-12);

@@ -8,7 +8,8 @@
 namespace sslcd {
 namespace {
 
-// A camera that drives 0.5 m a frame (10 a second) along z and sees cars at given places in the world.
+// A camera that drives 0.5 m a frame (10 a second) along z and sees cars at given places in the
+// world.
 class ObjectMapTest : public ::testing::Test {
  protected:
   ObjectMap Make(const MapOptions& options = {}, const AssociationOptions& association = {}) {
@@ -40,7 +41,8 @@ TEST_F(ObjectMapTest, ParkedCarsBecomeTheMap) {
   ObjectMap map = Make();
   for (int frame = 0; frame < 20; ++frame)
     map.AddFrame(frame, 0.1 * frame, Camera(frame),
-                 {See(frame, {3, 1, 20}), See(frame, {3, 1, 26}), See(frame, {-3, 1, 20})}, nullptr);
+                 {See(frame, {3, 1, 20}), See(frame, {3, 1, 26}), See(frame, {-3, 1, 20})},
+                 nullptr);
   EXPECT_EQ(map.landmarks().size(), 3u);
   EXPECT_EQ(Count(map, LandmarkState::kConfirmed), 3);
   EXPECT_LT((map.at({1}).pose.position - Vec3(3, 1, 20)).norm(), 1e-6);
@@ -52,13 +54,14 @@ TEST_F(ObjectMapTest, ADrivingCarNeverEntersTheMap) {
   for (const double speed : {3., 8., -15.}) {
     ObjectMap map = Make();
     for (int frame = 0; frame < 30; ++frame) {
-      const MapUpdate update =
-          map.AddFrame(frame, 0.1 * frame, Camera(frame),
-                       {See(frame, {3, 1, 20}), See(frame, {0, 1, 40 + 0.1 * speed * frame})}, nullptr);
+      const MapUpdate update = map.AddFrame(
+          frame, 0.1 * frame, Camera(frame),
+          {See(frame, {3, 1, 20}), See(frame, {0, 1, 40 + 0.1 * speed * frame})}, nullptr);
       ASSERT_EQ(update.matched.size(), 2u);
     }
     EXPECT_EQ(Count(map, LandmarkState::kConfirmed), 1) << "speed " << speed;
-    EXPECT_EQ(Count(map, LandmarkState::kDynamic), 1) << "speed " << speed << ": one track, not many";
+    EXPECT_EQ(Count(map, LandmarkState::kDynamic), 1)
+        << "speed " << speed << ": one track, not many";
   }
 }
 
@@ -77,7 +80,8 @@ TEST_F(ObjectMapTest, ACarThatDrivesOffLeavesTheMap) {
 TEST_F(ObjectMapTest, ATreeCannotDrive) {
   ObjectMap map = Make();
   for (int frame = 0; frame < 30; ++frame)
-    map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {0, 1, 30 + 0.05 * frame}, 0, "Tree")}, nullptr);
+    map.AddFrame(frame, 0.1 * frame, Camera(frame),
+                 {See(frame, {0, 1, 30 + 0.05 * frame}, 0, "Tree")}, nullptr);
   EXPECT_EQ(Count(map, LandmarkState::kDynamic), 0);
 }
 
@@ -110,7 +114,8 @@ TEST_F(ObjectMapTest, LearnsHowGoodTheDetectorIs) {
     for (int k = 0; k < 3; ++k) {
       seen.push_back(See(frame, {3, 1, 120. + 10 * k}));
       Vec3& t = seen.back().T_cam_object.translation();
-      t *= 1 + 0.05 * std::sin(1.7 * frame + k);  // radial error up to 5 %: far more than the model says
+      // radial error up to 5 %: far more than the model says
+      t *= 1 + 0.05 * std::sin(1.7 * frame + k);
     }
     map.AddFrame(frame, 0.1 * frame, Camera(frame), seen, nullptr);
   }
@@ -121,12 +126,14 @@ TEST_F(ObjectMapTest, LearnsHowGoodTheDetectorIs) {
 TEST_F(ObjectMapTest, FuseKeepsEverySightingOnce) {
   ObjectMap map = Make();
   for (int frame = 0; frame < 6; ++frame)
-    map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {3, 1, 20}), See(frame, {-30, 1, 20})}, nullptr);
+    map.AddFrame(frame, 0.1 * frame, Camera(frame),
+                 {See(frame, {3, 1, 20}), See(frame, {-30, 1, 20})}, nullptr);
   map.AddFrame(6, 0.6, Camera(6), {See(6, {-30, 1, 20})}, nullptr);
   map.Fuse({1}, {2});
   ASSERT_EQ(map.landmarks().size(), 1u);
   EXPECT_EQ(map.at({1}).sightings.size(), 7u);
-  EXPECT_EQ(map.at({1}).sightings[0].detection_row, 0) << "where both were seen the kept one's stays";
+  EXPECT_EQ(map.at({1}).sightings[0].detection_row, 0)
+      << "where both were seen the kept one's stays";
   EXPECT_EQ(map.at({1}).sightings[6].frame, 6);
   EXPECT_TRUE(map.Near({-30, 1, 20}, 5).empty());
 }
@@ -136,7 +143,8 @@ TEST_F(ObjectMapTest, EmptyFramesAndMatchAlone) {
   EXPECT_TRUE(map.AddFrame(0, 0, Camera(0), {}, nullptr).matched.empty());
   for (int frame = 1; frame < 6; ++frame)
     map.AddFrame(frame, 0.1 * frame, Camera(frame), {See(frame, {3, 1, 20})}, nullptr);
-  const auto matched = map.Match(0.6, Camera(6), {See(6, {3.1, 1, 20}), See(6, {30, 1, 20})}, nullptr);
+  const auto matched =
+      map.Match(0.6, Camera(6), {See(6, {3.1, 1, 20}), See(6, {30, 1, 20})}, nullptr);
   ASSERT_EQ(matched.size(), 2u);
   EXPECT_EQ(matched[0].value, 1);
   EXPECT_EQ(matched[1].value, -1);

@@ -35,12 +35,15 @@ void Check(const ceres::CostFunction& cost, const std::vector<const double*>& bl
   ceres::NumericDiffOptions options;
   const ceres::GradientChecker checker(&cost, &manifolds, options);
   ceres::GradientChecker::ProbeResults results;
-  checker.Probe(blocks.data(), 1e-5, &results);  // its own verdict is relative only: entries of 1e-16 fail it
+  // its own verdict is relative only: entries of 1e-16 fail it
+  checker.Probe(blocks.data(), 1e-5, &results);
   ASSERT_TRUE(results.return_value);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const Eigen::MatrixXd difference = results.local_jacobians[i] - results.local_numeric_jacobians[i];
+    const Eigen::MatrixXd difference =
+        results.local_jacobians[i] - results.local_numeric_jacobians[i];
     const double size = 1 + results.local_numeric_jacobians[i].cwiseAbs().maxCoeff();
-    EXPECT_TRUE(difference.cwiseAbs().maxCoeff() <= 1e-6 * size) << "block " << i << "\n" << difference;
+    EXPECT_TRUE(difference.cwiseAbs().maxCoeff() <= 1e-6 * size) << "block " << i << "\n"
+                                                                 << difference;
   }
 }
 
@@ -56,7 +59,8 @@ class Functors : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(Functors, ObjectResidualGradient) {
-  const ObjectResidual residual{Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, M_PI, gravity};
+  const ObjectResidual residual{
+      Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, M_PI, gravity};
   const ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4> cost(new ObjectResidual(residual));
   Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
 }
@@ -67,36 +71,45 @@ void ExpectSame(const ceres::CostFunction& ours, const ceres::CostFunction& auto
   Eigen::VectorXd r(ours.num_residuals()), expected(ours.num_residuals());
   ASSERT_TRUE(ours.Evaluate(blocks.data(), r.data(), nullptr));
   ASSERT_TRUE(automatic.Evaluate(blocks.data(), expected.data(), nullptr));
-  EXPECT_TRUE((r - expected).cwiseAbs().maxCoeff() <= 1e-9 * (1 + expected.norm())) << r << "\n" << expected;
+  EXPECT_TRUE((r - expected).cwiseAbs().maxCoeff() <= 1e-9 * (1 + expected.norm())) << r << "\n"
+                                                                                    << expected;
 }
 
 TEST_P(Functors, ObjectCostIsObjectResidual) {
   for (const double yaw_period : {0., M_PI, 2 * M_PI}) {
-    const ObjectResidual residual{Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, yaw_period, gravity};
+    const ObjectResidual residual{
+        Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, yaw_period, gravity};
     const ObjectCost cost(residual);
     Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
-    ExpectSame(cost, ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4>(new ObjectResidual(residual)),
+    ExpectSame(cost,
+               ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4>(new ObjectResidual(residual)),
                {camera.data(), state});
   }
 }
 
 TEST_P(Functors, OdometryCostIsOdometryResidual) {
-  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
+  const OdometryResidual residual{RandomPose(random, 0.3),
+                                  WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
   const OdometryCost cost(residual);
   Check(cost, {camera.data(), next.data(), &log_scale}, {&pose_manifold, &pose_manifold, nullptr});
-  ExpectSame(cost, ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1>(new OdometryResidual(residual)),
-             {camera.data(), next.data(), &log_scale});
+  ExpectSame(
+      cost,
+      ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1>(new OdometryResidual(residual)),
+      {camera.data(), next.data(), &log_scale});
 }
 
 TEST_P(Functors, PaperObjectResidualGradient) {
   const PaperObjectResidual residual{Seen(camera, object, gravity), gravity};
-  const ceres::AutoDiffCostFunction<PaperObjectResidual, 6, 7, 4> cost(new PaperObjectResidual(residual));
+  const ceres::AutoDiffCostFunction<PaperObjectResidual, 6, 7, 4> cost(
+      new PaperObjectResidual(residual));
   Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
 }
 
 TEST_P(Functors, OdometryResidualGradient) {
-  const OdometryResidual residual{RandomPose(random, 0.3), WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
-  const ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1> cost(new OdometryResidual(residual));
+  const OdometryResidual residual{RandomPose(random, 0.3),
+                                  WhiteningOf({0.1, 0.2, 0.01}, {0.5, 3}, gravity.up)};
+  const ceres::AutoDiffCostFunction<OdometryResidual, 6, 7, 7, 1> cost(
+      new OdometryResidual(residual));
   Check(cost, {camera.data(), next.data(), &log_scale}, {&pose_manifold, &pose_manifold, nullptr});
 }
 
@@ -107,7 +120,8 @@ TEST_P(Functors, PosePriorGradient) {
 
 TEST_P(Functors, SlopeResidualGradient) {
   const Vec3 up_in_cam = next.so3() * Vec3(0, -1, 0);
-  const ceres::AutoDiffCostFunction<SlopeResidual, 3, 7, 3> cost(new SlopeResidual{up_in_cam, 0.05});
+  const ceres::AutoDiffCostFunction<SlopeResidual, 3, 7, 3> cost(
+      new SlopeResidual{up_in_cam, 0.05});
   const ceres::SphereManifold<3> directions;
   Check(cost, {camera.data(), gravity.up.data()}, {&pose_manifold, &directions});
 }
@@ -121,7 +135,8 @@ TEST_P(Functors, MarginalPriorGradient) {
   prior.log_scale = 0.01;
   prior.J = Eigen::MatrixXd::NullaryExpr(9, 11, [&] { return (random() % 2001) / 1000. - 1.; });
   prior.r0 = Eigen::VectorXd::Ones(9);
-  Check(MarginalPriorCost(prior), {camera.data(), state, &log_scale}, {&pose_manifold, nullptr, nullptr});
+  Check(MarginalPriorCost(prior), {camera.data(), state, &log_scale},
+        {&pose_manifold, nullptr, nullptr});
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Functors, ::testing::Range(0, 8));
@@ -179,16 +194,18 @@ TEST(OdometryResidual, ScaleStretchesTranslationOnly) {
   const Pose from;
   const double log_scale = std::log(0.97);
   double r[6];
-  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), metric.data(), &log_scale,
-                                                                              r);
+  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(
+      from.data(), metric.data(), &log_scale, r);
   for (const double component : r) EXPECT_NEAR(component, 0, 1e-9);
 }
 
-TEST(OdometryResidual, IsInTheOdometrysOwnUnits) {  // else a small scale would make small noise of large
+TEST(OdometryResidual,
+     IsInTheOdometrysOwnUnits) {  // else a small scale would make small noise of large
   const Pose odometry = Pose::Trans(1, 0, 0), from, to = Pose::Trans(2.2, 0, 0);
   const double log_scale = std::log(2.);
   double r[6];
-  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(from.data(), to.data(), &log_scale, r);
+  OdometryResidual{odometry, WhiteningOf({0.1, 0.1, 0.1}, {}, Vec3::UnitZ())}(
+      from.data(), to.data(), &log_scale, r);
   EXPECT_NEAR(r[0], 1, 1e-9) << "the odometry says 1 m where it was 1.1 m: one sigma";
 }
 

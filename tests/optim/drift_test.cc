@@ -21,7 +21,9 @@ const Vec3 kKittiUp(0, -1, 0);
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double Uniform(double low, double high) { return low + (high - low) * ((engine_() + 0.5) / 4294967296.); }
+  double Uniform(double low, double high) {
+    return low + (high - low) * ((engine_() + 0.5) / 4294967296.);
+  }
   double Normal(double sigma) {
     return sigma * std::sqrt(-2 * std::log(Uniform(0, 1))) * std::cos(Uniform(0, 2 * M_PI));
   }
@@ -46,18 +48,21 @@ struct Scene {
     const GravityFrame axes = gravity();
     std::vector<DriftPair> pairs;
     for (int i = 0; i < objects; ++i) {
-      const Vec3 in_street(random.Uniform(-25, 25), random.Uniform(-10, 10), random.Uniform(-0.5, 0.5));
+      const Vec3 in_street(random.Uniform(-25, 25), random.Uniform(-10, 10),
+                           random.Uniform(-0.5, 0.5));
       const UprightPose truth{middle + axes.Basis() * in_street, random.Uniform(-M_PI, M_PI)};
       const auto seen = [&](double turn) {
         const Vec3 error(random.Normal(1), random.Normal(1), random.Normal(1));
-        return ToPose({truth.position + position_noise_m * error, truth.yaw + turn + random.Normal(yaw_noise_rad)},
+        return ToPose({truth.position + position_noise_m * error,
+                       truth.yaw + turn + random.Normal(yaw_noise_rad)},
                       axes);
       };
       DriftPair pair;
       pair.T_world_global = seen(0);
       pair.T_world_local = D.inverse() * seen(i < flipped * objects ? M_PI : 0.);
       pair.symmetry = symmetry;
-      pair.sigma_horizontal_m = pair.sigma_vertical_m = std::sqrt(2.) * std::max(position_noise_m, 0.01);
+      pair.sigma_horizontal_m = pair.sigma_vertical_m =
+          std::sqrt(2.) * std::max(position_noise_m, 0.01);
       pair.sigma_yaw_rad = std::sqrt(2.) * std::max(yaw_noise_rad, 0.01);
       pairs.push_back(pair);
     }
@@ -73,7 +78,8 @@ Pose TurnAndShift(const Vec3& up, double yaw, const Vec3& centre, const Vec3& sh
 
 double Difference(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
 
-DriftPair At(const Vec3& local, const Vec3& global, double yaw_local, double yaw_global, Symmetry symmetry) {
+DriftPair At(const Vec3& local, const Vec3& global, double yaw_local, double yaw_global,
+             Symmetry symmetry) {
   LayoutObject from, to;
   from.position = local;
   to.position = global;
@@ -98,7 +104,8 @@ TEST(Drift, ExactPairsGiveTheDriftBack) {
         scene.middle = Vec3(200, -100, 50);
         scene.objects = 2 + trial;
         scene.flipped = symmetry == Symmetry::kPi ? 0.5 : 0;
-        scene.D = TurnAndShift(up, random.Uniform(-M_PI, M_PI), scene.middle, Vec3(random.Uniform(-9, 9), 2, 30));
+        scene.D = TurnAndShift(up, random.Uniform(-M_PI, M_PI), scene.middle,
+                               Vec3(random.Uniform(-9, 9), 2, 30));
         for (const bool six_dof : {false, true}) {
           DriftOptions options;
           options.six_dof = six_dof;
@@ -126,7 +133,8 @@ Leftover CorrectDrift(const Vec3& middle) {
   for (int i = 0; i < kScenes; ++i) {
     Scene scene;
     scene.middle = middle;
-    scene.D = TurnAndShift(scene.up, 0.05, middle, 3.17 * Vec3(std::cos(i), 0, std::sin(i))).inverse();
+    scene.D =
+        TurnAndShift(scene.up, 0.05, middle, 3.17 * Vec3(std::cos(i), 0, std::sin(i))).inverse();
     scene.position_noise_m = 0.2;
     scene.yaw_noise_rad = 0.06;
     const Pose T_world_cam = scene.D.inverse() * Pose::Trans(middle);
@@ -135,13 +143,15 @@ Leftover CorrectDrift(const Vec3& middle) {
 
     const std::vector<DriftPair> pairs = scene.Pairs(random);
     sum.printed += left(SolveDriftAsPrinted(pairs)->inverse() * T_world_cam);
-    std::vector<DriftPair> swapped = pairs;  // the obvious repair: T_wo_l T_wo_g^-1 in place of T_wo_l^-1 T_wo_g
+    // the obvious repair: T_wo_l T_wo_g^-1 in place of T_wo_l^-1 T_wo_g
+    std::vector<DriftPair> swapped = pairs;
     for (DriftPair& pair : swapped) {
       pair.T_world_local = pair.T_world_local.inverse();
       pair.T_world_global = pair.T_world_global.inverse();
     }
     sum.repaired += left(SolveDriftAsPrinted(swapped)->inverse() * T_world_cam);
-    sum.ours += left(SolveDrift(pairs, scene.gravity(), DriftOptions()).T_global_local * T_world_cam);
+    sum.ours +=
+        left(SolveDrift(pairs, scene.gravity(), DriftOptions()).T_global_local * T_world_cam);
     scene.flipped = 0.2;
     const DriftResult flipped = SolveDrift(scene.Pairs(random), scene.gravity(), DriftOptions());
     sum.ours_flipped += left(flipped.T_global_local * T_world_cam);
@@ -200,8 +210,10 @@ TEST(Drift, CovarianceIsHonestFarFromTheOrigin) {
     for (int i = 0; i < kTrials; ++i) {
       scene.D = TurnAndShift(scene.up, random.Uniform(-1, 1), scene.middle, Vec3(3, 0, 1));
       if (six_dof) {
-        const Vec3 tilt = 0.02 * scene.gravity().Basis() * Vec3(random.Normal(1), random.Normal(1), 0);
-        scene.D = scene.D * TurnAndShift(Vec3(tilt.normalized()), tilt.norm(), scene.middle, Vec3(0, 0, 0));
+        const Vec3 tilt =
+            0.02 * scene.gravity().Basis() * Vec3(random.Normal(1), random.Normal(1), 0);
+        scene.D = scene.D *
+                  TurnAndShift(Vec3(tilt.normalized()), tilt.norm(), scene.middle, Vec3(0, 0, 0));
       }
       const DriftResult result = SolveDrift(scene.Pairs(random), scene.gravity(), options);
       ASSERT_TRUE(result.usable) << result.reason;
@@ -277,9 +289,11 @@ TEST(Drift, AllOnOneSpot) {
   const DriftResult result = Solve(cars);
   ASSERT_TRUE(result.usable) << result.reason;
   EXPECT_NEAR(result.T_global_local.so3().Log().z(), 1., 1e-9);
-  // Many local ones taken for a single global one: the local positions say nothing about the yaw either.
+  // Many local ones taken for a single global one: the local positions say nothing about the yaw
+  // either.
   std::vector<DriftPair> many_to_one;
-  for (int i = 0; i < 5; ++i) many_to_one.push_back(At({10. * i, 0, 0}, {4, 4, 0}, kNaN, kNaN, Symmetry::kFull));
+  for (int i = 0; i < 5; ++i)
+    many_to_one.push_back(At({10. * i, 0, 0}, {4, 4, 0}, kNaN, kNaN, Symmetry::kFull));
   EXPECT_FALSE(Solve(many_to_one).usable);
 }
 
@@ -304,7 +318,8 @@ TEST(Drift, BadInputIsRefusedWithTheReason) {
 
 TEST(Drift, ContradictingHeadingsOnOneSpotAreRefused) {
   std::vector<DriftPair> pairs;
-  for (int i = 0; i < 8; ++i) pairs.push_back(At({0, 0, 0}, {0, 0, 0}, 0., i * M_PI / 4, Symmetry::kNone));
+  for (int i = 0; i < 8; ++i)
+    pairs.push_back(At({0, 0, 0}, {0, 0, 0}, 0., i * M_PI / 4, Symmetry::kNone));
   const DriftResult result = Solve(pairs);
   EXPECT_FALSE(result.usable);
   EXPECT_NE(result.reason.find("contradict"), std::string::npos) << result.reason;
@@ -321,7 +336,9 @@ TEST(DriftAsPrinted, IsAMinimumOfTheEquationAsPrinted) {
   const auto cost = [&](const Pose& T_drift) {
     double sum = 0;
     for (const DriftPair& pair : pairs)
-      sum += (T_drift.inverse() * (pair.T_world_local.inverse() * pair.T_world_global)).Log().squaredNorm();
+      sum += (T_drift.inverse() * (pair.T_world_local.inverse() * pair.T_world_global))
+                 .Log()
+                 .squaredNorm();
     return sum;
   };
   EXPECT_FALSE(SolveDriftAsPrinted({}));

@@ -15,7 +15,8 @@ struct Truth {
   std::vector<UprightPose> objects;
 };
 
-// A camera drives 1 m a frame past parked cars; odometry is `stretch` times too long; `sigma` scales detection noise.
+// A camera drives 1 m a frame past parked cars; odometry is `stretch` times too long; `sigma`
+// scales detection noise.
 BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigned seed = 1) {
   std::mt19937 random(seed);
   const auto gauss = [&] {
@@ -26,7 +27,8 @@ BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigne
   BaProblem problem;
   for (int i = 0; i < frames; ++i) {
     truth.cameras.push_back(Pose::Trans(0, 0, i) * Pose::RotY(0.02 * std::sin(0.3 * i)));
-    problem.cameras.push_back({i, Pose(truth.cameras[i].so3(), truth.cameras[i].translation() * stretch)});
+    problem.cameras.push_back(
+        {i, Pose(truth.cameras[i].so3(), truth.cameras[i].translation() * stretch)});
     if (i == 0) continue;
     Pose step = truth.cameras[i - 1].inverse() * truth.cameras[i];
     step.translation() *= stretch;
@@ -34,11 +36,13 @@ BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigne
   }
   for (int k = 0; k < frames / 2; ++k) {
     truth.objects.push_back({Vec3(k % 2 ? 5 : -5, 1, 10. + 2 * k), 1.5});
-    problem.objects.push_back({100 + k, Symmetry::kNone, {truth.objects[k].position * stretch, 1.4}});
+    problem.objects.push_back(
+        {100 + k, Symmetry::kNone, {truth.objects[k].position * stretch, 1.4}});
     for (int i = 0; i < frames; ++i) {
       Pose seen = truth.cameras[i].inverse() * ToPose(truth.objects[k], problem.gravity);
       if (seen.translation().z() < 3 || seen.translation().z() > 25) continue;
-      const DetectionSigmas s = SigmasAt(seen.translation().norm(), problem.noise, problem.noise_scale);
+      const DetectionSigmas s =
+          SigmasAt(seen.translation().norm(), problem.noise, problem.noise_scale);
       const Vec3 error(s.radial * gauss(), s.lateral * gauss(), s.vertical * gauss());
       seen.translation() += sigma * RayFrame(seen.translation()).transpose() * error;
       seen.so3() = seen.so3() * lie::SO3<double>::RotZ(sigma * s.yaw * gauss());
@@ -51,7 +55,9 @@ BaProblem Street(int frames, double stretch, double sigma, Truth& truth, unsigne
 double WorstCamera(const BaProblem& problem, const Truth& truth) {
   double worst = 0;
   for (std::size_t i = 0; i < truth.cameras.size(); ++i)
-    worst = std::max(worst, (problem.cameras[i].T_world_cam.translation() - truth.cameras[i].translation()).norm());
+    worst = std::max(
+        worst,
+        (problem.cameras[i].T_world_cam.translation() - truth.cameras[i].translation()).norm());
   return worst;
 }
 
@@ -72,7 +78,8 @@ TEST(SolveBa, NoiseThatGrowsWithRangeDoesNotPullAnObjectNearer) {
   problem.noise.radial_per_m = 0.08;
   problem.cameras.push_back({0, Pose()});
   problem.objects.push_back({1, Symmetry::kFull, {Vec3(0, 0, 20), 0}});
-  for (int i = 0; i < 20; ++i) problem.sightings.push_back({0, 0, Pose::Trans(0, 0, i % 2 == 0 ? 18 : 22)});
+  for (int i = 0; i < 20; ++i)
+    problem.sightings.push_back({0, 0, Pose::Trans(0, 0, i % 2 == 0 ? 18 : 22)});
   BaOptions options;
   options.loss_scale = 0;
   ASSERT_TRUE(SolveBa(problem, options).usable);
@@ -81,7 +88,8 @@ TEST(SolveBa, NoiseThatGrowsWithRangeDoesNotPullAnObjectNearer) {
 
 TEST(SolveBa, WithoutNoiseEverySolverReachesTheTruth) {
   for (const auto residual : {BaOptions::Residual::kRobust, BaOptions::Residual::kPaper}) {
-    for (const auto solver : {BaOptions::Solver::kLevenbergMarquardt, BaOptions::Solver::kGaussNewton}) {
+    for (const auto solver :
+         {BaOptions::Solver::kLevenbergMarquardt, BaOptions::Solver::kGaussNewton}) {
       Truth truth;
       BaProblem problem = Street(20, 1., 0., truth);
       BaOptions options;
@@ -99,7 +107,8 @@ TEST(SolveBa, HalfTurnsAndOutliersDoNoHarm) {
   Truth truth;
   BaProblem problem = Street(40, 1.03, 1., truth);
   for (std::size_t i = 0; i < problem.sightings.size(); i += 9)
-    problem.sightings[i].T_cam_object.so3() = problem.sightings[i].T_cam_object.so3() * lie::SO3<double>::RotZ(M_PI);
+    problem.sightings[i].T_cam_object.so3() =
+        problem.sightings[i].T_cam_object.so3() * lie::SO3<double>::RotZ(M_PI);
   for (std::size_t i = 4; i < problem.sightings.size(); i += 31)
     problem.sightings[i].T_cam_object.translation() += Vec3(3, 0, -4);
   ASSERT_TRUE(SolveBa(problem, {}).usable);
@@ -113,7 +122,8 @@ void OnlyOdometry(BaProblem& problem) {
   problem.objects = {problem.objects[problem.sightings[0].object]};
   problem.sightings[0].object = 0;
   for (std::size_t i = 1; i < problem.cameras.size(); ++i)
-    problem.cameras[i].T_world_cam = problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
+    problem.cameras[i].T_world_cam =
+        problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
 }
 
 TEST(SolveBa, OnTheGroundAPitchingOdometryDoesNotClimb) {
@@ -144,7 +154,8 @@ TEST(SolveBa, SlopesAreThoseOfThePathInMetres) {
   halved.log_scale = std::log(2.);
   BaOptions options;
   options.odometry.scale_prior = 0;  // known
-  options.odometry.translation_walk = options.odometry.vertical_walk = options.odometry.rotation_walk = 0;
+  options.odometry.translation_walk = options.odometry.vertical_walk =
+      options.odometry.rotation_walk = 0;
   options.odometry.rotation_floor_rad = 5e-3;
   const double before = std::abs(metric.cameras.back().T_world_cam.translation().y());
   ASSERT_TRUE(SolveBa(metric, options).usable);
@@ -180,7 +191,8 @@ TEST(SolveBa, TiesHoldWhatTheyMeasureAndWrongOnesLittle) {
     // Odometry that turns away; objects that say nothing against it.
     for (BaOdometry& edge : problem.odometry) edge.T_from_to = edge.T_from_to * Pose::RotY(2e-3);
     for (std::size_t i = 1; i < problem.cameras.size(); ++i)
-      problem.cameras[i].T_world_cam = problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
+      problem.cameras[i].T_world_cam =
+          problem.cameras[i - 1].T_world_cam * problem.odometry[i - 1].T_from_to;
     problem.sightings.resize(1);
     BaProblem tied = problem;
     const Pose::Matrix6 covariance = 1e-4 * Pose::Matrix6::Identity();
@@ -241,7 +253,8 @@ TEST(SolveBa, ATreeKeepsItsYaw) {
 }
 
 TEST(Marginalise, TheWindowKeepsWhatItKnew) {
-  // Solving everything at once and solving with the first half marginalised must agree where both speak.
+  // Solving everything at once and solving with the first half marginalised must agree where both
+  // speak.
   Truth truth;
   BaProblem full = Street(20, 1.03, 0.2, truth);
   BaOptions options;
@@ -258,7 +271,8 @@ TEST(Marginalise, TheWindowKeepsWhatItKnew) {
   }
   const BaPrior prior = Marginalise(full, cameras, objects, options);
   ASSERT_FALSE(prior.empty());
-  EXPECT_EQ(prior.frames, std::vector<int>{10}) << "odometry ties the dropped cameras to the next one only";
+  EXPECT_EQ(prior.frames, std::vector<int>{10})
+      << "odometry ties the dropped cameras to the next one only";
 
   BaProblem window = full;
   window.prior = prior;
@@ -275,11 +289,15 @@ TEST(Marginalise, TheWindowKeepsWhatItKnew) {
     window.objects.push_back(full.objects[k]);
   }
   for (const BaSighting& s : full.sightings)
-    if (s.camera >= 10) window.sightings.push_back({s.camera - 10, new_index[s.object], s.T_cam_object});
-  for (BaObject& object : window.objects) object.pose.position += Vec3(0.05, 0, -0.05);  // start somewhere else
+    if (s.camera >= 10)
+      window.sightings.push_back({s.camera - 10, new_index[s.object], s.T_cam_object});
+  // start somewhere else
+  for (BaObject& object : window.objects) object.pose.position += Vec3(0.05, 0, -0.05);
   ASSERT_TRUE(SolveBa(window, options).usable);
   for (int i = 10; i < 20; ++i)
-    EXPECT_LT((window.cameras[i - 10].T_world_cam.translation() - full.cameras[i].T_world_cam.translation()).norm(),
+    EXPECT_LT((window.cameras[i - 10].T_world_cam.translation() -
+               full.cameras[i].T_world_cam.translation())
+                  .norm(),
               2e-3);
   EXPECT_NEAR(window.log_scale, full.log_scale, 2e-4);
 }

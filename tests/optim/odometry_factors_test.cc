@@ -32,27 +32,30 @@ TEST_P(LearnsFactors, OfAnOdometryThatIsBetterOrWorseThanItSays) {
   constexpr int kWorlds = 10;
   double horizontal_off = 0, heading_off = 0;  // a single world has 14 cycles to tell by
   for (int seed = 1; seed <= kWorlds; ++seed) {
-    const OdometryFactors factors =
-        LearnOdometryFactors(Misjudged(static_cast<unsigned>(seed), horizontal, heading).graph, Vec3::UnitZ());
+    const OdometryFactors factors = LearnOdometryFactors(
+        Misjudged(static_cast<unsigned>(seed), horizontal, heading).graph, Vec3::UnitZ());
     EXPECT_NEAR(std::log(factors.horizontal / horizontal), 0, 1.4) << "seed " << seed;
     EXPECT_NEAR(std::log(factors.heading / heading), 0, 1.4) << "seed " << seed;
     horizontal_off += std::log(factors.horizontal / horizontal) / kWorlds;
     heading_off += std::log(factors.heading / heading) / kWorlds;
   }
-  EXPECT_NEAR(horizontal_off, 0, 0.5 * std::abs(std::log(horizontal)) + 0.15) << "the prior pulls towards one";
+  EXPECT_NEAR(horizontal_off, 0, 0.5 * std::abs(std::log(horizontal)) + 0.15)
+      << "the prior pulls towards one";
   EXPECT_NEAR(heading_off, 0, 0.5 * std::abs(std::log(heading)) + 0.15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Factors, LearnsFactors,
-                         ::testing::Values(std::pair(1., 1.), std::pair(3., 1.), std::pair(1., 3.), std::pair(.3, 1.),
-                                           std::pair(1., .3), std::pair(.3, 4.)));
+                         ::testing::Values(std::pair(1., 1.), std::pair(3., 1.), std::pair(1., 3.),
+                                           std::pair(.3, 1.), std::pair(1., .3),
+                                           std::pair(.3, 4.)));
 
 TEST(LearnOdometryFactors, TakesLoopsEitherWayRound) {
   PoseGraphWorld world = Misjudged(1, 2, 0.5);
   const OdometryFactors factors = LearnOdometryFactors(world.graph, Vec3::UnitZ());
   for (PoseGraph::Edge& edge : world.graph.edges) {
     if (!edge.loop) continue;
-    const Eigen::Matrix<double, 6, 6> to_old = edge.T_from_to.inverse().Adj();  // Exp(e) on the other side
+    // Exp(e) on the other side
+    const Eigen::Matrix<double, 6, 6> to_old = edge.T_from_to.inverse().Adj();
     const Eigen::Matrix<double, 6, 6> information = edge.information;
     edge.information = to_old.transpose() * information * to_old;
     std::swap(edge.from, edge.to);
@@ -77,7 +80,8 @@ TEST(LearnOdometryFactors, ErrorsOfHeightAreNotTakenForErrorsOfTheWay) {
   PoseGraphWorld world = Misjudged(1, 1, 1);
   const OdometryFactors level = LearnOdometryFactors(world.graph, Vec3::UnitZ());
   for (PoseGraph::Edge& edge : world.graph.edges)
-    if (!edge.loop) edge.T_from_to.translation().z() *= 5;  // all of it is error: the course is level
+    if (!edge.loop)
+      edge.T_from_to.translation().z() *= 5;  // all of it is error: the course is level
   const OdometryFactors steep = LearnOdometryFactors(world.graph, Vec3::UnitZ());
   EXPECT_NEAR(std::log(steep.horizontal / level.horizontal), 0, 0.3);
   EXPECT_NEAR(std::log(steep.heading / level.heading), 0, 0.3);

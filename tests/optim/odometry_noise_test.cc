@@ -22,7 +22,8 @@ TEST(OdometryNoise, InformationIsThatOfTheAxes) {
   Eigen::Matrix<double, 6, 1> expected;
   expected << 100, 25, 100, 1e4, 1e4, 1e4;  // camera axes: y is down
   const auto information = InformationOf({0.1, 0.2, 0.01}, Vec3(0, -1, 0));
-  EXPECT_TRUE(information.isApprox(Eigen::Matrix<double, 6, 6>(expected.asDiagonal()), 1e-12)) << information;
+  EXPECT_TRUE(information.isApprox(Eigen::Matrix<double, 6, 6>(expected.asDiagonal()), 1e-12))
+      << information;
 }
 
 TEST(OdometryNoise, FactorsAreOnTheHorizontalPartAndTheHeading) {

@@ -87,7 +87,8 @@ TEST(TrustedTree, IsTheOdometry) {
   const PoseGraphIndex index = IndexPoseGraph(world.graph);
   const TrustedTree tree(world.graph, index.ends);
   for (std::size_t v = 0; v < tree.poses().size(); ++v)
-    EXPECT_LT((tree.poses()[v].inverse() * world.graph.vertices[v].T_world_vertex).Log().norm(), 1e-9);
+    EXPECT_LT((tree.poses()[v].inverse() * world.graph.vertices[v].T_world_vertex).Log().norm(),
+              1e-9);
   for (std::size_t e = 0; e < index.ends.size(); ++e) {
     const auto [from, to] = index.ends[e];
     const double disagreement = tree.Disagreement(world.graph.edges[e], from, to);

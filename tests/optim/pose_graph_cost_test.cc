@@ -49,12 +49,15 @@ TEST(EdgeCost, DerivativesOnBothManifolds) {
   PoseNoise noise(4);
   const double weight = 0.7;
   PoseManifold full;
-  UprightManifold upright(GravityFrame::FromUp(kUp), false), planar(GravityFrame::FromUp(kUp), true);
-  for (const ceres::Manifold* manifold : std::initializer_list<const ceres::Manifold*>{&full, &upright, &planar}) {
+  UprightManifold upright(GravityFrame::FromUp(kUp), false),
+      planar(GravityFrame::FromUp(kUp), true);
+  for (const ceres::Manifold* manifold :
+       std::initializer_list<const ceres::Manifold*>{&full, &upright, &planar}) {
     for (int i = 0; i < 20; ++i) {
       const Pose from = SomePose(noise);
       const PoseGraph::Edge edge = SomeEdge(noise);
-      // Also where the error is small; not where half a turn, at which Log jumps, is within the differences' reach.
+      // Also where the error is small; not where half a turn, at which Log jumps, is within the
+      // differences' reach.
       const Pose other = SomePose(noise);
       const Pose to = i == 0 ? from * edge.T_from_to * Pose::Exp(1e-3 * Vec6(other.Log())) : other;
       if (EdgeError(edge, from, to).tail<3>().norm() > 2.3) continue;
@@ -95,7 +98,8 @@ TEST(EdgeWithin, LeavesOnlyWhatTheVerticesCanChange) {
   for (int i = 0; i < 20; ++i) {
     const PoseGraph::Edge measured = SomeEdge(noise);
     const Pose from = SomePose(noise), to = SomePose(noise);
-    EXPECT_EQ(EdgeWithin(PoseFreedom::kFull, kUp, measured, from, to).information, measured.information);
+    EXPECT_EQ(EdgeWithin(PoseFreedom::kFull, kUp, measured, from, to).information,
+              measured.information);
     const PoseGraph::Edge upright = EdgeWithin(PoseFreedom::kUpright, kUp, measured, from, to);
     const Vec3 turn = (from.so3() * upright.T_from_to.so3() * to.so3().inverse()).Log();
     EXPECT_NEAR(turn.cross(kUp).norm(), 0, 1e-9) << "the error that is left is a yaw";

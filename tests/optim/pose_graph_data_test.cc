@@ -22,14 +22,18 @@ class PublicGraphs : public testing::Test {
     const char* root = std::getenv("SSLCD_DATA_DIR");
     data_ = root != nullptr
                 ? std::string(root)
-                : (std::filesystem::path(__FILE__).parent_path() / "../../../shared/data").lexically_normal().string();
-    if (!std::filesystem::is_directory(data_ + "/g2o")) GTEST_SKIP() << "skipped: no data at " << data_;
+                : (std::filesystem::path(__FILE__).parent_path() / "../../../shared/data")
+                      .lexically_normal()
+                      .string();
+    if (!std::filesystem::is_directory(data_ + "/g2o"))
+      GTEST_SKIP() << "skipped: no data at " << data_;
   }
   std::string data_;
 };
 
 TEST_F(PublicGraphs, KnownMinima) {
-  const std::pair<const char*, double> minima[] = {{"sphere2500", 1351.40}, {"parking-garage", 1.26838}};
+  const std::pair<const char*, double> minima[] = {{"sphere2500", 1351.40},
+                                                   {"parking-garage", 1.26838}};
   for (const auto& [name, minimum] : minima) {
     PoseGraph graph = ReadG2o(data_ + "/g2o/" + name + ".g2o").graph;
     const PoseGraphSummary summary = SolvePoseGraph(graph, {});
@@ -40,7 +44,8 @@ TEST_F(PublicGraphs, KnownMinima) {
 
 TEST_F(PublicGraphs, FalseLoopsOfKitti) {
   const std::string folder = data_ + "/kitti-libviso2-posegraphs/kitti_";
-  if (!std::filesystem::exists(folder + "00_odom.g2o")) GTEST_SKIP() << "skipped: no data at " << folder;
+  if (!std::filesystem::exists(folder + "00_odom.g2o"))
+    GTEST_SKIP() << "skipped: no data at " << folder;
   RobustPoseGraphOptions options;
   options.graph.freedom = PoseFreedom::kPlanar;
   options.graph.gravity = GravityFrame::FromUp(Vec3(0, 0, 1));

@@ -37,8 +37,9 @@ PoseGraphWorldOptions Small() {
 // A loop `from` -> `to` that puts `to` `error_m` too far along the world's x.
 void AddLoop(PoseGraphWorld& world, int from, int to, double error_m) {
   PoseNoise noise(static_cast<unsigned>(from + 1000 * to));
-  PoseGraph::Edge edge =
-      noise.Measure(from, to, world.truth[from].inverse() * Pose::Trans(error_m, 0, 0) * world.truth[to], 0.05, 0.005);
+  PoseGraph::Edge edge = noise.Measure(
+      from, to, world.truth[from].inverse() * Pose::Trans(error_m, 0, 0) * world.truth[to], 0.05,
+      0.005);
   edge.loop = true;
   world.graph.edges.push_back(edge);
   world.is_false.push_back(error_m != 0);
@@ -53,9 +54,11 @@ TEST(RobustPoseGraph, SyntheticBars) {
       PoseGraphWorld world = MakePoseGraphWorld(options);
       const auto start = std::chrono::steady_clock::now();
       const RobustPoseGraphSummary summary = SolveRobust(world.graph, {});
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       EXPECT_TRUE(summary.graph.usable);
-      EXPECT_LE(AteRmse(world.graph, world.truth), 0.5) << "seed " << seed << ", false loops " << false_loops;
+      EXPECT_LE(AteRmse(world.graph, world.truth), 0.5)
+          << "seed " << seed << ", false loops " << false_loops;
       EXPECT_LT(seconds, 5) << "0.5 s in an optimised build on an idle machine";
       const Counts counts = Count(world, summary);
       EXPECT_EQ(counts.false_kept, 0);
@@ -70,7 +73,8 @@ TEST(RobustPoseGraph, UprightToo) {
   PoseGraphWorldOptions world_options;
   world_options.false_loops = 17;
   PoseGraphWorld world = MakePoseGraphWorld(world_options);
-  for (std::size_t i = 0; i < world.truth.size(); ++i) {  // roll and pitch known, yaw as odometry has it
+  for (std::size_t i = 0; i < world.truth.size();
+       ++i) {  // roll and pitch known, yaw as odometry has it
     Pose& T = world.graph.vertices[i].T_world_vertex;
     const Vec3 forward = T.so3() * Vec3(1, 0, 0);
     T.so3() = lie::SO3<double>::RotZ(std::atan2(forward.y(), forward.x()));
@@ -119,7 +123,8 @@ TEST(RobustPoseGraph, LoopsAreTakenBackAndComeBack) {
   const auto kept = [&] {
     PoseGraph graph = world.graph;
     const auto weights = SolveRobust(graph, {}).edge_weight;
-    return std::vector<double>(weights.begin() + static_cast<std::ptrdiff_t>(odometry.edges.size()), weights.end());
+    return std::vector<double>(weights.begin() + static_cast<std::ptrdiff_t>(odometry.edges.size()),
+                               weights.end());
   };
   AddLoop(world, 20, 180, 1.);
   EXPECT_EQ(kept(), (std::vector<double>{1})) << "nothing speaks against it yet";
@@ -135,7 +140,8 @@ TEST(RobustPoseGraph, ACrowdOfFalseLoopsDoesNotBendTheOdometry) {
   for (const int i : {0, 30, 60}) AddLoop(world, i, 80 + i, 0);
   std::vector<double> kept = SolveRobust(world.graph, {}).edge_weight;
   const double before = AteRmse(world.graph, world.truth);
-  for (int i = 0; i < 20; ++i) AddLoop(world, 5 + i, 45 + i, 4.);  // all at once, from where the former solve ended
+  // all at once, from where the former solve ended
+  for (int i = 0; i < 20; ++i) AddLoop(world, 5 + i, 45 + i, 4.);
   kept.resize(world.graph.edges.size(), 1.);
   const Counts counts = Count(world, SolveRobust(world.graph, {}, kept));
   EXPECT_EQ(counts.true_kept, 3);
@@ -212,8 +218,8 @@ TEST(RobustPoseGraph, SameBytesEveryTime) {
   PoseGraphWorld a = MakePoseGraphWorld(options), b = a;
   EXPECT_EQ(SolveRobust(a.graph, {}).edge_weight, SolveRobust(b.graph, {}).edge_weight);
   for (std::size_t i = 0; i < a.truth.size(); ++i)
-    EXPECT_EQ(std::memcmp(a.graph.vertices[i].T_world_vertex.data(), b.graph.vertices[i].T_world_vertex.data(),
-                          7 * sizeof(double)),
+    EXPECT_EQ(std::memcmp(a.graph.vertices[i].T_world_vertex.data(),
+                          b.graph.vertices[i].T_world_vertex.data(), 7 * sizeof(double)),
               0);
 }
 
@@ -224,12 +230,14 @@ TEST(RobustPoseGraph, BadGraphsAreLeftAlone) {
   AddLoop(world, 20, 180, 0);
   for (const int kind : {0, 1, 2}) {
     PoseGraph bad = world.graph;
-    if (kind == 0) bad.edges.back().T_from_to.translation().x() = std::numeric_limits<double>::quiet_NaN();
+    if (kind == 0)
+      bad.edges.back().T_from_to.translation().x() = std::numeric_limits<double>::quiet_NaN();
     if (kind == 1) bad.edges.back().information.setZero();
     if (kind == 2) bad.edges.back().to = 5000;
     const RobustPoseGraphSummary summary = SolveRobust(bad, {});
     EXPECT_FALSE(summary.graph.usable);
-    EXPECT_NE(summary.graph.message.find("edge 20 -> "), std::string::npos) << summary.graph.message;
+    EXPECT_NE(summary.graph.message.find("edge 20 -> "), std::string::npos)
+        << summary.graph.message;
     EXPECT_EQ(summary.edge_weight.size(), bad.edges.size());
   }
 }

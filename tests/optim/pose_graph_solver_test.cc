@@ -35,7 +35,8 @@ struct Ring {
   explicit Ring(int count, double disturbance = 0.2) {
     PoseNoise noise(1);
     for (int i = 0; i < count; ++i) {
-      truth.push_back(Pose::RotZ(2 * M_PI * i / count) * Pose::Trans(10, 0, 0) * Pose::RotX(0.1 * i));
+      truth.push_back(Pose::RotZ(2 * M_PI * i / count) * Pose::Trans(10, 0, 0) *
+                      Pose::RotX(0.1 * i));
       Vec6 push;
       for (int k = 0; k < 6; ++k) push[k] = i == 0 ? 0. : disturbance * noise.Normal();
       graph.vertices.push_back({10 + i, truth[i] * Pose::Exp(push)});
@@ -56,7 +57,8 @@ PoseGraphWorld NoisyWorld(unsigned seed = 1) {
 }
 
 TEST(PoseGraphSolver, FindsTheTruthFromAnyStart) {
-  for (const PoseGraphStart start : {PoseGraphStart::kAuto, PoseGraphStart::kGiven, PoseGraphStart::kChordal}) {
+  for (const PoseGraphStart start :
+       {PoseGraphStart::kAuto, PoseGraphStart::kGiven, PoseGraphStart::kChordal}) {
     Ring ring(12);
     PoseGraphOptions options;
     options.start = start;
@@ -88,7 +90,8 @@ TEST(PoseGraphSolver, ChordalStartIsExactWithoutNoise) {
   anchored[0] = true;
   const auto poses = ChordalStart(ring.graph, index.ends, std::vector<double>(30, 1.), anchored);
   ASSERT_TRUE(poses.has_value());
-  for (std::size_t i = 0; i < ring.truth.size(); ++i) EXPECT_LT(Distance((*poses)[i], ring.truth[i]), 1e-8);
+  for (std::size_t i = 0; i < ring.truth.size(); ++i)
+    EXPECT_LT(Distance((*poses)[i], ring.truth[i]), 1e-8);
 }
 
 TEST(PoseGraphSolver, MinimumHasNoWayDown) {
@@ -114,8 +117,10 @@ TEST(PoseGraphSolver, FixedVerticesStay) {
   const PoseGraph before = ring.graph;
   ASSERT_TRUE(SolvePoseGraph(ring.graph, {}).usable);
   for (const int i : {3, 5})
-    EXPECT_EQ(Distance(ring.graph.vertices[i].T_world_vertex, before.vertices[i].T_world_vertex), 0);
-  EXPECT_GT(Distance(ring.graph.vertices[0].T_world_vertex, before.vertices[0].T_world_vertex), 1e-3)
+    EXPECT_EQ(Distance(ring.graph.vertices[i].T_world_vertex, before.vertices[i].T_world_vertex),
+              0);
+  EXPECT_GT(Distance(ring.graph.vertices[0].T_world_vertex, before.vertices[0].T_world_vertex),
+            1e-3)
       << "the gauge is the fixed vertices', not the first one's";
 }
 
@@ -182,7 +187,8 @@ TEST(PoseGraphSolver, UprightKeepsWhatGravityTells) {
     EXPECT_TRUE(summary.converged) << summary.message;
     double moved = 0;
     for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
-      const Pose &before = world.graph.vertices[i].T_world_vertex, &after = graph.vertices[i].T_world_vertex;
+      const Pose &before = world.graph.vertices[i].T_world_vertex,
+                 &after = graph.vertices[i].T_world_vertex;
       moved = std::max(moved, (before.translation() - after.translation()).norm());
       EXPECT_NEAR((before.so3().inverse() * up - after.so3().inverse() * up).norm(), 0, 1e-9);
       if (freedom == PoseFreedom::kPlanar) {
@@ -199,7 +205,8 @@ TEST(PoseGraphSolver, SameBytesEveryTime) {
   SolvePoseGraph(a, {});
   SolvePoseGraph(b, {});
   for (std::size_t i = 0; i < a.vertices.size(); ++i)
-    EXPECT_EQ(std::memcmp(a.vertices[i].T_world_vertex.data(), b.vertices[i].T_world_vertex.data(), 7 * sizeof(double)),
+    EXPECT_EQ(std::memcmp(a.vertices[i].T_world_vertex.data(), b.vertices[i].T_world_vertex.data(),
+                          7 * sizeof(double)),
               0);
 }
 
@@ -210,8 +217,8 @@ TEST(PoseGraphSolver, BadGraphsAreLeftAlone) {
     EXPECT_FALSE(summary.usable);
     EXPECT_NE(summary.message.find(reason), std::string::npos) << summary.message;
     for (std::size_t i = 0; i < graph.vertices.size(); ++i)
-      EXPECT_EQ(std::memcmp(after.vertices[i].T_world_vertex.data(), graph.vertices[i].T_world_vertex.data(),
-                            7 * sizeof(double)),
+      EXPECT_EQ(std::memcmp(after.vertices[i].T_world_vertex.data(),
+                            graph.vertices[i].T_world_vertex.data(), 7 * sizeof(double)),
                 0);
   };
   const PoseGraph good = Ring(5).graph;

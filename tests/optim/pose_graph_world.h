@@ -11,8 +11,8 @@
 
 namespace sslcd {
 
-/// A course driven several times, with odometry that drifts, true loops back to earlier laps and false ones to
-/// anywhere.
+/// A course driven several times, with odometry that drifts, true loops back to earlier laps and
+/// false ones to anywhere.
 struct PoseGraphWorld {
   PoseGraph graph;  ///< vertices by odometry; ids 0, 1, 2, ...
   std::vector<Pose> truth;
@@ -31,10 +31,15 @@ struct PoseGraphWorldOptions {
 class PoseNoise {
  public:
   explicit PoseNoise(unsigned seed) : engine_(seed) {}
-  double Uniform(double low, double high) { return low + (high - low) * ((engine_() + 0.5) / 4294967296.); }
-  double Normal() { return std::sqrt(-2 * std::log(Uniform(0, 1))) * std::cos(Uniform(0, 2 * M_PI)); }
+  double Uniform(double low, double high) {
+    return low + (high - low) * ((engine_() + 0.5) / 4294967296.);
+  }
+  double Normal() {
+    return std::sqrt(-2 * std::log(Uniform(0, 1))) * std::cos(Uniform(0, 2 * M_PI));
+  }
 
-  PoseGraph::Edge Measure(int from, int to, const Pose& T_from_to, double sigma_m, double sigma_rad) {
+  PoseGraph::Edge Measure(int from, int to, const Pose& T_from_to, double sigma_m,
+                          double sigma_rad) {
     Vec6 sigma, error;
     sigma << sigma_m, sigma_m, sigma_m, sigma_rad, sigma_rad, sigma_rad;
     for (int i = 0; i < 6; ++i) error[i] = sigma[i] * Normal();
@@ -86,7 +91,8 @@ inline PoseGraphWorld MakePoseGraphWorld(const PoseGraphWorldOptions& o) {
   }
   world.graph.vertices.push_back({0, Pose()});
   for (int i = 0; i + 1 < o.keyframes; ++i)
-    world.graph.vertices.push_back({i + 1, world.graph.vertices[i].T_world_vertex * world.graph.edges[i].T_from_to});
+    world.graph.vertices.push_back(
+        {i + 1, world.graph.vertices[i].T_world_vertex * world.graph.edges[i].T_from_to});
   return world;
 }
 
@@ -99,8 +105,9 @@ inline double AteRmse(const PoseGraph& estimate, const std::vector<Pose>& truth)
     q.col(i) = truth[i].translation();
   }
   const Eigen::Matrix4d T = Eigen::umeyama(p, q, false);
-  return std::sqrt(((T.topLeftCorner<3, 3>() * p).colwise() + T.topRightCorner<3, 1>() - q).squaredNorm() /
-                   static_cast<double>(count));
+  return std::sqrt(
+      ((T.topLeftCorner<3, 3>() * p).colwise() + T.topRightCorner<3, 1>() - q).squaredNorm() /
+      static_cast<double>(count));
 }
 
 }  // namespace sslcd

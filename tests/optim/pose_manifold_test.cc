@@ -30,7 +30,8 @@ TEST(PoseManifold, Invariants) {
   }
 }
 
-TEST(PoseManifold, TurnsByTheWholeAngle) {  // Ceres' EigenQuaternionManifold would turn twice as far
+TEST(PoseManifold,
+     TurnsByTheWholeAngle) {  // Ceres' EigenQuaternionManifold would turn twice as far
   const Pose x;
   const double delta[6] = {0, 0, 0, 0.1, 0, 0};
   double moved[7];

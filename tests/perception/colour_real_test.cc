@@ -11,12 +11,14 @@
 namespace sslcd {
 namespace {
 
-/// Frames 0 and 10 of KITTI odometry 02, 10 m of driving apart, and hand-drawn boxes of what is in both.
+/// Frames 0 and 10 of KITTI odometry 02, 10 m of driving apart, and hand-drawn boxes of what is in
+/// both.
 class RealImages : public testing::Test {
  protected:
   void SetUp() override {
     const char* data = std::getenv("SSLCD_DATA_DIR");
-    const std::string folder = std::string(data ? data : SSLCD_DEFAULT_DATA_DIR) + "/kitti-stereo-color/image_2/";
+    const std::string folder =
+        std::string(data ? data : SSLCD_DEFAULT_DATA_DIR) + "/kitti-stereo-color/image_2/";
     first_ = cv::imread(folder + "000000.png", cv::IMREAD_COLOR);
     second_ = cv::imread(folder + "000010.png", cv::IMREAD_COLOR);
     if (first_.empty() || second_.empty()) GTEST_SKIP() << "skipped: no data in " << folder;

@@ -17,8 +17,8 @@ namespace {
 struct Bgr {
   int blue, green, red;
 };
-constexpr Bgr kWhite{230, 235, 235}, kBlack{22, 20, 20}, kGrey{130, 128, 126}, kRed{40, 30, 200}, kBlue{190, 80, 30},
-    kGreen{60, 150, 40};
+constexpr Bgr kWhite{230, 235, 235}, kBlack{22, 20, 20}, kGrey{130, 128, 126}, kRed{40, 30, 200},
+    kBlue{190, 80, 30}, kGreen{60, 150, 40};
 
 /// An image with the memory to back its view; rows are padded.
 struct Picture {
@@ -31,7 +31,8 @@ struct Picture {
   void Set(int x, int y, const Bgr& colour, double brightness) {
     unsigned char* pixel = &bytes[y * stride() + 3 * static_cast<std::size_t>(x)];
     const auto lit = [brightness](int value) {
-      return static_cast<unsigned char>(std::min(255., std::max(0., std::round(value * brightness))));
+      return static_cast<unsigned char>(
+          std::min(255., std::max(0., std::round(value * brightness))));
     };
     pixel[0] = lit(colour.blue), pixel[1] = lit(colour.green), pixel[2] = lit(colour.red);
   }
@@ -45,7 +46,11 @@ Picture Car(const Bgr& body, double brightness) {
       const bool window = y > 15 && y < 35 && x > 20 && x < 100;
       const bool road = y > 70;
       const double texture = 1 + 0.02 * ((x * 7 + y * 13) % 5 - 2);
-      picture.Set(x, y, window ? Bgr{50, 45, 45} : road ? Bgr{105, 105, 105} : body, brightness * texture);
+      picture.Set(x, y,
+                  window ? Bgr{50, 45, 45}
+                  : road ? Bgr{105, 105, 105}
+                         : body,
+                  brightness * texture);
     }
   }
   return picture;
@@ -72,7 +77,8 @@ TEST(ColourVector, SurvivesAChangeOfBrightness) {
   for (const Bgr& body : {kWhite, kGrey, kBlack, kRed, kBlue, kGreen}) {
     const std::vector<float> reference = Colour(Car(body, 1));
     for (double brightness : {0.7, 0.8, 0.9, 1.1, 1.2, 1.3}) {
-      EXPECT_GE(Dot(reference, Colour(Car(body, brightness))), 0.9) << body.red << " at " << brightness;
+      EXPECT_GE(Dot(reference, Colour(Car(body, brightness))), 0.9)
+          << body.red << " at " << brightness;
     }
   }
 }
@@ -82,7 +88,8 @@ TEST(ColourVector, TellsColoursApart) {
   EXPECT_LE(Dot(Uniform(kWhite), Uniform(kBlack)), 0.3);
   EXPECT_LE(Dot(Uniform(kBlue), Uniform(kRed)), 0.3);
   EXPECT_LE(Dot(Uniform(kBlue), Uniform(kGreen)), 0.3);
-  EXPECT_LE(Dot(Colour(Car(kWhite, 1)), Colour(Car(kRed, 1))), 0.5);  // windows and road are common to both
+  // windows and road are common to both
+  EXPECT_LE(Dot(Colour(Car(kWhite, 1)), Colour(Car(kRed, 1))), 0.5);
 }
 
 TEST(ColourVector, IsAUnitVectorWithoutNegativeEntries) {
@@ -154,8 +161,9 @@ TEST(ExtractColour, BoxesWithoutPixels) {
   const Picture car = Car(kRed, 1);
   const ImageView view = car.view();
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
-  for (const Box2d& box : {Box2d{10, 10, 10, 20}, Box2d{10, 10, 5, 20}, Box2d{-50, -50, -20, -20},
-                           Box2d{500, 10, 600, 20}, Box2d{nan, 0, 10, 10}, Box2d{0, 0, inf, 10}, Box2d{}}) {
+  for (const Box2d& box :
+       {Box2d{10, 10, 10, 20}, Box2d{10, 10, 5, 20}, Box2d{-50, -50, -20, -20},
+        Box2d{500, 10, 600, 20}, Box2d{nan, 0, 10, 10}, Box2d{0, 0, inf, 10}, Box2d{}}) {
     EXPECT_TRUE(ExtractColour(view, box, {}).empty());
     EXPECT_TRUE(ColourVector(view, box, {}).empty());
   }
@@ -218,8 +226,10 @@ TEST(ColourVector, Time) {
   constexpr int kRuns = 20;
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < kRuns; ++i) Colour(noisy);
-  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-  std::printf("colour vector: %.3f ms per box\n", elapsed.count() / kRuns);  // said, not asserted: machines differ
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  // said, not asserted: machines differ
+  std::printf("colour vector: %.3f ms per box\n", elapsed.count() / kRuns);
 }
 
 }  // namespace

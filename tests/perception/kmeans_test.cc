@@ -34,11 +34,13 @@ double OpenCvCompactness(const Eigen::Matrix3Xf& points, int clusters, int itera
   }
   cv::Mat labels, centres;
   cv::theRNG().state = 1;
-  return cv::kmeans(samples, clusters, labels, cv::TermCriteria(cv::TermCriteria::COUNT, iterations, 0), 1,
+  return cv::kmeans(samples, clusters, labels,
+                    cv::TermCriteria(cv::TermCriteria::COUNT, iterations, 0), 1,
                     cv::KMEANS_PP_CENTERS, centres);
 }
 
-/// One attempt each; which of the two is better varies from set to set, so the mean over many sets is compared.
+/// One attempt each; which of the two is better varies from set to set, so the mean over many sets
+/// is compared.
 TEST(KMeans, IsAsCompactAsOpenCvs) {
   constexpr int kTrials = 40;
   double ours = 0, theirs = 0;

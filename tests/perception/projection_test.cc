@@ -20,7 +20,8 @@ void ExpectNear(const Box2d& a, const Box2d& b, double tolerance) {
   EXPECT_NEAR(a.bottom, b.bottom, tolerance);
 }
 
-/// Reference: the box of closely spaced points on the cuboid's edges, those nearer than `near_m` left out.
+/// Reference: the box of closely spaced points on the cuboid's edges, those nearer than `near_m`
+/// left out.
 Box2d BoxOfEdges(const Pose& pose, const Vec3& dims, const Camera& camera, double near_m) {
   const double inf = std::numeric_limits<double>::infinity();
   Box2d box{inf, inf, -inf, -inf};
@@ -36,7 +37,8 @@ Box2d BoxOfEdges(const Pose& pose, const Vec3& dims, const Camera& camera, doubl
       if (p.z() < near_m) continue;
       const double u = camera.fx * p.x() / p.z() + camera.cx;
       const double v = camera.fy * p.y() / p.z() + camera.cy;
-      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u), std::max(box.bottom, v)};
+      box = {std::min(box.left, u), std::min(box.top, v), std::max(box.right, u),
+             std::max(box.bottom, v)};
     }
   }
   return box;
@@ -124,7 +126,8 @@ TEST(ProjectCuboid, GrazingTheNearPlane) {
 }
 
 TEST(ProjectCuboid, GrazingTheImageBorder) {
-  // The right border is at x = 6/7 z; the cube's far left edge, 11 m away, is the first to reach it.
+  // The right border is at x = 6/7 z; the cube's far left edge, 11 m away, is the first to reach
+  // it.
   const auto box = ProjectCuboid(Pose::Trans(11 * 6. / 7 + 0.99, 0, 10), Vec3(2, 2, 2), kCamera);
   ASSERT_TRUE(box);
   EXPECT_DOUBLE_EQ(box->right, 1200);

@@ -11,7 +11,8 @@
 namespace sslcd {
 namespace {
 
-// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309, a metre a frame.
+// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309,
+// a metre a frame.
 struct TwoVisits {
   Options options;
   std::vector<FrameRecord> frames;
@@ -31,7 +32,8 @@ struct TwoVisits {
   }
 
   // Seen by `count` frames from frame number `first` on, without error.
-  LandmarkId Add(const Vec3& position, int first, int count, const std::string& label = "Tree", double yaw = 0) {
+  LandmarkId Add(const Vec3& position, int first, int count, const std::string& label = "Tree",
+                 double yaw = 0) {
     MapLandmark landmark;
     landmark.label = label;
     landmark.symmetry = label == "Tree" ? Symmetry::kFull : Symmetry::kNone;
@@ -42,7 +44,8 @@ struct TwoVisits {
     for (FrameRecord& record : frames) {
       if (record.frame < first || record.frame >= first + count) continue;
       const Pose T_cam_object = record.T_world_cam.inverse() * ToPose(landmark.pose, map.gravity());
-      landmark.sightings.push_back({record.frame, record.stamp, 0, 1., T_cam_object, landmark.dims});
+      landmark.sightings.push_back(
+          {record.frame, record.stamp, 0, 1., T_cam_object, landmark.dims});
       record.detections.push_back({});
       record.matched.push_back(id);
     }
@@ -74,8 +77,9 @@ TEST(FuseMatched, ChainsRepeatsAndNonsense) {
   const LandmarkId a = world.Add({4, 1, 12}, 0, 3), b = world.Add({4, 1, 14}, 300, 5),
                    c = world.Add({4, 1, 16}, 306, 2);
   const LandmarkId car = world.Add({-4, 1, 12}, 0, 5, "Car");
-  const Heirs heirs = FuseMatched(world.map, world.frames,
-                                  {{a, b}, {b, c}, {c, a}, {a, a}, {a, {77}}, {{-1}, {}}, {a, car}}, world.options);
+  const Heirs heirs =
+      FuseMatched(world.map, world.frames,
+                  {{a, b}, {b, c}, {c, a}, {a, a}, {a, {77}}, {{-1}, {}}, {a, car}}, world.options);
   EXPECT_EQ(heirs.size(), 2u);
   EXPECT_EQ(HeirOf(a, heirs).value, b.value);
   EXPECT_EQ(HeirOf(c, heirs).value, b.value);
@@ -87,7 +91,8 @@ TEST(FuseMatched, ChainsRepeatsAndNonsense) {
 TEST(FuseMatched, SeenTogetherOrDrivingIsRefused) {
   TwoVisits world;
   const LandmarkId a = world.Add({4, 1, 12}, 0, 6), b = world.Add({4, 1, 15}, 3, 6);
-  const LandmarkId car = world.Add({-4, 1, 12}, 0, 5, "Car"), twin = world.Add({-4, 1, 14}, 300, 5, "Car");
+  const LandmarkId car = world.Add({-4, 1, 12}, 0, 5, "Car"),
+                   twin = world.Add({-4, 1, 14}, 300, 5, "Car");
   world.map.SetState(twin, LandmarkState::kDynamic);
   EXPECT_TRUE(FuseMatched(world.map, world.frames, {{a, b}, {car, twin}}, world.options).empty());
 }
@@ -103,8 +108,10 @@ TEST(FuseMatched, HeadingsMeetHalfATurnApart) {
 TEST(FuseMatched, APairTiesItsSurroundings) {
   TwoVisits world;
   const LandmarkId tree = world.Add({4, 1, 12}, 0, 8), again = world.Add({4.1, 1, 12}, 300, 4);
-  const LandmarkId next = world.Add({-4, 1, 15}, 0, 8), next_again = world.Add({-4, 1, 15.1}, 300, 4);
-  EXPECT_TRUE(FuseDuplicates(world.map, world.frames, world.options).empty()) << "drift may have put them there";
+  const LandmarkId next = world.Add({-4, 1, 15}, 0, 8),
+                   next_again = world.Add({-4, 1, 15.1}, 300, 4);
+  EXPECT_TRUE(FuseDuplicates(world.map, world.frames, world.options).empty())
+      << "drift may have put them there";
   EXPECT_EQ(FuseMatched(world.map, world.frames, {{tree, again}}, world.options).size(), 2u);
   EXPECT_TRUE(world.Gone(next_again));
   EXPECT_FALSE(world.Gone(next));
@@ -146,7 +153,8 @@ TEST(Stretches, NeighboursAndSharedObjectsTie) {
   EXPECT_TRUE(Stretches(world.map, world.frames, 0.).Tied(world.map.at(early), world.map.at(late)));
   world.map.Fuse(early, late);
   const Stretches tied(world.map, world.frames, 60.);
-  EXPECT_TRUE(tied.Tied(world.frames.back(), world.map.at(soon))) << "what was seen about there, too";
+  EXPECT_TRUE(tied.Tied(world.frames.back(), world.map.at(soon)))
+      << "what was seen about there, too";
   EXPECT_FALSE(tied.Tied(FrameRecord(), MapLandmark()));
 }
 

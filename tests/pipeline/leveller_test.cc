@@ -9,21 +9,25 @@ namespace sslcd {
 namespace {
 
 // How far the camera's y axis is from straight down. [rad]
-double Tilt(const Pose& T_world_cam) { return std::acos(std::min(1., (T_world_cam.so3() * Vec3(0, 1, 0)).y())); }
+double Tilt(const Pose& T_world_cam) {
+  return std::acos(std::min(1., (T_world_cam.so3() * Vec3(0, 1, 0)).y()));
+}
 
 // A kilometre of which each metre tilts the camera sideways by `rad_per_m`.
 Pose LastOfATiltingDrive(double rad_per_m, const LevelOptions& options) {
   Leveller leveller({}, options);
   Pose last;
-  for (int i = 0; i <= 1000; ++i) last = leveller.Level(Pose(lie::SO3<double>::RotZ(i * rad_per_m), Vec3(0, 0, i)));
+  for (int i = 0; i <= 1000; ++i)
+    last = leveller.Level(Pose(lie::SO3<double>::RotZ(i * rad_per_m), Vec3(0, 0, i)));
   return last;
 }
 
 TEST(Leveller, LevelOdometryPassesUnchanged) {
   Leveller leveller({}, {});
   for (int i = 0; i < 500; ++i) {
-    const Pose T(lie::SO3<double>::RotY(0.01 * i) * lie::SO3<double>::RotX(0.05 * std::sin(0.1 * i)),
-                 Vec3(50 * std::cos(0.01 * i), 0, i));
+    const Pose T(
+        lie::SO3<double>::RotY(0.01 * i) * lie::SO3<double>::RotX(0.05 * std::sin(0.1 * i)),
+        Vec3(50 * std::cos(0.01 * i), 0, i));
     EXPECT_NEAR((leveller.Level(T).inverse() * T).Log().norm(), 0, 1e-9) << i;
   }
 }
@@ -67,7 +71,8 @@ TEST(Leveller, StepsKeepTheirLengthAndAStandstillChangesNothing) {
 TEST(Leveller, TheFirstCameraSaysWhichOfItsAxesIsUp) {
   GravityFrame z_up = GravityFrame::FromUp(Vec3(0, 0, 1));
   Leveller leveller(z_up, {});
-  const lie::SO3<double> R = lie::SO3<double>::RotX(-M_PI / 2);  // camera axes in a world whose z points up
+  // camera axes in a world whose z points up
+  const lie::SO3<double> R = lie::SO3<double>::RotX(-M_PI / 2);
   for (int i = 0; i < 400; ++i) {
     const Pose T(R, Vec3(0, i, 0));
     EXPECT_NEAR((leveller.Level(T).inverse() * T).Log().norm(), 0, 1e-9);

@@ -25,7 +25,8 @@ TEST(LoopCases, TwoLoopsAtOnce) {
   const int lap = static_cast<int>(path.length() / kStep);
   std::set<int> laps_met;
   for (const LoopClosure& loop : result.loops)
-    if (loop.decision == LoopDecision::kAccepted && loop.query_frame > 2 * lap) laps_met.insert(loop.match_frame / lap);
+    if (loop.decision == LoopDecision::kAccepted && loop.query_frame > 2 * lap)
+      laps_met.insert(loop.match_frame / lap);
   EXPECT_GE(laps_met.size(), 2u) << "loops to the first and to the second lap";
   EXPECT_EQ(metrics.wrong_loops, 0);
   EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
@@ -33,7 +34,8 @@ TEST(LoopCases, TwoLoopsAtOnce) {
   ExpectGoodRows(result);
 }
 
-// The second half of the block is furnished exactly like the first, which nobody can know on the first lap.
+// The second half of the block is furnished exactly like the first, which nobody can know on the
+// first lap.
 TEST(LoopCases, LoopsToACopyOfAPlaceContradictTheTrueOnes) {
   int contradict = 0;
   for (const double drift : {4e-3, 1e-2}) {
@@ -52,10 +54,9 @@ TEST(LoopCases, LoopsToACopyOfAPlaceContradictTheTrueOnes) {
       EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed << ", drift " << drift;
       EXPECT_LT(metrics.ate, metrics.ate_odometry) << "seed " << seed << ", drift " << drift;
       EXPECT_GT(metrics.loops, 0) << "seed " << seed << ", drift " << drift;
-      contradict +=
-          static_cast<int>(std::count_if(result.loops.begin(), result.loops.end(), [](const LoopClosure& loop) {
-            return loop.reason == "contradicts other loops";
-          }));
+      contradict += static_cast<int>(std::count_if(
+          result.loops.begin(), result.loops.end(),
+          [](const LoopClosure& loop) { return loop.reason == "contradicts other loops"; }));
       ExpectGoodRows(result);
     }
   }
@@ -75,8 +76,8 @@ TEST(LoopCases, WithHindsightLessIsEnough) {
     const auto run = [&](const Options& options, double& recall) {
       RunResult result = RunSequence(frames, {world.gravity, world.labels, world.camera}, options);
       const SequenceMetrics metrics =
-          ComputeSequenceMetrics({result.trajectory.poses, result.odometry.poses, world.truth.poses, frames,
-                                  halv.detections.identity, result.loops, result.objects});
+          ComputeSequenceMetrics({result.trajectory.poses, result.odometry.poses, world.truth.poses,
+                                  frames, halv.detections.identity, result.loops, result.objects});
       EXPECT_EQ(metrics.wrong_loops, 0);
       recall += metrics.recall / 2;
       return result.loops;
@@ -103,8 +104,9 @@ TEST(LoopCases, LoopsGoOnAfterARefinementInMidRun) {
   mapper.Refine();
   const auto loops = mapper.LoopClosures();
   EXPECT_GT(before, 3u);
-  EXPECT_GT(std::count_if(loops.begin() + static_cast<std::ptrdiff_t>(before), loops.end(),
-                          [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; }),
+  EXPECT_GT(std::count_if(
+                loops.begin() + static_cast<std::ptrdiff_t>(before), loops.end(),
+                [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; }),
             3);
   RunResult result;
   result.trajectory = mapper.CameraTrajectory();
@@ -134,7 +136,9 @@ TEST(LoopCases, RefinementMeasuresThemAnew) {
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(found[i].query_frame, refined[i].query_frame);
       EXPECT_EQ(found[i].match_frame, refined[i].match_frame);
-      if (found[i].decision != LoopDecision::kAccepted || refined[i].decision != LoopDecision::kAccepted) continue;
+      if (found[i].decision != LoopDecision::kAccepted ||
+          refined[i].decision != LoopDecision::kAccepted)
+        continue;
       before.push_back(error(found[i]));
       after.push_back(error(refined[i]));
     }
@@ -161,7 +165,8 @@ TEST(LoopCases, RefiningAgainRepeatsNoLoop) {
   EXPECT_GT(first, 50u);
 }
 
-// mode: paper believes every match; what comes of it is for comparison, but it has to be written down in full.
+// mode: paper believes every match; what comes of it is for comparison, but it has to be written
+// down in full.
 TEST(LoopCases, AsPrinted) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
   Options options;

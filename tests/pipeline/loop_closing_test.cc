@@ -37,9 +37,10 @@ TEST_P(LoopClosing, CorrectsTheDriftOfTwoLaps) {
   ExpectGoodRows(result);
 }
 
-INSTANTIATE_TEST_SUITE_P(CarsAndTrees, LoopClosing,
-                         ::testing::Combine(::testing::Values(SecondLap::kSame, SecondLap::kOpposite),
-                                            ::testing::Values(0.5, 1.), ::testing::Values(1, 2, 3)));
+INSTANTIATE_TEST_SUITE_P(
+    CarsAndTrees, LoopClosing,
+    ::testing::Combine(::testing::Values(SecondLap::kSame, SecondLap::kOpposite),
+                       ::testing::Values(0.5, 1.), ::testing::Values(1, 2, 3)));
 
 TEST(LoopClosingSwitch, OffMeansNone) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
@@ -47,15 +48,16 @@ TEST(LoopClosingSwitch, OffMeansNone) {
   options.loop.enabled = false;
   const RunResult result = drives.Run(options);
   EXPECT_TRUE(result.loops.empty());
-  EXPECT_GT(drives.Judge(result).landmarks_per_true, 1.3) << "nothing has told that they are the same";
+  EXPECT_GT(drives.Judge(result).landmarks_per_true, 1.3)
+      << "nothing has told that they are the same";
 }
 
 TEST(LoopClosingRepeats, ToTheByte) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 2);
   const auto bytes = [&] {
     const RunResult result = drives.Run();
-    return TumText(result.trajectory) + MapJson({drives.world.gravity.up, result.objects}) + G2oText(result.graph) +
-           LoopsCsv(result.loops);
+    return TumText(result.trajectory) + MapJson({drives.world.gravity.up, result.objects}) +
+           G2oText(result.graph) + LoopsCsv(result.loops);
   };
   EXPECT_EQ(bytes(), bytes());
 }
@@ -65,7 +67,8 @@ TEST(LoopClosingRows, AreWrittenWithTheirReasons) {
   const std::string csv = LoopsCsv(result.loops);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<long>(result.loops.size()) + 1);
   ASSERT_FALSE(result.loops.empty());
-  for (const LoopClosure& loop : result.loops) EXPECT_NE(csv.find(loop.reason), std::string::npos) << loop.reason;
+  for (const LoopClosure& loop : result.loops)
+    EXPECT_NE(csv.find(loop.reason), std::string::npos) << loop.reason;
 }
 
 // The same with few objects: there is nothing to be sure of.
@@ -74,7 +77,8 @@ class FewObjects : public ::testing::TestWithParam<int> {};
 TEST_P(FewObjects, CloseNothing) {
   const sim::Path path = Block();
   sim::World world = EmptyWorld();
-  for (int i = 0; i < GetParam(); ++i) Add("Tree", path.ObjectAt(15 + 9 * i, i % 2 == 0 ? 5 : -6, 0.1, 0), world);
+  for (int i = 0; i < GetParam(); ++i)
+    Add("Tree", path.ObjectAt(15 + 9 * i, i % 2 == 0 ? 5 : -6, 0.1, 0), world);
   Drive(path, 0, 2 * path.length(), world);
   const Drives drives(std::move(world), 1);
   const RunResult result = drives.Run();
@@ -91,7 +95,8 @@ TEST(OddLayouts, AllOnALine) {
     const sim::Path path({{200, 0}});
     sim::World world = EmptyWorld();
     sim::Random random(seed);
-    for (double s = 3; s < 230; s += random.Uniform(4, 14)) Add("Tree", path.ObjectAt(s, 5, 0.1, 0), world);
+    for (double s = 3; s < 230; s += random.Uniform(4, 14))
+      Add("Tree", path.ObjectAt(s, 5, 0.1, 0), world);
     Drive(path, 0, 200, world);
     TurnRound(world);
     Drive(path, 200, 0, world);
@@ -104,7 +109,8 @@ TEST(OddLayouts, AllOnALine) {
   }
 }
 
-// The camera drives round it. Where odometry tells which car is which, loops may be closed, else not.
+// The camera drives round it. Where odometry tells which car is which, loops may be closed, else
+// not.
 TEST(OddLayouts, TheSameCarThirtyTimesInAPerfectGrid) {
   const sim::Path path = Block();
   sim::World world = EmptyWorld();
@@ -112,7 +118,8 @@ TEST(OddLayouts, TheSameCarThirtyTimesInAPerfectGrid) {
   const Vec3 centre(0.5 * (start.x + opposite.x), 0.9, 0.5 * (start.z + opposite.z));
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 5; ++j)
-      Add("Car", Pose(world.gravity.Upright(0), centre + Vec3(12 * (i - 2.5), 0, 14 * (j - 2.))), world);
+      Add("Car", Pose(world.gravity.Upright(0), centre + Vec3(12 * (i - 2.5), 0, 14 * (j - 2.))),
+          world);
   Drive(path, 0, 2 * path.length(), world);
   int ambiguous = 0;
   for (const double drift : {4e-3, 2e-2}) {
@@ -167,7 +174,8 @@ TEST(OddLayouts, ALoopToTheFirstKeyframe) {
   const SequenceMetrics metrics = drives.Judge(result);
   EXPECT_EQ(metrics.wrong_loops, 0);
   EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
-  EXPECT_NEAR((result.trajectory.poses[0].inverse() * result.odometry.poses[0]).Log().norm(), 0, 1e-6)
+  EXPECT_NEAR((result.trajectory.poses[0].inverse() * result.odometry.poses[0]).Log().norm(), 0,
+              1e-6)
       << "the first camera stays where the odometry has it";
 }
 
@@ -195,7 +203,8 @@ TEST(LoopClosingMapper, RefusesBadPosesMidRunAndGoesOn) {
   EXPECT_GT(mapper.LoopClosures().size(), 10u);
 }
 
-// On the whole: a single trajectory, which is bent in one way here and in another there, may be a little worse for it.
+// On the whole: a single trajectory, which is bent in one way here and in another there, may be a
+// little worse for it.
 TEST(LoopClosingMapper, HasTheMapAdjustedBeforeAnythingIsRefined) {
   double sum_with = 0, sum_without = 0;
   for (const int seed : {1, 2, 3}) {
@@ -207,8 +216,9 @@ TEST(LoopClosingMapper, HasTheMapAdjustedBeforeAnythingIsRefined) {
       options.loop.adjust_keyframes = adjust_keyframes;
       Mapper mapper(options, drives.Context());
       for (const Frame& frame : drives.frames) mapper.AddFrame(frame);
-      return ComputeSequenceMetrics({mapper.CameraTrajectory().poses, odometry, drives.world.truth.poses, drives.frames,
-                                     drives.identities, mapper.LoopClosures(), mapper.Objects()});
+      return ComputeSequenceMetrics({mapper.CameraTrajectory().poses, odometry,
+                                     drives.world.truth.poses, drives.frames, drives.identities,
+                                     mapper.LoopClosures(), mapper.Objects()});
     };
     const SequenceMetrics with = run(500), without = run(0), too_long = run(10);
     sum_with += with.ate;

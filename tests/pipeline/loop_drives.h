@@ -42,18 +42,21 @@ inline void Add(const std::string& label, const Pose& T_world_object, sim::World
   world.objects.push_back({static_cast<int>(world.objects.size()), label, dims, {T_world_object}});
 }
 
-// Things stand on both sides of the path, `share_of_trees` of them trees, at distances that never repeat.
+// Things stand on both sides of the path, `share_of_trees` of them trees, at distances that never
+// repeat.
 inline void Plant(const sim::Path& path, double length_m, double share_of_trees, std::uint64_t seed,
                   sim::World& world) {
   sim::Random random(seed);
   for (double s = 3; s < length_m - 3; s += random.Uniform(4, 14)) {
     const double right = random.Chance(0.5) ? random.Uniform(4, 10) : -random.Uniform(4, 10);
     const bool tree = random.Chance(share_of_trees);
-    Add(tree ? "Tree" : "Car", path.ObjectAt(s, right, tree ? 0.1 : 0.9, tree ? 0. : random.Uniform(-0.2, 0.2)), world);
+    Add(tree ? "Tree" : "Car",
+        path.ObjectAt(s, right, tree ? 0.1 : 0.9, tree ? 0. : random.Uniform(-0.2, 0.2)), world);
   }
 }
 
-// The camera goes from one point of the path to another, which may lie further back: then it looks that way.
+// The camera goes from one point of the path to another, which may lie further back: then it looks
+// that way.
 inline void Drive(const sim::Path& path, double from_m, double to_m, sim::World& world) {
   const auto push = [&](const Pose& T_world_cam) {
     world.truth.stamps.push_back(0.1 * static_cast<double>(world.truth.size()));
@@ -61,7 +64,8 @@ inline void Drive(const sim::Path& path, double from_m, double to_m, sim::World&
   };
   const double sign = to_m > from_m ? 1 : -1;
   for (double s = 0; s < std::abs(to_m - from_m); s += kStep)
-    push(path.CameraAt(from_m + sign * s) * Pose(lie::SO3<double>::RotY(sign > 0 ? 0 : M_PI), Vec3::Zero()));
+    push(path.CameraAt(from_m + sign * s) *
+         Pose(lie::SO3<double>::RotY(sign > 0 ? 0 : M_PI), Vec3::Zero()));
 }
 
 // ... and turns round where it stands.
@@ -70,7 +74,8 @@ inline void TurnRound(sim::World& world) {
   const Pose T_world_cam = world.truth.poses.back();
   for (int i = 1; i <= kFrames; ++i) {
     world.truth.stamps.push_back(0.1 * static_cast<double>(world.truth.size()));
-    world.truth.poses.push_back(T_world_cam * Pose(lie::SO3<double>::RotY(i * M_PI / kFrames), Vec3::Zero()));
+    world.truth.poses.push_back(T_world_cam *
+                                Pose(lie::SO3<double>::RotY(i * M_PI / kFrames), Vec3::Zero()));
   }
 }
 
@@ -80,7 +85,8 @@ struct Drives {
   std::vector<Frame> frames;
   std::vector<int> identities;
 
-  Drives(sim::World w, std::uint64_t seed, double range_m = 30, double heading_rad_per_sqrt_m = 4e-3)
+  Drives(sim::World w, std::uint64_t seed, double range_m = 30,
+         double heading_rad_per_sqrt_m = 4e-3)
       : world(std::move(w)) {
     sim::OdometryNoise drift;
     drift.heading_rad_per_sqrt_m = heading_rad_per_sqrt_m;
@@ -92,10 +98,13 @@ struct Drives {
     identities = detections.identity;
   }
   MapperContext Context() const { return {world.gravity, world.labels, world.camera}; }
-  RunResult Run(const Options& options = {}) const { return RunSequence(frames, Context(), options); }
+  RunResult Run(const Options& options = {}) const {
+    return RunSequence(frames, Context(), options);
+  }
   SequenceMetrics Judge(const RunResult& result) const {
-    return ComputeSequenceMetrics({result.trajectory.poses, result.odometry.poses, world.truth.poses, frames,
-                                   identities, result.loops, result.objects});
+    return ComputeSequenceMetrics({result.trajectory.poses, result.odometry.poses,
+                                   world.truth.poses, frames, identities, result.loops,
+                                   result.objects});
   }
 };
 
@@ -118,8 +127,9 @@ inline Drives TwoLaps(SecondLap second, double share_of_trees, std::uint64_t see
 }
 
 inline int Count(const RunResult& result, LoopDecision decision) {
-  return static_cast<int>(std::count_if(result.loops.begin(), result.loops.end(),
-                                        [decision](const LoopClosure& loop) { return loop.decision == decision; }));
+  return static_cast<int>(
+      std::count_if(result.loops.begin(), result.loops.end(),
+                    [decision](const LoopClosure& loop) { return loop.decision == decision; }));
 }
 
 inline int Accepted(const RunResult& result) { return Count(result, LoopDecision::kAccepted); }

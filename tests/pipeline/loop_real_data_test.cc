@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop closure on real sequences, held to its figures (docs/results.md): one configuration for all. Skipped where the
-// data is not there.
+// Loop closure on real sequences, held to its figures (docs/results.md): one configuration for all.
+// Skipped where the data is not there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ struct Bar {
 
 std::ostream& operator<<(std::ostream& out, const Bar& bar) { return out << bar.sequence; }
 
-// The identities, each named after the first one that the reference has at the same spot: two trees do not stand within
-// 0.3 m of one another, and these two were never seen in one frame.
+// The identities, each named after the first one that the reference has at the same spot: two trees
+// do not stand within 0.3 m of one another, and these two were never seen in one frame.
 std::vector<int> WithoutDoubles(const SequenceRun& run) {
   struct Mark {
     Vec3 sum = Vec3::Zero();
@@ -52,8 +52,8 @@ std::vector<int> WithoutDoubles(const SequenceRun& run) {
     for (const auto& [other, first] : marks) {
       if (other >= identity) break;
       const Vec3 apart = mark.sum / mark.count - first.sum / first.count;
-      const bool together =
-          std::any_of(mark.frames.begin(), mark.frames.end(), [&](int frame) { return first.frames.count(frame) > 0; });
+      const bool together = std::any_of(mark.frames.begin(), mark.frames.end(),
+                                        [&](int frame) { return first.frames.count(frame) > 0; });
       if (!together && std::hypot(apart.x(), apart.z()) < 0.3) name[identity] = name[other];
     }
   }
@@ -69,15 +69,16 @@ TEST_P(RealLoops, ReachTheirFigures) {
   const Bar& bar = GetParam();
   const char* root = std::getenv("SSLCD_DATA_DIR");
   const std::string data = std::string(root ? root : "../shared/data") + "/" + bar.sequence;
-  if (!std::filesystem::is_directory(data)) GTEST_SKIP() << "skipped: no data at " << data << " (SSLCD_DATA_DIR)";
+  if (!std::filesystem::is_directory(data))
+    GTEST_SKIP() << "skipped: no data at " << data << " (SSLCD_DATA_DIR)";
 
   DatasetRequest request;
   request.path = data;
   request.format = DatasetFormat::kSequence;
   request.groundtruth = bar.groundtruth;
   const Dataset dataset = LoadDataset(request);
-  const RunResult result =
-      RunSequence(dataset.frames, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, {});
+  const RunResult result = RunSequence(
+      dataset.frames, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera}, {});
 
   SequenceRun run;
   run.estimate = result.trajectory.poses;
@@ -104,14 +105,17 @@ TEST_P(RealLoops, ReachTheirFigures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(VictoriaPark, RealLoops,
-                         ::testing::Values(Bar{"victoria-park", "reference.txt", 4., .70, 1.15, .965, true}));
+                         ::testing::Values(Bar{"victoria-park", "reference.txt", 4., .70, 1.15,
+                                               .965, true}));
 constexpr double kNoBar = std::numeric_limits<double>::infinity();
 // ATE: that of a plain solver fed with true loops.
-INSTANTIATE_TEST_SUITE_P(
-    KittiOdometryPoles, RealLoops,
-    ::testing::Values(Bar{"kitti-odometry-poles/00", "groundtruth.txt", 7.3, .60, kNoBar, 0, false},
-                      Bar{"kitti-odometry-poles/02", "groundtruth.txt", 10.6, .60, kNoBar, 0, false},
-                      Bar{"kitti-odometry-poles/05", "groundtruth.txt", 7.0, .60, kNoBar, 0, false}));
+INSTANTIATE_TEST_SUITE_P(KittiOdometryPoles, RealLoops,
+                         ::testing::Values(Bar{"kitti-odometry-poles/00", "groundtruth.txt", 7.3,
+                                               .60, kNoBar, 0, false},
+                                           Bar{"kitti-odometry-poles/02", "groundtruth.txt", 10.6,
+                                               .60, kNoBar, 0, false},
+                                           Bar{"kitti-odometry-poles/05", "groundtruth.txt", 7.0,
+                                               .60, kNoBar, 0, false}));
 
 }  // namespace
 }  // namespace sslcd

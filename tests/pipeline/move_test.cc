@@ -8,7 +8,8 @@
 namespace sslcd {
 namespace {
 
-// A camera that drives `step` metres a frame straight ahead, its pose `shift` away from the odometry.
+// A camera that drives `step` metres a frame straight ahead, its pose `shift` away from the
+// odometry.
 std::vector<FrameRecord> Drive(int count, double step, const Pose& shift = {}) {
   std::vector<FrameRecord> frames(count);
   for (int i = 0; i < count; ++i) {
@@ -40,7 +41,8 @@ TEST(MoveKeyframes, WithoutCorrectionNothingMoves) {
   MoveKeyframes(frames, keyframes, {before[0], before[7], before[19]});
   for (int i = 0; i < 20; ++i) EXPECT_LE(Apart(frames[i].T_world_cam, before[i]), 1e-9);
   MoveKeyframes(frames, {}, {});
-  for (int i = 0; i < 20; ++i) EXPECT_LE(Apart(frames[i].T_world_cam, before[i]), 1e-9) << "no keyframe, no move";
+  for (int i = 0; i < 20; ++i)
+    EXPECT_LE(Apart(frames[i].T_world_cam, before[i]), 1e-9) << "no keyframe, no move";
 }
 
 TEST(MoveKeyframes, ACorrectionIsSharedByPath) {
@@ -55,7 +57,8 @@ TEST(MoveKeyframes, TheTrajectoryStaysSmoothFarFromTheOrigin) {
   std::vector<FrameRecord> frames = Drive(21, 1., Pose::Trans(1000, 0, -500) * Pose::RotY(2.));
   const std::vector<Pose> before = PosesOf(frames);
   MoveKeyframes(frames, {0, 10, 20},
-                {before[0], before[10] * Pose::RotY(0.1), before[20] * Pose::RotY(0.3) * Pose::Trans(0.5, 0, 0)});
+                {before[0], before[10] * Pose::RotY(0.1),
+                 before[20] * Pose::RotY(0.3) * Pose::Trans(0.5, 0, 0)});
   for (int i = 1; i <= 20; ++i) {
     const Pose step = frames[i - 1].T_world_cam.inverse() * frames[i].T_world_cam;
     EXPECT_LE(Apart(step, Pose::Trans(0, 0, 1)), 0.25) << i;
@@ -83,7 +86,8 @@ struct World {
     landmark.pose = pose;
     for (const int i : seen_from)
       landmark.sightings.push_back({frames[i].frame, frames[i].stamp, 0, 1.,
-                                    frames[i].T_world_cam.inverse() * ToPose(pose, map.gravity()), Vec3(4, 2, 1.5)});
+                                    frames[i].T_world_cam.inverse() * ToPose(pose, map.gravity()),
+                                    Vec3(4, 2, 1.5)});
     return map.Insert(landmark);
   }
 };
@@ -96,7 +100,8 @@ TEST(MoveObjects, FollowTheirCamerasRigidly) {
   const Pose motion = Pose::Trans(3, 0, -2) * Pose::RotY(0.5);
   for (FrameRecord& record : world.frames) record.T_world_cam = motion * record.T_world_cam;
   MoveObjects(world.map, world.frames, before, {});
-  const UprightPose expected = ToUpright(motion * ToPose(pose, world.map.gravity()), world.map.gravity());
+  const UprightPose expected =
+      ToUpright(motion * ToPose(pose, world.map.gravity()), world.map.gravity());
   EXPECT_LE((world.map.at(id).pose.position - expected.position).norm(), 1e-9);
   EXPECT_NEAR(WrapAngle(world.map.at(id).pose.yaw - expected.yaw), 0, 1e-9);
 }
@@ -115,7 +120,8 @@ TEST(MoveObjects, WhatNoFrameSawStays) {
   World world;
   const LandmarkId id = world.Add({Vec3(0, 1, 20), 0.3}, {});
   const std::vector<Pose> before = PosesOf(world.frames);
-  for (FrameRecord& record : world.frames) record.T_world_cam = Pose::Trans(9, 0, 0) * record.T_world_cam;
+  for (FrameRecord& record : world.frames)
+    record.T_world_cam = Pose::Trans(9, 0, 0) * record.T_world_cam;
   MoveObjects(world.map, world.frames, before, {});
   EXPECT_EQ(world.map.at(id).pose.position, Vec3(0, 1, 20));
   MoveObjects(world.map, {}, {}, {});

@@ -9,8 +9,9 @@
 namespace sslcd {
 namespace {
 
-// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309, a metre a frame.
-// World axes are the first camera's (y down); layouts have x = world x, y = world z.
+// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309,
+// a metre a frame. World axes are the first camera's (y down); layouts have x = world x, y = world
+// z.
 struct TwoVisits {
   std::vector<FrameRecord> frames;
   ObjectMap map{GravityFrame{}, LabelTable{}, {}, {}, {}};
@@ -37,12 +38,14 @@ struct TwoVisits {
     return map.Insert(landmark);
   }
 
-  // Seen by the frames numbered from `first` to before `end`, without error with respect to where they are now.
+  // Seen by the frames numbered from `first` to before `end`, without error with respect to where
+  // they are now.
   void See(LandmarkId id, int first, int end) {
     for (FrameRecord& record : frames) {
       if (record.frame < first || record.frame >= end) continue;
       Detection detection;
-      detection.T_cam_object = record.T_world_cam.inverse() * ToPose(map.at(id).pose, map.gravity());
+      detection.T_cam_object =
+          record.T_world_cam.inverse() * ToPose(map.at(id).pose, map.gravity());
       record.detections.push_back(detection);
       record.matched.push_back(id);
     }
@@ -122,7 +125,8 @@ TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
   world.See(car, 300, 305);
   for (FrameRecord& record : world.frames)
     for (Detection& detection : record.detections)
-      detection.embedding = record.frame < 300 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
+      detection.embedding =
+          record.frame < 300 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
   world.Drive();
   const auto mean_of_views = [](const LayoutObject& object) {
     Eigen::Vector2d sum(0, 0);
@@ -138,7 +142,8 @@ TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
     const PassLayout old = world.passes.Before(200, 1), recent = world.passes.Recent(250, 1);
     ASSERT_EQ(old.objects.size(), 1u);
     ASSERT_EQ(recent.objects.size(), 1u);
-    EXPECT_EQ(mean_of_views(old.objects[0]), Eigen::Vector2d(1, 0)) << "nothing of the second visit";
+    EXPECT_EQ(mean_of_views(old.objects[0]), Eigen::Vector2d(1, 0))
+        << "nothing of the second visit";
     EXPECT_EQ(mean_of_views(recent.objects[0]), Eigen::Vector2d(0, 1));
     EXPECT_TRUE(old.objects[0].colour.empty());
   };
@@ -151,7 +156,8 @@ TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
 
 TEST(PassMap, WhatTakesPart) {
   TwoVisits world;
-  const LandmarkId often = world.Add({4, 1, 12}), once = world.Add({-4, 1, 12}), driving = world.Add({0, 1, 20}, "Car");
+  const LandmarkId often = world.Add({4, 1, 12}), once = world.Add({-4, 1, 12}),
+                   driving = world.Add({0, 1, 20}, "Car");
   const LandmarkId late = world.Add({4, 1, 20});
   world.See(often, 0, 5);
   world.See(once, 3, 4);
@@ -166,7 +172,8 @@ TEST(PassMap, WhatTakesPart) {
   EXPECT_EQ(world.passes.Recent(290, 5).objects.size(), 1u);
   EXPECT_EQ(world.passes.Recent(303, 3).objects.size(), 0u) << "only sightings since then count";
   EXPECT_EQ(world.passes.Recent(303, 2).objects.size(), 1u);
-  EXPECT_EQ(world.passes.Between(0, 100, 2).objects.size(), 1u) << "as it was then: one once, one not at all yet";
+  EXPECT_EQ(world.passes.Between(0, 100, 2).objects.size(), 1u)
+      << "as it was then: one once, one not at all yet";
   EXPECT_EQ(world.passes.Between(0, 100, 1).objects.size(), 2u);
   EXPECT_EQ(world.passes.Between(0, 1, 3).objects.size(), 0u) << "nor do later sightings count";
   EXPECT_TRUE(world.passes.Between(100, 0, 1).objects.empty());
@@ -177,7 +184,8 @@ TEST(PassMap, LabelsAndHeadings) {
   const LandmarkId tree = world.Add({4, 1, 12}), other = world.Add({4, 1, 16});
   const LandmarkId car = world.Add({-4, 1, 12}, "Car", 0.4);
   for (const LandmarkId id : {tree, other, car}) world.See(id, 0, 6);
-  FrameRecord& turned_round = world.frames[2];  // once the detector takes the car's front for its back
+  // once the detector takes the car's front for its back
+  FrameRecord& turned_round = world.frames[2];
   turned_round.detections[2].T_cam_object.so3() = GravityFrame().Upright(0.4 + M_PI);
   world.passes.Update();
   const PassLayout layout = world.passes.Before(200, 1);
@@ -193,7 +201,8 @@ TEST(PassMap, FinishedPassesMoveWithTheirAnchors) {
   TwoVisits world;
   world.See(world.Add({4, 1, 12}), 0, 6);
   world.passes.Update();
-  for (FrameRecord& record : world.frames) record.T_world_cam = Pose::Trans(0, -7, 3) * record.T_world_cam;
+  for (FrameRecord& record : world.frames)
+    record.T_world_cam = Pose::Trans(0, -7, 3) * record.T_world_cam;
   const PassLayout layout = world.passes.Before(200, 1);
   ASSERT_EQ(layout.objects.size(), 1u);
   ExpectAt(layout.objects[0], 4, 15, -1);  // the height is over the camera, which rose with it
@@ -253,11 +262,13 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
     if (record.frame == 302) world.map.SetState(trees[0], LandmarkState::kDynamic);
     if (record.frame == 305) {  // the sliding window
       world.passes.MovedFrom(13);
-      for (std::size_t f = 13; f < world.frames.size(); ++f) world.frames[f].T_world_cam = Pose::Trans(.5, 0, 0);
+      for (std::size_t f = 13; f < world.frames.size(); ++f)
+        world.frames[f].T_world_cam = Pose::Trans(.5, 0, 0);
     }
     if (record.frame == 309) {  // a loop
       world.passes.MovedFrom(0);
-      for (FrameRecord& frame : world.frames) frame.T_world_cam = Pose::Trans(0, 0, 3) * frame.T_world_cam;
+      for (FrameRecord& frame : world.frames)
+        frame.T_world_cam = Pose::Trans(0, 0, 3) * frame.T_world_cam;
     }
     if (record.frame == 401) {
       for (FrameRecord& frame : world.frames)
@@ -275,7 +286,8 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
       const LayoutObject& object = before.objects[i];
       ASSERT_EQ(followed.count(object.id), 1u);
       EXPECT_EQ(followed[object.id].position, object.position) << record.frame;
-      EXPECT_EQ(world.passes.PlaceBefore({object.id}, old_until, 2)->position, before.places[i].position);
+      EXPECT_EQ(world.passes.PlaceBefore({object.id}, old_until, 2)->position,
+                before.places[i].position);
       ++listed;
     }
   }

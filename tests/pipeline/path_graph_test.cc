@@ -46,7 +46,8 @@ TEST(PathGraph, AgreesWithTheShortestOfAllWays) {
   sim::Random random(3);
   for (int round = 0; round < 20; ++round) {
     PathGraph graph;
-    std::vector<double> ends{random.Uniform(0, 1000), random.Uniform(0, 1000)};  // from, to, then pairs of shortcuts
+    // from, to, then pairs of shortcuts
+    std::vector<double> ends{random.Uniform(0, 1000), random.Uniform(0, 1000)};
     for (int i = 0; i < 8; ++i) {
       ends.push_back(random.Uniform(0, 1000));
       ends.push_back(random.Uniform(0, 1000));
@@ -55,7 +56,8 @@ TEST(PathGraph, AgreesWithTheShortestOfAllWays) {
     const int n = static_cast<int>(ends.size());
     std::vector<std::vector<double>> way(n, std::vector<double>(n));
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) way[i][j] = i > 1 && i / 2 == j / 2 ? 0. : std::abs(ends[i] - ends[j]);
+      for (int j = 0; j < n; ++j)
+        way[i][j] = i > 1 && i / 2 == j / 2 ? 0. : std::abs(ends[i] - ends[j]);
     for (int k = 0; k < n; ++k)
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) way[i][j] = std::min(way[i][j], way[i][k] + way[k][j]);

@@ -60,7 +60,8 @@ TEST(PlaceMatcher, UnsureAnswersChangeNothing) {
   const RunResult without = drives.Run(none);
   ASSERT_EQ(result.trajectory.size(), without.trajectory.size());
   for (std::size_t i = 0; i < without.trajectory.size(); ++i)
-    EXPECT_LT((result.trajectory.poses[i].inverse() * without.trajectory.poses[i]).Log().norm(), 1e-9);
+    EXPECT_LT((result.trajectory.poses[i].inverse() * without.trajectory.poses[i]).Log().norm(),
+              1e-9);
 }
 
 TEST(PlaceMatcher, ImagesTieTwoCameras) {

@@ -30,7 +30,8 @@ Scene Street(std::uint64_t seed, double detector_scale = 1., int frames = 200) {
   sim::DetectorNoise noise;
   noise.scale = detector_scale;
   scene.detections = sim::SimulateDetections(scene.world, noise, seed);
-  scene.frames = sim::MakeFrames(sim::SimulateOdometry(scene.world.truth, {}, seed), scene.detections);
+  scene.frames =
+      sim::MakeFrames(sim::SimulateOdometry(scene.world.truth, {}, seed), scene.detections);
   scene.context = {scene.world.gravity, scene.world.labels, scene.world.camera};
   return scene;
 }
@@ -44,16 +45,19 @@ TEST(RunSequence, FindsTheScaleAndTheParkedCars) {
     const Scene scene = Street(seed);
     const RunResult result = RunSequence(scene.frames, scene.context, {});
     EXPECT_NEAR(result.scale, 1 / 1.03, 0.006) << "seed " << seed;
-    EXPECT_LT(Ate(result.trajectory, scene.world), 0.5 * Ate(result.odometry, scene.world)) << "seed " << seed;
+    EXPECT_LT(Ate(result.trajectory, scene.world), 0.5 * Ate(result.odometry, scene.world))
+        << "seed " << seed;
 
     int confirmed = 0, mixed = 0, driving = 0;
     for (const MapObject& object : result.objects) {
       if (object.state != LandmarkState::kConfirmed) continue;
       ++confirmed;
       std::map<int, int> owners;
-      for (const Observation& o : object.observations) ++owners[scene.detections.identity[o.detection_row]];
+      for (const Observation& o : object.observations)
+        ++owners[scene.detections.identity[o.detection_row]];
       mixed += owners.size() > 1;
-      for (const auto& [id, count] : owners) driving += id >= 0 && scene.world.objects[id].driving();
+      for (const auto& [id, count] : owners)
+        driving += id >= 0 && scene.world.objects[id].driving();
     }
     EXPECT_GT(confirmed, 15) << "seed " << seed;
     EXPECT_LE(mixed, confirmed / 5) << "seed " << seed;
@@ -68,7 +72,8 @@ TEST(RunSequence, ANoisyDetectorStillHelpsAndTheOnlineMapWorksAlone) {
   for (const bool refine : {false, true}) {
     options.refine.enabled = refine;
     const RunResult result = RunSequence(scene.frames, scene.context, options);
-    EXPECT_LT(Ate(result.trajectory, scene.world), 0.7 * Ate(result.odometry, scene.world)) << "refine " << refine;
+    EXPECT_LT(Ate(result.trajectory, scene.world), 0.7 * Ate(result.odometry, scene.world))
+        << "refine " << refine;
     EXPECT_GT(result.noise_scale.radial, 1.5);
   }
 }
@@ -101,14 +106,15 @@ TEST(RunSequence, RepeatsToTheByte) {
   const Scene scene = Street(4, 2., 120);
   const auto bytes = [&] {
     const RunResult result = RunSequence(scene.frames, scene.context, {});
-    return TumText(result.trajectory) + MapJson({scene.world.gravity.up, result.objects}) + G2oText(result.graph);
+    return TumText(result.trajectory) + MapJson({scene.world.gravity.up, result.objects}) +
+           G2oText(result.graph);
   };
   EXPECT_EQ(bytes(), bytes());
 }
 
 std::string Bytes(const RunResult& result) {
-  return TumText(result.trajectory) + TumText(result.odometry) + MapJson({Vec3(0, -1, 0), result.objects}) +
-         G2oText(result.graph);
+  return TumText(result.trajectory) + TumText(result.odometry) +
+         MapJson({Vec3(0, -1, 0), result.objects}) + G2oText(result.graph);
 }
 
 TEST(RunSequence, FramesThatComeOneByOneAreTheSame) {
@@ -137,8 +143,8 @@ TEST(RunSequence, AStopInTheMiddleOfASourceKeepsWhatThereIs) {
   std::size_t asked = 0;
   RunHooks hooks;
   hooks.stop = [&] { return asked == 25; };
-  const RunResult result =
-      RunSequence([&] { return std::optional<Frame>(scene.frames[asked++]); }, 60, scene.context, {}, hooks);
+  const RunResult result = RunSequence([&] { return std::optional<Frame>(scene.frames[asked++]); },
+                                       60, scene.context, {}, hooks);
   EXPECT_TRUE(result.stopped);
   EXPECT_EQ(asked, 25u) << "no frame is taken and left";
   EXPECT_EQ(result.frames.size(), 25u);
@@ -148,7 +154,8 @@ TEST(RunSequence, AStopInTheMiddleOfASourceKeepsWhatThereIs) {
 
 TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
   const Scene scene = Street(1, 1., 10);
-  const RunResult nothing = RunSequence([] { return std::optional<Frame>(); }, 0, scene.context, {});
+  const RunResult nothing =
+      RunSequence([] { return std::optional<Frame>(); }, 0, scene.context, {});
   EXPECT_TRUE(nothing.frames.empty());
   EXPECT_TRUE(nothing.objects.empty());
   EXPECT_FALSE(nothing.stopped);
@@ -162,7 +169,8 @@ TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
 
 TEST(RunSequence, PaperModeRuns) {
   const Scene scene = Street(1, 1., 100);
-  const RunResult result = RunSequence(scene.frames, scene.context, DefaultOptions(Options::Mode::kPaper));
+  const RunResult result =
+      RunSequence(scene.frames, scene.context, DefaultOptions(Options::Mode::kPaper));
   EXPECT_EQ(result.scale, 1.) << "the paper has no scale";
   EXPECT_EQ(result.trajectory.size(), 100u);
   EXPECT_TRUE(std::isfinite(Ate(result.trajectory, scene.world)));

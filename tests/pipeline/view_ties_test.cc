@@ -32,22 +32,25 @@ TEST(TieViews, PairsCamerasThatFaceTheSameGround) {
   options.views.reach_m = 40;
   int asked = 0, exact = 0;
   const auto frames = ThereAndBack();
-  const auto ties = TieViews(frames, path, OneByOne([&](const ViewPair& pair) -> std::optional<RelativePose> {
-                               const Pose& guess = pair.T_a_b_guess;
-                               ++asked;
-                               EXPECT_LT(pair.a_frame, pair.b_frame);
-                               // Both look at a point 7 m ahead: they stand 14 m apart; some do not where the reach
-                               // ends.
-                               exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
-                               if (asked % 2 == 0) return std::nullopt;
-                               return Measured(guess);
-                             }),
-                             options);
+  const auto ties =
+      TieViews(frames, path, OneByOne([&](const ViewPair& pair) -> std::optional<RelativePose> {
+                 const Pose& guess = pair.T_a_b_guess;
+                 ++asked;
+                 EXPECT_LT(pair.a_frame, pair.b_frame);
+                 // Both look at a point 7 m ahead: they stand 14 m apart; some do not where the
+                 // reach ends.
+                 exact += (guess.translation() - Vec3(2, 0, 14)).norm() < 1e-9;
+                 if (asked % 2 == 0) return std::nullopt;
+                 return Measured(guess);
+               }),
+               options);
   EXPECT_GE(asked, 15) << "every 2 m, as far as odometry reaches from the loop";
   EXPECT_LE(asked, 45);
-  EXPECT_EQ(static_cast<int>(ties.size()), (asked + 1) / 2) << "what could not be aligned is no tie";
+  EXPECT_EQ(static_cast<int>(ties.size()), (asked + 1) / 2)
+      << "what could not be aligned is no tie";
   EXPECT_GE(exact, asked - 6);
-  for (const ViewTie& tie : ties) EXPECT_LE(path.From(frames[tie.to].travelled).To(frames[tie.from].travelled), 40);
+  for (const ViewTie& tie : ties)
+    EXPECT_LE(path.From(frames[tie.to].travelled).To(frames[tie.from].travelled), 40);
 }
 
 TEST(TieViews, NoneWhereNoLoopSaysWhereToLook) {
@@ -72,7 +75,8 @@ TEST(TieViews, AGoodOdometryNeedsNoLoop) {
   options.odometry = noise;
   options.odometry.translation_floor_m = 0;
   options.odometry.rotation_walk = 1e-4;
-  const auto align = OneByOne([](const ViewPair& pair) { return std::optional(Measured(pair.T_a_b_guess)); });
+  const auto align =
+      OneByOne([](const ViewPair& pair) { return std::optional(Measured(pair.T_a_b_guess)); });
   EXPECT_GT(TieViews(ThereAndBack(), {}, align, options).size(), 20u);
 }
 
@@ -86,7 +90,8 @@ struct TruthAligner {
     ++asked;
     const auto& truth = drives.world.truth.poses;
     const Pose T = truth[pair.a_frame].inverse() * truth[pair.b_frame];
-    if ((T.inverse() * pair.T_a_b_guess).translation().norm() > limit_m) return ++refused, std::nullopt;
+    if ((T.inverse() * pair.T_a_b_guess).translation().norm() > limit_m)
+      return ++refused, std::nullopt;
     Vec6 variances;
     variances << Vec3::Constant(4e-4), Vec3::Constant(1e-6);
     return RelativePose{T * off, variances.asDiagonal()};
@@ -106,24 +111,30 @@ TEST(ViewAligner, MakesTheTrajectoryMoreExactThanObjectsDo) {
   EXPECT_GT(aligner.asked, 30);
   EXPECT_LT(aligner.refused, aligner.asked / 4) << "loops of objects make the guess right";
   EXPECT_LT(drives.Judge(tied).ate, drives.Judge(plain).ate);
-  const auto off = [&](const RunResult& result) {  // where the cameras that were aligned stand to each other
-    std::vector<double> errors;
-    for (std::size_t i = tied.graph.edges.size() - tied.views_tied; i < tied.graph.edges.size(); ++i) {
-      const PoseGraph::Edge& tie = tied.graph.edges[i];
-      const auto& poses = result.trajectory.poses;
-      errors.push_back((tie.T_from_to.inverse() * (poses[tie.from].inverse() * poses[tie.to])).translation().norm());
-    }
-    return Median(errors);
-  };
+  const auto off =
+      [&](const RunResult& result) {  // where the cameras that were aligned stand to each other
+        std::vector<double> errors;
+        for (std::size_t i = tied.graph.edges.size() - tied.views_tied; i < tied.graph.edges.size();
+             ++i) {
+          const PoseGraph::Edge& tie = tied.graph.edges[i];
+          const auto& poses = result.trajectory.poses;
+          errors.push_back((tie.T_from_to.inverse() * (poses[tie.from].inverse() * poses[tie.to]))
+                               .translation()
+                               .norm());
+        }
+        return Median(errors);
+      };
   EXPECT_LT(off(tied), 0.4 * off(plain));
   EXPECT_LT(off(tied), 0.05);
   EXPECT_EQ(drives.Judge(tied).wrong_loops, 0);
   EXPECT_EQ(Accepted(tied), Accepted(plain)) << "which loops there are remains what objects say";
   EXPECT_GT(tied.views_tied, (aligner.asked - aligner.refused) * 9 / 10);
-  const auto by_views = std::count_if(tied.loops.begin(), tied.loops.end(), [](const LoopClosure& loop) {
-    return loop.decision == LoopDecision::kAccepted && loop.by_views;
-  });
-  EXPECT_EQ(tied.graph.edges.size() + by_views, plain.graph.edges.size() + tied.views_tied) << "nothing twice";
+  const auto by_views =
+      std::count_if(tied.loops.begin(), tied.loops.end(), [](const LoopClosure& loop) {
+        return loop.decision == LoopDecision::kAccepted && loop.by_views;
+      });
+  EXPECT_EQ(tied.graph.edges.size() + by_views, plain.graph.edges.size() + tied.views_tied)
+      << "nothing twice";
 }
 
 TEST(ViewAligner, NeedsNoObjectsWhereOdometryIsGood) {
@@ -148,7 +159,8 @@ TEST(ViewAligner, MeasuresLoopsAnewWhereOdometryIsGood) {
     const auto& truth = drives.world.truth.poses;
     for (const LoopClosure& loop : result.loops)
       if (loop.decision == LoopDecision::kAccepted)
-        errors.push_back((loop.T_match_query.inverse() * (truth[loop.match_frame].inverse() * truth[loop.query_frame]))
+        errors.push_back((loop.T_match_query.inverse() *
+                          (truth[loop.match_frame].inverse() * truth[loop.query_frame]))
                              .translation()
                              .norm());
     return Median(errors);
@@ -174,13 +186,15 @@ TEST(ViewAligner, AFewWrongTiesDoLittleHarm) {
   options.loop.odometry.translation_floor_m = options.loop.odometry.translation_walk = 0.003;
   options.loop.odometry.rotation_floor_rad = options.loop.odometry.rotation_walk = 1e-3;
   const RunResult result = RunSequence(drives.frames, context, options);
-  EXPECT_LT(drives.Judge(result).ate, 1.3 * drives.Judge(RunWith(drives, right, options)).ate + 0.02);
+  EXPECT_LT(drives.Judge(result).ate,
+            1.3 * drives.Judge(RunWith(drives, right, options)).ate + 0.02);
   EXPECT_LE(result.views_tied, count - count / 8) << "wrong ones are noticed";
   const auto& truth = drives.world.truth.poses;
   for (const LoopClosure& loop : result.loops) {
     if (loop.decision != LoopDecision::kAccepted) continue;
     const Pose T_match_query = truth[loop.match_frame].inverse() * truth[loop.query_frame];
-    EXPECT_LT((loop.T_match_query.inverse() * T_match_query).translation().norm(), 0.6) << "and measure no loop";
+    EXPECT_LT((loop.T_match_query.inverse() * T_match_query).translation().norm(), 0.6)
+        << "and measure no loop";
   }
 }
 

@@ -38,18 +38,25 @@ CarShape ShapeOf(const char* label, const Vec3& dims, std::uint32_t seed) {
   return MakeCarShape(object, seed);
 }
 
-bool IsGlassy(const Surface& surface) { return surface.mirror > 0.08f && surface.albedo.maxCoeff() < 0.06f; }
-bool IsRed(const Surface& surface) { return surface.albedo.x() > 0.2f && surface.albedo.y() < 0.05f; }
+bool IsGlassy(const Surface& surface) {
+  return surface.mirror > 0.08f && surface.albedo.maxCoeff() < 0.06f;
+}
+bool IsRed(const Surface& surface) {
+  return surface.albedo.x() > 0.2f && surface.albedo.y() < 0.05f;
+}
 bool IsBlue(const Surface& surface) { return surface.albedo.z() > 2 * surface.albedo.x() + 0.05f; }
 
 TEST(CarSurface, EveryCarHasPaintWindowsAndTailLamps) {
   const Vec3f blue(0.1f, 0.2f, 0.7f);
   const auto sides = [](int part, const Vec3f&) { return part == kCarSide || part == kCarTop; };
-  const auto rear = [](int part, const Vec3f& normal) { return part <= kCarRear && normal.x() < -0.6f; };
+  const auto rear = [](int part, const Vec3f& normal) {
+    return part <= kCarRear && normal.x() < -0.6f;
+  };
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     for (const Vec3& dims : {Vec3(3.6, 1.6, 1.5), Vec3(4.5, 1.8, 1.45), Vec3(4.6, 1.8, 1.7)}) {
       const CarShape shape = ShapeOf("Car", dims, seed);
-      const double glass = Share(shape, blue, sides, IsGlassy), paint = Share(shape, blue, sides, IsBlue);
+      const double glass = Share(shape, blue, sides, IsGlassy),
+                   paint = Share(shape, blue, sides, IsBlue);
       EXPECT_GT(glass, 0.1) << seed;
       EXPECT_LT(glass, 0.5) << seed;
       EXPECT_GT(paint, 0.4) << seed;
@@ -63,7 +70,8 @@ TEST(CarSurface, TyresAreBlackAndRimsAreNot) {
   const CarShape shape = ShapeOf("Car", {4.2, 1.75, 1.5}, 1);
   const Vec3f hub(shape.front_axle, 0.5f * shape.width, shape.wheel_radius), left = Vec3f::UnitY();
   const auto at = [&](float up) {
-    return CarSurface(shape, Vec3f::Ones(), {hub + up * Vec3f::UnitZ(), left, kCarWheel, kFine}).albedo.mean();
+    return CarSurface(shape, Vec3f::Ones(), {hub + up * Vec3f::UnitZ(), left, kCarWheel, kFine})
+        .albedo.mean();
   };
   EXPECT_GT(at(0), 0.1f);
   EXPECT_LT(at(0.9f * shape.wheel_radius), 0.05f);
@@ -74,7 +82,8 @@ TEST(CarSurface, PlatesTellCarsApart) {
     const CarShape shape = ShapeOf("Truck", {5, 2, 2.6}, seed);
     std::vector<bool> dark;
     for (float y = -0.25f; y < 0.25f; y += 0.005f) {
-      const Surface surface = CarSurface(shape, Vec3f::Ones(), {{-2.5f, y, 0.95f}, {-1, 0, 0}, kCarBox, kFine});
+      const Surface surface =
+          CarSurface(shape, Vec3f::Ones(), {{-2.5f, y, 0.95f}, {-1, 0, 0}, kCarBox, kFine});
       dark.push_back(surface.albedo.y() < 0.3f);
     }
     return dark;

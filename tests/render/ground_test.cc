@@ -29,7 +29,8 @@ TEST(NearList, FindsWhatWasPutThereAndNothingBeyond) {
 TEST(Ground, SpacesHaveLinesOnThreeSides) {
   const sim::HalvWorld scene = OneSpace();
   const Ground ground(scene, FindUsedPlaces(scene.world), 1);
-  const auto brightness = [&](float x0, float y0, float x1, float y1) {  // mean along a line: paint is worn in places
+  const auto brightness = [&](float x0, float y0, float x1,
+                              float y1) {  // mean along a line: paint is worn in places
     float sum = 0;
     constexpr int kSteps = 50;
     for (int i = 0; i < kSteps; ++i) {

@@ -10,7 +10,8 @@ TEST(Daylight, SunStandsWhereTold) {
   const Daylight ahead = MakeDaylight({0, 30, 1, 0}, 1), right = MakeDaylight({90, 30, 1, 0}, 1);
   EXPECT_NEAR((ahead.to_sun - Vec3f(0, std::sqrt(0.75f), 0.5f)).norm(), 0, 1e-6);
   EXPECT_NEAR((right.to_sun - Vec3f(std::sqrt(0.75f), 0, 0.5f)).norm(), 0, 1e-6);
-  EXPECT_GT(SkyColour(ahead, ahead.to_sun).minCoeff(), 3 * SkyColour(ahead, -right.to_sun).maxCoeff());
+  EXPECT_GT(SkyColour(ahead, ahead.to_sun).minCoeff(),
+            3 * SkyColour(ahead, -right.to_sun).maxCoeff());
 }
 
 TEST(Daylight, WarmLightIsRedderAndLowSunWeaker) {
@@ -31,13 +32,15 @@ TEST(Shade, SunAddsSkyRemainsAndGlassMirrorsAtGrazingAngles) {
   EXPECT_GT(shaded.z(), shaded.x()) << "shade is bluish";
   const Surface glass{Vec3f::Zero(), 0.05f};
   const Vec3f grazing = Vec3f(0, -1, -0.1f).normalized();
-  EXPECT_GT(Shade(light, glass, up, grazing, 0, 1).norm(), 4 * Shade(light, glass, up, down, 0, 1).norm());
+  EXPECT_GT(Shade(light, glass, up, grazing, 0, 1).norm(),
+            4 * Shade(light, glass, up, down, 0, 1).norm());
 }
 
 TEST(Air, FarThingsTakeTheHorizonsColour) {
   const Daylight light = MakeDaylight({0, 60, 1, 0}, 1);
   EXPECT_EQ(ThroughAir(light, Vec3f::Zero(), 0), Vec3f::Zero());
-  EXPECT_LT(ThroughAir(light, Vec3f::Zero(), 10).norm(), ThroughAir(light, Vec3f::Zero(), 100).norm());
+  EXPECT_LT(ThroughAir(light, Vec3f::Zero(), 10).norm(),
+            ThroughAir(light, Vec3f::Zero(), 100).norm());
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ TEST(Mesh, EveryVehicleFillsItsCuboidAndStandsOnItsWheels) {
       for (int axis : {0, 1}) {
         EXPECT_GE(extent.low[axis], -0.5f * dims[axis] - slack) << object.label << " " << object.id;
         EXPECT_LE(extent.high[axis], 0.5f * dims[axis] + slack) << object.label << " " << object.id;
-        EXPECT_GE((extent.high - extent.low)[axis], (object.label == "Tree" ? 0.6f : 0.95f) * dims[axis]);
+        EXPECT_GE((extent.high - extent.low)[axis],
+                  (object.label == "Tree" ? 0.6f : 0.95f) * dims[axis]);
       }
       EXPECT_NEAR(extent.low.z(), 0, 0.01) << object.label;
       EXPECT_LE(extent.high.z(), dims.z() + slack) << object.label;
@@ -80,8 +81,10 @@ TEST(Mesh, VehiclesAreClosedAndFaceOutwards) {
   for (const char* label : {"Car", "Van", "Truck"}) {
     object.label = label;
     const Mesh mesh = MakeCarMesh(MakeCarShape(object, 1));
-    double volume = 0;  // of the tetrahedra from the origin to each triangle; positive where these face outwards
-    for (const auto& [a, b, c] : mesh.triangles) volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6;
+    // of the tetrahedra from the origin to each triangle; positive where these face outwards
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles)
+      volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6;
     EXPECT_GT(volume, 0.4 * object.dims.prod()) << label;
     EXPECT_LT(volume, 0.9 * object.dims.prod()) << label;
   }
@@ -91,7 +94,8 @@ TEST(Mesh, CarsDiffer) {
   sim::WorldObject object;
   object.label = "Car";
   object.dims = {4.2, 1.8, 1.5};
-  const CarShape a = MakeCarShape(object, 1), b = MakeCarShape(object, 2), again = MakeCarShape(object, 1);
+  const CarShape a = MakeCarShape(object, 1), b = MakeCarShape(object, 2),
+                 again = MakeCarShape(object, 1);
   EXPECT_NE(a.roof_rear, b.roof_rear);
   EXPECT_EQ(a.roof_rear, again.roof_rear);
 }

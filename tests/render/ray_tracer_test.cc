@@ -47,7 +47,8 @@ TEST(RayTracer, NothingIsNothing) {
 
 TEST(RayTracer, TurnsMeshesAsTold) {
   const RayTracer tracer({UnitBox()});
-  const Pose quarter(lie::SO3<double>::Exp(Vec3(0, 0, 0.5 * M_PI)), Vec3(0, 0, 0));  // now from x -1 to 0
+  // now from x -1 to 0
+  const Pose quarter(lie::SO3<double>::Exp(Vec3(0, 0, 0.5 * M_PI)), Vec3(0, 0, 0));
   const Scene scene = tracer.MakeScene({{0, quarter}});
   std::vector<Hit> hits;
   scene.Trace({{{-3, 0.5f, 0.5f}, {1, 0, 0}, 10}}, hits);

@@ -27,8 +27,8 @@ sim::HalvWorld OneObject(const char* label, const Vec3& dims, double ahead, doub
   object = {};
   object.label = label;
   object.dims = dims;
-  object.T_world_object = {
-      Pose(scene.world.gravity.Upright(yaw), Vec3(0, scene.world.camera_height_m - 0.5 * dims.z(), ahead))};
+  object.T_world_object = {Pose(scene.world.gravity.Upright(yaw),
+                                Vec3(0, scene.world.camera_height_m - 0.5 * dims.z(), ahead))};
   return scene;
 }
 
@@ -44,7 +44,8 @@ TEST(Renderer, DepthOfTheGroundIsThatOfThePlane) {
   const Camera& camera = scene.world.camera;
   for (int y : {120, 150, 179}) {
     for (int x : {10, 160, 300}) {
-      EXPECT_NEAR(view.depth[view.PixelAt(x, y)], scene.world.camera_height_m * camera.fy / (y - camera.cy), 1e-3);
+      EXPECT_NEAR(view.depth[view.PixelAt(x, y)],
+                  scene.world.camera_height_m * camera.fy / (y - camera.cy), 1e-3);
       EXPECT_EQ(view.identity[view.PixelAt(x, y)], -1);
     }
   }
@@ -53,7 +54,8 @@ TEST(Renderer, DepthOfTheGroundIsThatOfThePlane) {
 
 TEST(Renderer, DepthOfATrucksRearIsThatOfItsCuboid) {
   const Vec3 dims(5, 2, 2.6);
-  const sim::HalvWorld scene = OneObject("Truck", dims, 10, M_PI / 2);  // its rear towards the camera
+  // its rear towards the camera
+  const sim::HalvWorld scene = OneObject("Truck", dims, 10, M_PI / 2);
   const View view = Renderer(scene, 1).Render(0, Side::kLeft);
   const Camera& camera = scene.world.camera;
   const double rear = 10 - 0.5 * dims.x();
@@ -78,8 +80,8 @@ TEST(Renderer, RightImageAgreesWithDepthAndBaseline) {
       if (std::lround(to) < 0) continue;
       const std::size_t at = right.PixelAt(static_cast<int>(std::lround(to)), y);
       ++looked_at;
-      agree +=
-          std::abs(right.depth[at] - depth) < 0.05 * depth && right.identity[at] == left.identity[left.PixelAt(x, y)];
+      agree += std::abs(right.depth[at] - depth) < 0.05 * depth &&
+               right.identity[at] == left.identity[left.PixelAt(x, y)];
     }
   }
   EXPECT_GT(looked_at, left.width * left.height / 3);
@@ -101,15 +103,16 @@ TEST(Renderer, IdentitiesCoverTheProjectedBoxes) {
         if (id < 0) continue;
         EXPECT_TRUE(scene.world.objects[id].IsThereAt(frame));
         Box2d& box = seen[id];
-        box = {std::min<double>(box.left, x), std::min<double>(box.top, y), std::max<double>(box.right, x),
-               std::max<double>(box.bottom, y)};
+        box = {std::min<double>(box.left, x), std::min<double>(box.top, y),
+               std::max<double>(box.right, x), std::max<double>(box.bottom, y)};
         ++pixels[id];
       }
     }
     for (const sim::WorldObject& object : scene.world.objects) {
       if (object.label != "Car" && object.label != "Van") continue;
-      const auto box = ProjectCuboid(scene.world.truth.poses[frame].inverse() * object.PoseAt(frame), object.dims,
-                                     scene.world.camera);
+      const auto box =
+          ProjectCuboid(scene.world.truth.poses[frame].inverse() * object.PoseAt(frame),
+                        object.dims, scene.world.camera);
       // Nearly all of a vehicle's box is the vehicle where nothing hides it.
       if (!box || box->Area() < 900 || pixels[object.id] < 0.55 * box->Area()) continue;
       ++boxes;
@@ -143,8 +146,10 @@ TEST(Renderer, DrivingAndChurnedVehiclesAreWhereTheWorldSays) {
     }
     return count == 0 ? -1 : sum / count;
   };
-  const double moved = scene.world.camera.fx * 0.2 * 9;  // at a depth of 1 m; the car's side is 5.1 m away
-  EXPECT_THAT(columns(9) - columns(0), testing::AllOf(testing::Gt(moved / 6.5), testing::Lt(moved / 5)));
+  // at a depth of 1 m; the car's side is 5.1 m away
+  const double moved = scene.world.camera.fx * 0.2 * 9;
+  EXPECT_THAT(columns(9) - columns(0),
+              testing::AllOf(testing::Gt(moved / 6.5), testing::Lt(moved / 5)));
   EXPECT_EQ(columns(10), -1) << "gone";
 }
 
@@ -157,12 +162,14 @@ TEST(Renderer, SecondPassHasAnotherLight) {
   const View before = Renderer(scene, 1).Render(back - 1, Side::kLeft),
              after = Renderer(scene, 1).Render(back, Side::kLeft);
   double difference = 0;
-  for (std::size_t i = 0; i < before.bgr.size(); ++i) difference += std::abs(before.bgr[i] - after.bgr[i]);
+  for (std::size_t i = 0; i < before.bgr.size(); ++i)
+    difference += std::abs(before.bgr[i] - after.bgr[i]);
   EXPECT_GT(difference / static_cast<double>(before.bgr.size()), 8);
   EXPECT_EQ(before.depth, after.depth);
   options.back = options.out;
   const Renderer same(scene, 1, options);
-  EXPECT_NEAR(Brightness(same.Render(back - 1, Side::kLeft)), Brightness(same.Render(back, Side::kLeft)), 2);
+  EXPECT_NEAR(Brightness(same.Render(back - 1, Side::kLeft)),
+              Brightness(same.Render(back, Side::kLeft)), 2);
 }
 
 TEST(Renderer, OptionsDoWhatTheySay) {
@@ -170,13 +177,16 @@ TEST(Renderer, OptionsDoWhatTheySay) {
   RenderOptions options;
   const View view = Renderer(scene, 1, options).Render(0, Side::kLeft);
   options.out.exposure = 0.5;
-  EXPECT_LT(Brightness(Renderer(scene, 1, options).Render(0, Side::kLeft)), 0.85 * Brightness(view));
+  EXPECT_LT(Brightness(Renderer(scene, 1, options).Render(0, Side::kLeft)),
+            0.85 * Brightness(view));
   options = {};
   options.noise = 0;
   const View clean = Renderer(scene, 1, options).Render(0, Side::kLeft);
   double squares = 0;
-  for (std::size_t i = 0; i < view.bgr.size(); ++i) squares += std::pow(view.bgr[i] - clean.bgr[i], 2);
-  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(view.bgr.size())), RenderOptions().noise, 0.2);
+  for (std::size_t i = 0; i < view.bgr.size(); ++i)
+    squares += std::pow(view.bgr[i] - clean.bgr[i], 2);
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(view.bgr.size())), RenderOptions().noise,
+              0.2);
   options.vignetting = 0.9;
   const View dark = Renderer(scene, 1, options).Render(0, Side::kLeft);
   EXPECT_LT(dark.bgr[0], 0.7 * clean.bgr[0]);
@@ -193,7 +203,8 @@ TEST(Renderer, BadInputIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("vignetting"), testing::HasSubstr("exposure")));
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("vignetting"), testing::HasSubstr("exposure")));
   }
   sim::HalvWorld empty = SmallWorld();
   empty.world.truth = {};

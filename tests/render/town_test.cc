@@ -22,7 +22,8 @@ TEST(Town, LeavesRoomForAllThatStandsOrDrives) {
       EXPECT_GT(town.buildings.size(), 40u);
       EXPECT_FALSE(town.trees.empty());
       for (const Building& building : town.buildings) {
-        for (const Vec2f& place : used.places) ASSERT_GE(Distance(building, place), building.wall ? 3.4f : 7.9f);
+        for (const Vec2f& place : used.places)
+          ASSERT_GE(Distance(building, place), building.wall ? 3.4f : 7.9f);
       }
     }
   }

@@ -17,8 +17,8 @@ double Dot(const std::vector<float>& a, const std::vector<float>& b) {
   return sum;
 }
 
-/// A car 15 m ahead in frame 0, seen by a camera that has driven round it in frame 1; `label` looks alike from all
-/// sides if it is a pole.
+/// A car 15 m ahead in frame 0, seen by a camera that has driven round it in frame 1; `label` looks
+/// alike from all sides if it is a pole.
 struct Scene {
   World world;
   SimulatedDetections detections;
@@ -63,7 +63,8 @@ TEST(AddAppearance, OppositeSidesOfACarLookDifferentThoseOfAPoleDoNot) {
 
 TEST(AddAppearance, VectorsAreOfUnitLengthAndDeterministic) {
   Scene a("Car"), b("Car"), c("Car");
-  a.detections.identity[1] = b.detections.identity[1] = -1;  // false positives look like something, too
+  // false positives look like something, too
+  a.detections.identity[1] = b.detections.identity[1] = -1;
   AddAppearance(a.world, {}, 3, a.detections);
   AddAppearance(b.world, {}, 3, b.detections);
   AddAppearance(c.world, {}, 4, c.detections);
@@ -82,7 +83,8 @@ TEST(AddAppearance, ColourIsThatOfThePaint) {
   AddAppearance(red.world, {}, 1, red.detections);
   AddAppearance(blue.world, {}, 2, blue.detections);
   EXPECT_GT(Dot(red.At(0).colour, red.At(1).colour), 0.9);
-  EXPECT_LT(Dot(red.At(0).colour, blue.At(0).colour), Dot(red.At(0).colour, red.At(1).colour) - 0.1);
+  EXPECT_LT(Dot(red.At(0).colour, blue.At(0).colour),
+            Dot(red.At(0).colour, red.At(1).colour) - 0.1);
 }
 
 TEST(DrawPaint, HalfOfAllCarsAreWhiteGreyOrBlack) {

@@ -13,7 +13,8 @@ namespace {
 TEST(Calibration, EveryTargetIsReached) {
   const std::vector<CalibrationRow> rows = Calibrate(3);
   EXPECT_EQ(rows.size(), 12u);
-  for (const CalibrationRow& row : rows) EXPECT_NEAR(row.reached, row.target, 0.1 * row.target) << row.what;
+  for (const CalibrationRow& row : rows)
+    EXPECT_NEAR(row.reached, row.target, 0.1 * row.target) << row.what;
 }
 
 TEST(Calibration, FollowsTheOptions) {
@@ -23,8 +24,9 @@ TEST(Calibration, FollowsTheOptions) {
   options.appearance.other_object = 0.1;
   const std::vector<CalibrationRow> rows = Calibrate(1, options);
   const auto reached = [&](const std::string& part) {
-    const auto row = std::find_if(rows.begin(), rows.end(),
-                                  [&](const CalibrationRow& r) { return r.what.find(part) != std::string::npos; });
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const CalibrationRow& r) {
+      return r.what.find(part) != std::string::npos;
+    });
     return row == rows.end() ? -1 : row->reached;
   };
   EXPECT_NEAR(reached("3D IoU"), 1, 1e-3);

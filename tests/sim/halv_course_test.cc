@@ -33,7 +33,8 @@ TEST(ArcLineArc, LeadsThereAndIsNoDetour) {
     const double straight = std::hypot(to.x - from.x, to.z - from.z);
     EXPECT_GE(LengthOf(pieces), straight - 1e-9);
     EXPECT_LE(LengthOf(pieces), straight + 4 * M_PI * 4);  // never more than two full turns
-    for (const PathPiece& piece : pieces) EXPECT_LE(std::abs(piece.curvature_per_m), 1 / 4. + 1e-12);
+    for (const PathPiece& piece : pieces)
+      EXPECT_LE(std::abs(piece.curvature_per_m), 1 / 4. + 1e-12);
   }
 }
 
@@ -47,11 +48,13 @@ TEST(HalvCourse, MeetsItsWayOutAtTheGivenAngle) {
   for (int number = 1; number <= 4; ++number) {
     const HalvCase& shape = HalvCaseOf(number);
     for (int seed = 0; seed < 20; ++seed) {
-      const HalvCourse course = MakeHalvCourse(shape, shape.viewpoint_low, shape.viewpoint_high, 1, seed);
+      const HalvCourse course =
+          MakeHalvCourse(shape, shape.viewpoint_low, shape.viewpoint_high, 1, seed);
       EXPECT_GE(course.viewpoint_rad, shape.viewpoint_low * M_PI / 180);
       EXPECT_LE(course.viewpoint_rad, shape.viewpoint_high * M_PI / 180);
       const Path::Point meet = course.path.At(shape.meet_m);
-      const double short_of = std::max(0., -shape.after_m);  // the rectangle turns into the way out just before
+      // the rectangle turns into the way out just before
+      const double short_of = std::max(0., -shape.after_m);
       const Path::Point again = course.path.At(course.last_leg_m + shape.before_m - short_of);
       EXPECT_LT(std::hypot(meet.x - again.x, meet.z - again.z), short_of + 2.) << number;
       if (shape.along_m > 0) {
@@ -59,7 +62,8 @@ TEST(HalvCourse, MeetsItsWayOutAtTheGivenAngle) {
         EXPECT_NEAR(std::abs(WrapAngle(end.heading - meet.heading)), M_PI, 1e-9);
         EXPECT_NEAR(end.x, meet.x, 1e-9);
       }
-      EXPECT_NEAR(std::abs(WrapAngle(again.heading - meet.heading)), course.viewpoint_rad, 1e-9) << number;
+      EXPECT_NEAR(std::abs(WrapAngle(again.heading - meet.heading)), course.viewpoint_rad, 1e-9)
+          << number;
       EXPECT_GT(course.path.length(), 110);
       EXPECT_LT(course.path.length(), 390);
     }

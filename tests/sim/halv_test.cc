@@ -40,7 +40,8 @@ TEST(HalvWorld, IsSane) {
       for (const WorldObject& object : world.objects) {
         labels.insert(object.label);
         for (const Pose& pose : object.T_world_object)
-          EXPECT_NEAR(pose.translation().y() + 0.5 * object.dims.z(), world.camera_height_m, 1e-9);  // on the ground
+          EXPECT_NEAR(pose.translation().y() + 0.5 * object.dims.z(), world.camera_height_m,
+                      1e-9);  // on the ground
       }
       for (const char* label : {"Car", "Pole", "Tree"}) EXPECT_TRUE(labels.count(label)) << label;
     }
@@ -74,14 +75,16 @@ TEST(HalvWorld, SixtyPercentOfTheStallsAreTaken) {
   HalvScene full = Case(1), usual = Case(1);
   full.taken_fraction = 1;
   const auto parked = [](const World& world) {
-    return std::count_if(world.objects.begin(), world.objects.end(),
-                         [](const WorldObject& object) { return IsVehicle(object) && !object.driving(); });
+    return std::count_if(world.objects.begin(), world.objects.end(), [](const WorldObject& object) {
+      return IsVehicle(object) && !object.driving();
+    });
   };
   const double stalls = static_cast<double>(parked(MakeHalvWorld(1, full).world));
   EXPECT_NEAR(static_cast<double>(parked(MakeHalvWorld(1, usual).world)) / stalls, 0.6, 0.06);
 }
 
-/// In every case many objects of the way out are detected again, and those of the paper's cases from other sides.
+/// In every case many objects of the way out are detected again, and those of the paper's cases
+/// from other sides.
 TEST(Halv, RevisitsAreRealAndFromOtherDirections) {
   for (int number = 1; number <= 4; ++number) {
     HalvOptions options;
@@ -96,7 +99,8 @@ TEST(Halv, RevisitsAreRealAndFromOtherDirections) {
         seen[frame >= last_leg].insert(sequence.detections.identity[detection.row]);
     }
     std::vector<int> common;
-    std::set_intersection(seen[0].begin(), seen[0].end(), seen[1].begin(), seen[1].end(), std::back_inserter(common));
+    std::set_intersection(seen[0].begin(), seen[0].end(), seen[1].begin(), seen[1].end(),
+                          std::back_inserter(common));
     EXPECT_GE(common.size(), 12u) << "case " << number;
 
     const double degrees = sequence.scene.viewpoint_rad * 180 / M_PI;
@@ -127,8 +131,12 @@ TEST(Halv, RowsTellNothingButTheirScores) {
         ++pairs, in_order += id > sequence.detections.identity[row - 2];
       }
       if (id < 0) continue;  // its true object stands where it was seen
-      const Vec3 seen = sequence.scene.world.truth.poses[frame] * detections[i].T_cam_object.translation();
-      EXPECT_LT((seen - sequence.scene.world.objects[id].PoseAt(static_cast<int>(frame)).translation()).norm(), 8);
+      const Vec3 seen =
+          sequence.scene.world.truth.poses[frame] * detections[i].T_cam_object.translation();
+      EXPECT_LT(
+          (seen - sequence.scene.world.objects[id].PoseAt(static_cast<int>(frame)).translation())
+              .norm(),
+          8);
     }
   }
   EXPECT_NEAR(static_cast<double>(in_order) / pairs, 0.5, 0.1);
@@ -156,7 +164,8 @@ TEST(Halv, ChurnReplacesThatShareOfTheVehicles) {
   EXPECT_NEAR(1 - static_cast<double>(stayed) / before, 0.3, 0.5 / before + 1e-9);
   ASSERT_LT(calm.world.objects.size(), halv.world.objects.size());
   for (const WorldObject& object : calm.world.objects) {  // nothing else has changed
-    EXPECT_EQ(object.PoseAt(0).translation(), halv.world.objects[object.id].PoseAt(0).translation());
+    EXPECT_EQ(object.PoseAt(0).translation(),
+              halv.world.objects[object.id].PoseAt(0).translation());
   }
 
   // What has gone is not detected any more, what comes not before.
@@ -174,15 +183,20 @@ TEST(Halv, ChurnReplacesThatShareOfTheVehicles) {
 TEST(Halv, DriftIsAsLargeAsTold) {
   const Trajectory truth = MakeHalvWorld(1, Case(2)).world.truth;
   for (double ate : {0.3, 2.}) {
-    const CalibratedOdometry result = SimulateOdometryWithAte(truth, HalvDrift().shape, ate, 0.15, 4);
-    const double reached = ComputeAte(result.odometry.poses, truth.poses, Alignment::kSim3).error.rmse;
+    const CalibratedOdometry result =
+        SimulateOdometryWithAte(truth, HalvDrift().shape, ate, 0.15, 4);
+    const double reached =
+        ComputeAte(result.odometry.poses, truth.poses, Alignment::kSim3).error.rmse;
     EXPECT_NEAR(reached, ate, 0.19 * ate);
   }
   HalvOptions options;
   options.drift.ate_m = 0;
   options.drift.shape = {0, 0, 0, 0, 0, 0, 1};
   const HalvSequence perfect = MakeHalv(1, options);
-  EXPECT_LT((perfect.odometry.poses.back().inverse() * perfect.scene.world.truth.poses.back()).Log().norm(), 1e-9);
+  EXPECT_LT((perfect.odometry.poses.back().inverse() * perfect.scene.world.truth.poses.back())
+                .Log()
+                .norm(),
+            1e-9);
 }
 
 TEST(Halv, BadOptionsSayWhatToDo) {
@@ -199,7 +213,8 @@ TEST(Halv, BadOptionsSayWhatToDo) {
   refuse([](auto& o) { o.drift.shape.wander_scale = -1; }, {"wander_scale is -1"});
   refuse([](auto& o) { o.appearance.light = std::nan(""); }, {"light is nan"});
   refuse([](auto& o) { o.appearance.same_side = 0.2; }, {"same_side", "opposite_side"});
-  refuse([](auto& o) { o.scene.viewpoint_low_deg = 90, o.scene.viewpoint_high_deg = 10; }, {"viewpoint_low_deg"});
+  refuse([](auto& o) { o.scene.viewpoint_low_deg = 90, o.scene.viewpoint_high_deg = 10; },
+         {"viewpoint_low_deg"});
   refuse([](auto& o) { o.drift.shape = {0, 0, 0, 0, 0, 0, 1}; }, {"--ate-m"});
   refuse([](auto& o) { o.drift.ate_m = -0.5; }, {"ate_m", "0 or more", "-1"});
   refuse([](auto& o) { o.scene.viewpoint_low_deg = -0.5; }, {"viewpoint_low_deg", "-1"});

@@ -13,7 +13,8 @@ namespace {
 
 std::string Car(double x, double y, double yaw, const std::string& more = "") {
   char text[256];
-  std::snprintf(text, sizeof text, R"({"x": %g, "y": %g, "z": 0.4, "qx": 0, "qy": 0, "qz": %.9f, "w": %.9f%s})", x, y,
+  std::snprintf(text, sizeof text,
+                R"({"x": %g, "y": %g, "z": 0.4, "qx": 0, "qy": 0, "qz": %.9f, "w": %.9f%s})", x, y,
                 std::sin(0.5 * yaw), std::cos(0.5 * yaw), more.c_str());
   return text;
 }
@@ -21,9 +22,9 @@ std::string Car(double x, double y, double yaw, const std::string& more = "") {
 TEST(ReadLayout, KnowsTheLengthAxisAndLeavesOutDoubles) {
   const TempFolder folder;
   // Side by side along x, 2.6 m apart, yaw 0: their length must be along y, which is ahead.
-  const std::string path =
-      folder.Write("a.json", "[" + Car(0, 0, 0) + ",\n" + Car(2.6, 0, 0) + ",\n" +
-                                 Car(5.2, 0, 0, R"(, "label": "Van")") + ",\n" + Car(5.2, 0.1, 0) + "]");
+  const std::string path = folder.Write(
+      "a.json", "[" + Car(0, 0, 0) + ",\n" + Car(2.6, 0, 0) + ",\n" +
+                    Car(5.2, 0, 0, R"(, "label": "Van")") + ",\n" + Car(5.2, 0.1, 0) + "]");
   const LayoutFile file = ReadLayout(path);
   ASSERT_EQ(file.slots.size(), 3u);
   EXPECT_EQ(file.doubles, 1);

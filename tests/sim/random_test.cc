@@ -10,7 +10,8 @@ namespace {
 
 TEST(Random, IsTheSameEverywhere) {
   Random random(42);
-  EXPECT_DOUBLE_EQ(random.Uniform(), 0.75515553295453897);  // first output of mt19937_64(42), shifted
+  // first output of mt19937_64(42), shifted
+  EXPECT_DOUBLE_EQ(random.Uniform(), 0.75515553295453897);
 }
 
 TEST(Random, SameSeedSameNumbers) {

@@ -16,7 +16,8 @@ constexpr OdometryNoise kNoOdometryNoise{0, 0, 0, 0};
 
 DetectorNoise Perfect() {
   DetectorNoise noise;
-  noise.scale = noise.flip_rate = noise.box_sigma_px = noise.miss_rate_near = noise.miss_rate_far = 0;
+  noise.scale = noise.flip_rate = noise.box_sigma_px = noise.miss_rate_near = noise.miss_rate_far =
+      0;
   noise.false_positives = 0;
   return noise;
 }
@@ -25,7 +26,8 @@ DetectorNoise Perfect() {
 World OneCar(int frames, double range) {
   World world;
   world.camera = {700, 700, 600, 200, Vec3(0, 0, 0), 1200, 400};
-  world.objects.push_back({0, "Car", Vec3(4, 1.7, 1.5), {Pose(GravityFrame().Upright(0.3), Vec3(0, 1, range))}});
+  world.objects.push_back(
+      {0, "Car", Vec3(4, 1.7, 1.5), {Pose(GravityFrame().Upright(0.3), Vec3(0, 1, range))}});
   world.truth.poses.resize(frames);
   for (int i = 0; i < frames; ++i) world.truth.stamps.push_back(0.1 * i);
   return world;
@@ -50,7 +52,9 @@ TEST(SimulateOdometry, WithoutNoiseIsTheTruth) {
 TEST(SimulateOdometry, ScaleErrorMakesItLonger) {
   const World world = MakeStreet(1);
   const Trajectory odometry = SimulateOdometry(world.truth, {0.03, 0, 0, 0}, 1);
-  EXPECT_LT((odometry.poses.back().translation() - 1.03 * world.truth.poses.back().translation()).norm(), 1e-6);
+  EXPECT_LT(
+      (odometry.poses.back().translation() - 1.03 * world.truth.poses.back().translation()).norm(),
+      1e-6);
 }
 
 TEST(SimulateOdometry, NoiseIsARandomWalkOfTheGivenSize) {
@@ -63,17 +67,20 @@ TEST(SimulateOdometry, NoiseIsARandomWalkOfTheGivenSize) {
     const Pose end = SimulateOdometry(world.truth, noise, seed).poses.back();
     squares += std::pow((world.truth.poses.back().inverse() * end).so3().Log().y(), 2);
   }
-  EXPECT_NEAR(std::sqrt(squares / kRuns), 1e-3 * std::sqrt(distance), 0.15 * 1e-3 * std::sqrt(distance));
+  EXPECT_NEAR(std::sqrt(squares / kRuns), 1e-3 * std::sqrt(distance),
+              0.15 * 1e-3 * std::sqrt(distance));
 }
 
 TEST(SimulateOdometry, StandingStillHasNoNoise) {
   const World world = OneCar(20, 10);
-  for (const Pose& pose : SimulateOdometry(world.truth, {}, 1).poses) EXPECT_LT(pose.Log().norm(), 1e-12);
+  for (const Pose& pose : SimulateOdometry(world.truth, {}, 1).poses)
+    EXPECT_LT(pose.Log().norm(), 1e-12);
 }
 
 TEST(SimulateOdometry, Degenerate) {
   EXPECT_EQ(SimulateOdometry({}, {}, 1).size(), 0u);
-  EXPECT_EQ(SimulateOdometry({{0}, {Pose::Trans(1, 2, 3)}}, {}, 1).poses[0].translation().norm(), 0);
+  EXPECT_EQ(SimulateOdometry({{0}, {Pose::Trans(1, 2, 3)}}, {}, 1).poses[0].translation().norm(),
+            0);
   EXPECT_THROW(SimulateOdometry({}, {std::nan(""), 0, 0, 0}, 1), Error);
 }
 
@@ -125,12 +132,14 @@ TEST(SimulateDetections, RowsBoxesAndScoresAreValid) {
 
 TEST(SimulateDetections, SameSeedSameDetections) {
   const World world = ShortStreet(2);
-  const SimulatedDetections a = SimulateDetections(world, {}, 9), b = SimulateDetections(world, {}, 9),
+  const SimulatedDetections a = SimulateDetections(world, {}, 9),
+                            b = SimulateDetections(world, {}, 9),
                             c = SimulateDetections(world, {}, 10);
   ASSERT_EQ(a.identity, b.identity);
   for (std::size_t frame = 0; frame < a.frames.size(); ++frame) {
     for (std::size_t i = 0; i < a.frames[frame].size(); ++i) {
-      EXPECT_EQ(a.frames[frame][i].T_cam_object.translation(), b.frames[frame][i].T_cam_object.translation());
+      EXPECT_EQ(a.frames[frame][i].T_cam_object.translation(),
+                b.frames[frame][i].T_cam_object.translation());
     }
   }
   EXPECT_NE(a.identity, c.identity);
@@ -151,7 +160,8 @@ Errors RangeErrors(const World& world, const DetectorNoise& noise, std::uint64_t
       const Vec3 ray = world.objects[0].PoseAt(0).translation().normalized();
       const double error = detection.T_cam_object.translation().dot(ray) - true_range;
       errors.mean += error, squares += error * error, errors.count += 1;
-      errors.flips += std::abs(WrapAngle(GravityFrame().YawOf(detection.T_cam_object.so3()) - 0.3)) > M_PI / 2;
+      errors.flips +=
+          std::abs(WrapAngle(GravityFrame().YawOf(detection.T_cam_object.so3()) - 0.3)) > M_PI / 2;
     }
   }
   errors.mean /= errors.count;
@@ -167,8 +177,9 @@ TEST(SimulateDetections, NoiseGrowsWithRangeAsTold) {
   noise.flip_rate = 0.1;
   for (double range : {10., 40.}) {
     const World world = OneCar(4000, range);
-    const double sigma =
-        SigmasAt(world.objects[0].PoseAt(0).translation().norm(), noise.sigmas, NoiseScale::Uniform(2)).radial;
+    const double sigma = SigmasAt(world.objects[0].PoseAt(0).translation().norm(), noise.sigmas,
+                                  NoiseScale::Uniform(2))
+                             .radial;
     const Errors errors = RangeErrors(world, noise, 3);
     EXPECT_EQ(errors.count, 4000);
     EXPECT_NEAR(errors.sigma, sigma, 0.05 * sigma);
@@ -182,7 +193,8 @@ TEST(SimulateDetections, AShareOfTheVarianceIsConstantPerObject) {
   noise.scale = 1;
   noise.constant_fraction = 0.5;
   const World world = OneCar(40, 20);
-  const double sigma = SigmasAt(world.objects[0].PoseAt(0).translation().norm(), noise.sigmas, NoiseScale()).radial;
+  const double sigma =
+      SigmasAt(world.objects[0].PoseAt(0).translation().norm(), noise.sigmas, NoiseScale()).radial;
   double within = 0, between = 0;
   constexpr int kRuns = 300;
   for (int seed = 0; seed < kRuns; ++seed) {
@@ -205,7 +217,8 @@ TEST(SimulateDetections, MissesGrowWithRange) {
   for (double range : {12., 48.}) {
     const World world = OneCar(4000, range);
     const double expected = 0.1 + 0.6 * world.objects[0].PoseAt(0).translation().norm() / 60;
-    const double detected = static_cast<double>(SimulateDetections(world, noise, 5).identity.size()) / 4000;
+    const double detected =
+        static_cast<double>(SimulateDetections(world, noise, 5).identity.size()) / 4000;
     EXPECT_NEAR(1 - detected, expected, 0.03);
   }
   EXPECT_TRUE(SimulateDetections(OneCar(10, 61), noise, 5).identity.empty());
@@ -221,7 +234,8 @@ TEST(SimulateDetections, HiddenAndCutOffObjectsAreNotSeen) {
   EXPECT_EQ(SimulateDetections(world, Perfect(), 1).identity, std::vector<int>{0});
   world.objects[1].T_world_object[0].translation().x() = 15;
   EXPECT_EQ(SimulateDetections(world, Perfect(), 1).identity.size(), 2u);
-  world.objects[1].T_world_object[0].translation().x() = 40 * 600. / 700 + 1.5;  // mostly beyond the right border
+  // mostly beyond the right border
+  world.objects[1].T_world_object[0].translation().x() = 40 * 600. / 700 + 1.5;
   EXPECT_EQ(SimulateDetections(world, Perfect(), 1).identity.size(), 1u);
   world.objects[1].T_world_object[0].translation() = Vec3(0, 1, -20);
   EXPECT_EQ(SimulateDetections(world, Perfect(), 1).identity.size(), 1u);
@@ -233,7 +247,8 @@ TEST(SimulateDetections, FalsePositivesHaveTheirRate) {
   World world = OneCar(4000, 20);
   world.objects.clear();
   const SimulatedDetections result = SimulateDetections(world, noise, 1);
-  EXPECT_TRUE(std::all_of(result.identity.begin(), result.identity.end(), [](int id) { return id == -1; }));
+  EXPECT_TRUE(
+      std::all_of(result.identity.begin(), result.identity.end(), [](int id) { return id == -1; }));
   EXPECT_NEAR(static_cast<double>(result.identity.size()) / 4000, 0.5, 0.05);
 }
 

@@ -17,7 +17,8 @@ void ExpectSame(const Pose& a, const Pose& b) {
 
 void ExpectSame(const World& a, const World& b) {
   ASSERT_EQ(a.objects.size(), b.objects.size());
-  for (std::size_t i = 0; i < a.objects.size(); ++i) ExpectSame(a.objects[i].PoseAt(0), b.objects[i].PoseAt(0));
+  for (std::size_t i = 0; i < a.objects.size(); ++i)
+    ExpectSame(a.objects[i].PoseAt(0), b.objects[i].PoseAt(0));
 }
 
 void ExpectSane(const World& world, int frames) {
@@ -39,9 +40,10 @@ void ExpectSane(const World& world, int frames) {
 }
 
 int Count(const World& world, const std::string& label, bool driving) {
-  return static_cast<int>(std::count_if(world.objects.begin(), world.objects.end(), [&](const WorldObject& object) {
-    return object.label == label && object.driving() == driving;
-  }));
+  return static_cast<int>(
+      std::count_if(world.objects.begin(), world.objects.end(), [&](const WorldObject& object) {
+        return object.label == label && object.driving() == driving;
+      }));
 }
 
 /// Nothing that stands overlaps: circles within the cuboids' widths.
@@ -71,7 +73,8 @@ TEST(MakeStreet, LeavesTheLaneFree) {
   for (const WorldObject& object : world.objects) {
     if (object.driving()) continue;
     for (const Pose& T_world_cam : world.truth.poses) {
-      const double distance = (T_world_cam.translation() - object.PoseAt(0).translation()).head<3>().norm();
+      const double distance =
+          (T_world_cam.translation() - object.PoseAt(0).translation()).head<3>().norm();
       EXPECT_GT(distance, 1.5);
     }
   }

@@ -26,7 +26,8 @@ class WriteSequenceTest : public testing::Test {
  protected:
   void SetUp() override {
     const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("sslcd_" + std::to_string(getpid()) + "_" + test->name());
+    folder_ =
+        fs::path(testing::TempDir()) / ("sslcd_" + std::to_string(getpid()) + "_" + test->name());
     StreetOptions options;
     options.frames = 40;
     world_ = MakeStreet(3, options);
@@ -62,7 +63,8 @@ TEST_F(WriteSequenceTest, SameBytesEveryTimeAndNoTemporaries) {
   int files = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "b")) {
     ++files;
-    EXPECT_EQ(Read(entry.path()), Read(folder_ / "a" / "deep" / entry.path().filename())) << entry.path();
+    EXPECT_EQ(Read(entry.path()), Read(folder_ / "a" / "deep" / entry.path().filename()))
+        << entry.path();
     EXPECT_FALSE(Read(entry.path()).empty());
   }
   EXPECT_EQ(files, 7);
@@ -86,7 +88,9 @@ TEST_F(WriteSequenceTest, TheReaderGetsItAllBack) {
   EXPECT_EQ(static_cast<std::size_t>(dataset.rows_read), detections_.identity.size());
   EXPECT_EQ(dataset.rows_dropped, 0);
 
-  const auto difference = [](const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); };
+  const auto difference = [](const Pose& a, const Pose& b) {
+    return (a.inverse() * b).Log().norm();
+  };
   ASSERT_TRUE(dataset.groundtruth);
   ASSERT_EQ(dataset.frames.size(), world_.truth.size());
   ASSERT_EQ(dataset.groundtruth->size(), world_.truth.size());

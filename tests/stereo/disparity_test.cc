@@ -42,7 +42,8 @@ TEST(MatchInside, DisparitiesAreNotPulledToWholePixels) {
     const double truth = 12 + share;
     scene.Add(0, 450 * 0.3 / truth + 1, 0, {30, 2, 12});
     scene.Render();
-    const DisparityPatch patch = MatchInside({scene.left, scene.right}, {300, 60, 420, 150}, 40, 1, 1);
+    const DisparityPatch patch =
+        MatchInside({scene.left, scene.right}, {300, 60, 420, 150}, 40, 1, 1);
     std::vector<float> values;
     for (int y = 0; y < patch.values.rows; ++y) {
       for (int x = 0; x < patch.values.cols; ++x)
@@ -59,7 +60,8 @@ TEST(MatchInside, CountsFromWhatIsInfinitelyFar) {
     scene.camera.disparity_at_infinity = at_infinity;
     scene.Add(0, 450 * 0.3 / 15.2 + 1, 0, {30, 2, 12});
     scene.Render();
-    const DisparityPatch patch = MatchInside(GreyOf(scene.view(), scene.camera), {300, 60, 420, 150}, 20, 1, 1);
+    const DisparityPatch patch =
+        MatchInside(GreyOf(scene.view(), scene.camera), {300, 60, 420, 150}, 20, 1, 1);
     std::vector<float> values;
     for (int y = 0; y < patch.values.rows; ++y) {
       for (int x = 0; x < patch.values.cols; ++x)
@@ -73,7 +75,8 @@ TEST(MatchInside, CountsFromWhatIsInfinitelyFar) {
 TEST(MatchInside, NothingIsKnownWithoutPixelsOrTexture) {
   StereoScene scene;
   scene.Render();
-  for (const Box2d& box : {Box2d{-100, 10, -50, 60}, Box2d{700, 10, 800, 60}, Box2d{50, 50, 50, 60}, Box2d{}})
+  for (const Box2d& box :
+       {Box2d{-100, 10, -50, 60}, Box2d{700, 10, 800, 60}, Box2d{50, 50, 50, 60}, Box2d{}})
     EXPECT_TRUE(MatchInside({scene.left, scene.right}, box, 40, 1, 1).values.empty());
   const cv::Mat black(scene.left.size(), CV_8U, cv::Scalar(0));
   const DisparityPatch patch = MatchInside({black, black}, {200, 100, 300, 200}, 40, 1, 1);

@@ -11,7 +11,8 @@
 namespace sslcd {
 namespace {
 
-/// Two cameras that look at the ground 7 m ahead of both, the second one turned by `turn_deg` about that.
+/// Two cameras that look at the ground 7 m ahead of both, the second one turned by `turn_deg` about
+/// that.
 struct TwoViews {
   StereoScene a, b;
   Pose T_a_b;
@@ -22,7 +23,8 @@ struct TwoViews {
     T_a_b = spot * Pose::RotY(turn_deg * M_PI / 180) * Pose::Trans(0.2, 0, -7);
     b.T_scene_cam = T_a_b;
   }
-  std::optional<RelativePose> Align(const Pose& guess, const GroundAlignmentOptions& options = {}) const {
+  std::optional<RelativePose> Align(const Pose& guess,
+                                    const GroundAlignmentOptions& options = {}) const {
     return AlignGround(a.view(), b.view(), a.camera, guess, {}, options);
   }
 };

@@ -34,7 +34,8 @@ TEST(EstimateGround, IsNotMovedByWhatStandsOnIt) {
   scene.Add(-2, 5, 0.3, {4, 1.8, 1.5});
   scene.Add(2.5, 7, 1.2, {4, 1.8, 1.5});
   scene.Render();
-  const GroundPlane without = EstimateGround(scene.view(), scene.camera, {}, {});  // nobody says where they are
+  // nobody says where they are
+  const GroundPlane without = EstimateGround(scene.view(), scene.camera, {}, {});
   EXPECT_NEAR(without.height_m, 1.2, 0.03);
   EXPECT_NEAR(without.up.z(), 0, 4e-3);
 }
@@ -83,8 +84,9 @@ TEST(EstimateGround, WithoutEvidenceThePriorIsTheAnswer) {
   options.height_m = 1.4;
   const cv::Mat black(scene.left.size(), CV_8U, cv::Scalar(0));
   const Box2d all{0, 0, 640, 360};
-  for (const GroundPlane& plane : {EstimateGround({ViewOf(black), ViewOf(black)}, scene.camera, {}, options),
-                                   EstimateGround(scene.view(), scene.camera, {all}, options)}) {
+  for (const GroundPlane& plane :
+       {EstimateGround({ViewOf(black), ViewOf(black)}, scene.camera, {}, options),
+        EstimateGround(scene.view(), scene.camera, {all}, options)}) {
     EXPECT_NEAR(plane.height_m, 1.4, 1e-9);
     EXPECT_EQ(plane.up, Vec3(0, -1, 0));
     EXPECT_EQ(plane.support, 0);

@@ -23,7 +23,8 @@ LiftOptions Options() {
 }
 
 double YawError(const LiftedBox& lifted, double yaw) {
-  return std::abs(WrapAngle(GravityFrame().YawOf(lifted.detection.T_cam_object.rotation()) - yaw, kPi));
+  return std::abs(
+      WrapAngle(GravityFrame().YawOf(lifted.detection.T_cam_object.rotation()) - yaw, kPi));
 }
 
 TEST(LiftBoxes, FindsACarThatShowsTwoSides) {
@@ -33,11 +34,14 @@ TEST(LiftBoxes, FindsACarThatShowsTwoSides) {
       scene.camera.disparity_at_infinity = yaw > 0.7 ? 1.3 : 0;
       scene.Add(1, z, yaw, kCar);
       scene.Render();
-      const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 0.8, scene.BoxOf(0)}}, Options());
+      const auto lifted =
+          LiftBoxes(scene.view(), scene.camera, {{"Car", 0.8, scene.BoxOf(0)}}, Options());
       ASSERT_EQ(lifted.size(), 1u);
-      ASSERT_EQ(lifted[0].status, LiftStatus::kLifted) << ToString(lifted[0].status) << " yaw " << yaw << " z " << z;
+      ASSERT_EQ(lifted[0].status, LiftStatus::kLifted)
+          << ToString(lifted[0].status) << " yaw " << yaw << " z " << z;
       const Detection& found = lifted[0].detection;
-      const Vec3 error = found.T_cam_object.translation() - scene.blocks[0].T_cam_object.translation();
+      const Vec3 error =
+          found.T_cam_object.translation() - scene.blocks[0].T_cam_object.translation();
       EXPECT_LT(error.norm(), 0.45) << "yaw " << yaw << " z " << z << ": " << error.transpose();
       EXPECT_LT(YawError(lifted[0], yaw), 0.15) << "yaw " << yaw << " z " << z;
       EXPECT_LT((found.dims - kCar).cwiseAbs().maxCoeff(), 0.5) << found.dims.transpose();
@@ -53,7 +57,8 @@ TEST(LiftBoxes, OneSideTellsLittleOfTheLength) {
   StereoScene scene;
   scene.Add(0, 10, kPi / 2, Vec3(5.2, 1.8, 1.5));  // from behind
   scene.Render();
-  const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 1, scene.BoxOf(0)}}, Options());
+  const auto lifted =
+      LiftBoxes(scene.view(), scene.camera, {{"Car", 1, scene.BoxOf(0)}}, Options());
   ASSERT_EQ(lifted[0].status, LiftStatus::kLifted);
   EXPECT_LT(YawError(lifted[0], kPi / 2), 0.1);
   const ClassPrior prior = Options().classes.at("Car");
@@ -74,13 +79,15 @@ TEST(LiftBoxes, CoarseBoxesLeaveTheSidesToTheContour) {
   told.box_sigma_share = 0.12;
   double worst_told = 0, worst = 0;
   for (int i = 0; i < 8; ++i) {
-    const double x = (i & 1 ? 1 : -1) * 0.15 * width, y = (i & 2 ? 1 : -1) * 0.1 * height, both = i & 4 ? 1 : -1;
+    const double x = (i & 1 ? 1 : -1) * 0.15 * width, y = (i & 2 ? 1 : -1) * 0.1 * height,
+                 both = i & 4 ? 1 : -1;
     const Box2d box{exact.left + x, exact.top + y, exact.right + both * x, exact.bottom + both * y};
     const auto error = [&](const LiftOptions& options) {
       const auto lifted = LiftBoxes(scene.view(), scene.camera, {{"Car", 1, box}}, options);
       const Vec3 truth = scene.blocks[0].T_cam_object.translation();
-      return lifted[0].status == LiftStatus::kLifted ? (lifted[0].detection.T_cam_object.translation() - truth).norm()
-                                                     : 10.;
+      return lifted[0].status == LiftStatus::kLifted
+                 ? (lifted[0].detection.T_cam_object.translation() - truth).norm()
+                 : 10.;
     };
     worst_told = std::max(worst_told, error(told));
     worst = std::max(worst, error(Options()));
@@ -96,12 +103,13 @@ TEST(LiftBoxes, WhatIsNearerHidesWithoutMovingWhatIsBehind) {
   scene.Render();
   Box2d visible = scene.BoxOf(1);
   visible.left = scene.BoxOf(0).right;  // as a detector sees it
-  const auto lifted =
-      LiftBoxes(scene.view(), scene.camera, {{"Car", 1, visible}, {"Car", 1, scene.BoxOf(0)}}, Options());
+  const auto lifted = LiftBoxes(scene.view(), scene.camera,
+                                {{"Car", 1, visible}, {"Car", 1, scene.BoxOf(0)}}, Options());
   for (int i : {0, 1}) {
     const Block& truth = scene.blocks[1 - i];
     ASSERT_EQ(lifted[i].status, LiftStatus::kLifted) << i;
-    const Vec3 error = lifted[i].detection.T_cam_object.translation() - truth.T_cam_object.translation();
+    const Vec3 error =
+        lifted[i].detection.T_cam_object.translation() - truth.T_cam_object.translation();
     EXPECT_LT(error.norm(), i == 0 ? 1.2 : 0.45) << i << ": " << error.transpose();
   }
 }
@@ -115,7 +123,8 @@ TEST(LiftBoxes, AnswersInTheReferenceCamera) {
   scene.camera.left.offset = {0.06, 0.01, -0.02};
   const auto there = LiftBoxes(scene.view(), scene.camera, {box}, Options());
   ASSERT_EQ(there[0].status, LiftStatus::kLifted);
-  const Vec3 shift = here[0].detection.T_cam_object.translation() - there[0].detection.T_cam_object.translation();
+  const Vec3 shift =
+      here[0].detection.T_cam_object.translation() - there[0].detection.T_cam_object.translation();
   EXPECT_LT((shift - scene.camera.left.offset).norm(), 1e-12);
 }
 
@@ -144,13 +153,16 @@ TEST(LiftBoxes, BadBoxesAreRefusedOneByOne) {
   scene.Render();
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   const std::vector<ImageDetection> boxes{
-      {"Car", 1, {nan, 10, 20, 30}},    {"Car", 1, {10, 10, inf, 90}},    {"Car", 1, {50, 50, 50, 90}},
-      {"Car", 1, {90, 90, 50, 50}},     {"Car", 1, {-200, 10, -100, 90}}, {"Car", 1, {900, 10, 990, 90}},
-      {"Car", 1, {100, 200, 160, 205}}, {"Teapot", 1, scene.BoxOf(0)},    {"Car", 1, {100, 5, 260, 95}},  // sky
+      {"Car", 1, {nan, 10, 20, 30}},    {"Car", 1, {10, 10, inf, 90}},
+      {"Car", 1, {50, 50, 50, 90}},     {"Car", 1, {90, 90, 50, 50}},
+      {"Car", 1, {-200, 10, -100, 90}}, {"Car", 1, {900, 10, 990, 90}},
+      {"Car", 1, {100, 200, 160, 205}}, {"Teapot", 1, scene.BoxOf(0)},
+      {"Car", 1, {100, 5, 260, 95}},  // sky
       {"Car", 1, scene.BoxOf(0)}};
   const LiftStatus expected[] = {
-      LiftStatus::kBadBox, LiftStatus::kBadBox,   LiftStatus::kBadBox,       LiftStatus::kBadBox,  LiftStatus::kBadBox,
-      LiftStatus::kBadBox, LiftStatus::kTooSmall, LiftStatus::kUnknownLabel, LiftStatus::kNoDepth, LiftStatus::kLifted};
+      LiftStatus::kBadBox,  LiftStatus::kBadBox, LiftStatus::kBadBox,   LiftStatus::kBadBox,
+      LiftStatus::kBadBox,  LiftStatus::kBadBox, LiftStatus::kTooSmall, LiftStatus::kUnknownLabel,
+      LiftStatus::kNoDepth, LiftStatus::kLifted};
   const auto lifted = LiftBoxes(scene.view(), scene.camera, boxes, Options());
   ASSERT_EQ(lifted.size(), boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -165,11 +177,13 @@ TEST(LiftBoxes, WithoutTextureThereIsNoDepth) {
   scene.Add(0, 10, 0.7, kCar);
   scene.Render();
   const cv::Mat black(scene.left.size(), CV_8U, cv::Scalar(0));
-  const auto lifted = LiftBoxes({ViewOf(black), ViewOf(black)}, scene.camera, {{"Car", 1, scene.BoxOf(0)}}, Options());
+  const auto lifted = LiftBoxes({ViewOf(black), ViewOf(black)}, scene.camera,
+                                {{"Car", 1, scene.BoxOf(0)}}, Options());
   EXPECT_EQ(lifted[0].status, LiftStatus::kNoDepth);
   // Even grey all over: nothing finite is required but an answer.
   const auto flat = LiftBoxes(scene.view(), scene.camera, {{"Car", 1, scene.BoxOf(0)}}, Options());
-  const bool lost = flat[0].status == LiftStatus::kLifted && !flat[0].detection.T_cam_object.translation().allFinite();
+  const bool lost = flat[0].status == LiftStatus::kLifted &&
+                    !flat[0].detection.T_cam_object.translation().allFinite();
   EXPECT_FALSE(lost);
 }
 

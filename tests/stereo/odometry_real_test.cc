@@ -17,7 +17,8 @@ struct Driven {
 Driven Drive(const StereoFolder& input) {
   Driven driven;
   StereoCamera camera = input.camera;
-  camera.disparity_at_infinity = CheckRig(camera, input.left.size(), Loader(input), {}).disparity_at_infinity;
+  camera.disparity_at_infinity =
+      CheckRig(camera, input.left.size(), Loader(input), {}).disparity_at_infinity;
   StereoOdometry odometry(camera, {});
   for (std::size_t i = 0; i < input.left.size(); ++i) {
     const cv::Mat left = cv::imread(input.left[i], cv::IMREAD_UNCHANGED);
@@ -37,7 +38,8 @@ TEST(StereoOdometryReal, KittiGrey) {
   const SegmentError error = ComputeSegmentError(driven.est, driven.ref, {10, 20, 30, 40, 50});
   EXPECT_GT(error.count, 100);
   EXPECT_LT(error.translation, 0.0075) << "0.0076 as calibrated";
-  // The ground truth of the first frames turns evenly where the images wobble by up to 0.15 degrees a frame.
+  // The ground truth of the first frames turns evenly where the images wobble by up to 0.15 degrees
+  // a frame.
   driven.est.erase(driven.est.begin(), driven.est.begin() + 13);
   driven.ref.erase(driven.ref.begin(), driven.ref.begin() + 13);
   const SegmentError later = ComputeSegmentError(driven.est, driven.ref, {10, 20, 30, 40});

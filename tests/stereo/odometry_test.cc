@@ -23,7 +23,8 @@ using testing::Not;
 std::vector<Pose> Course(int frames, double step_m = 0.4, double turn_rad = 0.04) {
   std::vector<Pose> poses(1);
   for (int i = 1; i < frames; ++i)
-    poses.push_back(poses.back() * Pose::Trans(0, 0, step_m) * Pose::RotY(i < frames / 2 ? 0 : -turn_rad));
+    poses.push_back(poses.back() * Pose::Trans(0, 0, step_m) *
+                    Pose::RotY(i < frames / 2 ? 0 : -turn_rad));
   return poses;
 }
 
@@ -38,16 +39,19 @@ TEST(StereoOdometry, FollowsTheCamera) {
   double chi2 = 0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const OdometryStep step = odometry.AddFrame(tunnel.Look(truth[i]).view());
-    EXPECT_EQ(step.status, i == 0 ? OdometryStatus::kFirst : OdometryStatus::kTracked) << i << ": " << step.reason;
+    EXPECT_EQ(step.status, i == 0 ? OdometryStatus::kFirst : OdometryStatus::kTracked)
+        << i << ": " << step.reason;
     EXPECT_THAT(step.reason, testing::StrEq(""));
     EXPECT_GT(step.points, 100);
     poses.push_back(step.T_odom_cam);
     if (i == 0) continue;
-    const Vec6 error = ((poses[i - 1].inverse() * poses[i]).inverse() * (truth[i - 1].inverse() * truth[i])).Log();
+    const Vec6 error =
+        ((poses[i - 1].inverse() * poses[i]).inverse() * (truth[i - 1].inverse() * truth[i])).Log();
     chi2 += error.dot(step.covariance.ldlt().solve(Eigen::Matrix<double, 6, 1>(error)));
   }
   EXPECT_EQ(Metres(poses[0], Pose()), 0);
-  EXPECT_LT(Metres(poses.back(), truth.back()), 0.0025 * 6) << "a quarter per cent of 6 m, with images of 320x240";
+  EXPECT_LT(Metres(poses.back(), truth.back()), 0.0025 * 6)
+      << "a quarter per cent of 6 m, with images of 320x240";
   EXPECT_LT(Radians(poses.back(), truth.back()), 1e-3);
   const double mean_chi2 = chi2 / (truth.size() - 1);
   EXPECT_GT(mean_chi2, 0.6) << "six, if the covariance is right; it is on the safe side";
@@ -59,7 +63,8 @@ TEST(StereoOdometry, StandsStillWhenTheCameraDoes) {
   StereoOdometry odometry(Tunnel::Camera(), {});
   for (int i = 0; i < 12; ++i) {
     // The noise depends on the pose: a nanometre makes it another one.
-    const OdometryStep step = odometry.AddFrame(tunnel.Look(Pose::Trans(1e-6 * i, 0, 0), 1, 2).view());
+    const OdometryStep step =
+        odometry.AddFrame(tunnel.Look(Pose::Trans(1e-6 * i, 0, 0), 1, 2).view());
     EXPECT_EQ(step.keyframe, i == 0);
     EXPECT_LT(Metres(step.T_odom_cam, Pose()), 3e-3) << i;
     EXPECT_LT(Radians(step.T_odom_cam, Pose()), 5e-4) << i;
@@ -83,9 +88,12 @@ TEST(StereoOdometry, IsThatOfTheReferenceCamera) {
   const Pose expected = T_left_ref.inverse() * truth.back() * T_left_ref;
   EXPECT_LT(Metres(step.T_odom_cam, expected), 0.02);
   EXPECT_GT(Metres(left.T_odom_cam, expected), 0.1) << "or the test shows nothing";
-  // Rotation is the same for both, and so is its covariance; the lever adds to that of the translation.
-  EXPECT_TRUE(step.covariance.bottomRightCorner(3, 3).isApprox(left.covariance.bottomRightCorner(3, 3), 1e-6));
-  EXPECT_FALSE(step.covariance.topLeftCorner(3, 3).isApprox(left.covariance.topLeftCorner(3, 3), 1e-3));
+  // Rotation is the same for both, and so is its covariance; the lever adds to that of the
+  // translation.
+  EXPECT_TRUE(step.covariance.bottomRightCorner(3, 3).isApprox(
+      left.covariance.bottomRightCorner(3, 3), 1e-6));
+  EXPECT_FALSE(
+      step.covariance.topLeftCorner(3, 3).isApprox(left.covariance.topLeftCorner(3, 3), 1e-3));
 }
 
 /// What happens to the frame in the middle of a course, and to those after it.
@@ -99,7 +107,8 @@ struct Mishap {
     const Tunnel tunnel;
     StereoOdometry odometry(Tunnel::Camera(), options);
     for (std::size_t i = 0; i < truth.size(); ++i)
-      steps.push_back(i == kWhen ? what(odometry) : odometry.AddFrame(tunnel.Look(truth[i]).view()));
+      steps.push_back(i == kWhen ? what(odometry)
+                                 : odometry.AddFrame(tunnel.Look(truth[i]).view()));
   }
 };
 
@@ -118,7 +127,9 @@ void ExpectBridged(const Mishap& mishap) {
 
 TEST(StereoOdometry, GoesOnAfterABlackFrame) {
   const cv::Mat black(240, 320, CV_8UC1, cv::Scalar(0));
-  ExpectBridged(Mishap({}, [&](StereoOdometry& o) { return o.AddFrame({ViewOf(black), ViewOf(black)}); }));
+  ExpectBridged(Mishap({}, [&](StereoOdometry& o) {
+    return o.AddFrame({ViewOf(black), ViewOf(black)});
+  }));
 }
 
 TEST(StereoOdometry, SaysWhyThereIsNothingToFollow) {
@@ -156,7 +167,8 @@ TEST(StereoOdometry, StartsAnewWhereItBelievesToBe) {
     step = odometry.AddFrame((i < 6 ? tunnel : other).Look(truth[i]).view());
     statuses.push_back(step.status);
     if (i == 8) {
-      EXPECT_LT(step.covariance.trace(), 1e-3) << "measured from the new start, not from before the gap";
+      EXPECT_LT(step.covariance.trace(), 1e-3)
+          << "measured from the new start, not from before the gap";
     }
   }
   EXPECT_EQ(std::count(statuses.begin(), statuses.end(), OdometryStatus::kLost), 2);
@@ -189,8 +201,10 @@ TEST(StereoOdometry, WithNothingToSeeThereIsNothingToFollow) {
     EXPECT_EQ(Metres(step.T_odom_cam, Pose()), 0);
   }
   const Tunnel tunnel;
-  EXPECT_EQ(odometry.AddFrame(tunnel.Look(Pose()).view()).status, OdometryStatus::kLost) << "nothing to compare with";
-  EXPECT_EQ(odometry.AddFrame(tunnel.Look(Pose::Trans(0, 0, 0.1)).view()).status, OdometryStatus::kTracked);
+  EXPECT_EQ(odometry.AddFrame(tunnel.Look(Pose()).view()).status, OdometryStatus::kLost)
+      << "nothing to compare with";
+  EXPECT_EQ(odometry.AddFrame(tunnel.Look(Pose::Trans(0, 0, 0.1)).view()).status,
+            OdometryStatus::kTracked);
   // A lens cap on one eye only.
   StereoOdometry one_eyed(Tunnel::Camera(), {});
   const Tunnel::Pair pair = tunnel.Look(Pose());
@@ -218,7 +232,8 @@ TEST(StereoOdometry, IsTheSameForAnyNumberOfThreads) {
   for (const int run : {0, 1}) {
     cv::setNumThreads(run == 0 ? 1 : 4);
     StereoOdometry odometry(Tunnel::Camera(), {});
-    for (const Pose& pose : Course(8)) poses[run].push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
+    for (const Pose& pose : Course(8))
+      poses[run].push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
   }
   cv::setNumThreads(threads);
   for (std::size_t i = 0; i < poses[0].size(); ++i)
@@ -233,7 +248,8 @@ TEST(StereoOdometry, NeitherUsesNorMovesTheHostsRandomNumbers) {
     cv::theRNG().state = state;
     StereoOdometry odometry(Tunnel::Camera(), {});
     std::vector<Pose>& run = poses[state != 1];
-    for (const Pose& pose : Course(4)) run.push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
+    for (const Pose& pose : Course(4))
+      run.push_back(odometry.AddFrame(tunnel.Look(pose).view()).T_odom_cam);
     EXPECT_EQ(cv::theRNG().state, state);
   }
   cv::theRNG().state = before;
@@ -253,11 +269,15 @@ TEST(StereoOdometryNoise, IsTrustedAsFarAsRowsAgree) {
   const OdometryNoise ideal = StereoOdometryNoise(0.), real = StereoOdometryNoise();
   const OdometrySigmas far = SigmasOf(Pose::Trans({0, 0, 20}), ideal);
   EXPECT_NEAR(far.rotation, 0.00045, 5e-5);
-  EXPECT_NEAR(far.horizontal, 0.009, 5e-4) << "twice that: rows do not tell of dark or blurred images";
-  EXPECT_NEAR(SigmasOf(Pose::Trans({0, 0, 0.67}), ideal).horizontal, 0.002, 2e-4) << "1.2 mm measured, in all";
-  EXPECT_NEAR(ideal.rotation_turn / real.rotation_turn, ideal.rotation_walk / real.rotation_walk, 1e-12);
+  EXPECT_NEAR(far.horizontal, 0.009, 5e-4)
+      << "twice that: rows do not tell of dark or blurred images";
+  EXPECT_NEAR(SigmasOf(Pose::Trans({0, 0, 0.67}), ideal).horizontal, 0.002, 2e-4)
+      << "1.2 mm measured, in all";
+  EXPECT_NEAR(ideal.rotation_turn / real.rotation_turn, ideal.rotation_walk / real.rotation_walk,
+              1e-12);
   EXPECT_NEAR(StereoOdometryNoise(0.006 / 514).rotation_walk, 1e-4, 4e-6) << "rendered HALV-sim";
-  EXPECT_NEAR(StereoOdometryNoise(0.17 / 718).rotation_walk, real.rotation_walk, 3e-5) << "KITTI in colour";
+  EXPECT_NEAR(StereoOdometryNoise(0.17 / 718).rotation_walk, real.rotation_walk, 3e-5)
+      << "KITTI in colour";
   EXPECT_EQ(StereoOdometryNoise(0.49 / 718).rotation_walk, real.rotation_walk)
       << "KITTI in grey: no worse than unknown";
 }

@@ -21,7 +21,8 @@ struct Scene {
   Scene(int seed, int n_frames, int n_points) {
     std::mt19937 random(seed);
     const auto uniform = [&](double a, double b) { return a + (b - a) * random() / 4294967296.0; };
-    for (int i = 0; i < n_points; ++i) points[i] = Vec3(uniform(-5, 5), uniform(-3, 3), uniform(5, 20));
+    for (int i = 0; i < n_points; ++i)
+      points[i] = Vec3(uniform(-5, 5), uniform(-3, 3), uniform(5, 20));
     for (int f = 0; f < n_frames; ++f) {
       StereoFrame frame{Pose::Trans(0.05 * f, 0, 0.4 * f) * Pose::RotY(0.03 * f), {}};
       for (const auto& [id, point] : points) {
@@ -45,7 +46,8 @@ TEST(OdometryWindow, TriangulateUndoesProject) {
 TEST(OdometryWindow, RefinePoseFindsTheExactPoseInSpiteOfOutliers) {
   Scene scene(1, 2, 60);
   const Pose truth = scene.frames[1].T_odom_left;
-  scene.frames[1].T_odom_left = truth * Pose::Exp((Vec6() << .05, -.03, .04, .01, -.01, .02).finished());
+  scene.frames[1].T_odom_left =
+      truth * Pose::Exp((Vec6() << .05, -.03, .04, .01, -.01, .02).finished());
   for (int i = 0; i < 6; ++i) scene.frames[1].sightings[i].pixel.left += 40;
   for (int i = 6; i < 20; ++i) scene.frames[1].sightings[i].pixel.right = NAN;  // not seen there
   RefinePose(scene.camera, scene.points, 0.15, scene.frames[1]);
@@ -62,7 +64,8 @@ TEST(OdometryWindow, RefineWindowMovesPosesAndPointsToWhereTheyWere) {
   const Scene truth(2, 5, 80);
   Scene scene = truth;
   for (int f = 1; f < 5; ++f)
-    scene.frames[f].T_odom_left *= Pose::Exp((Vec6() << .02 * f, -.01, .03, .004, -.003, .002 * f).finished());
+    scene.frames[f].T_odom_left *=
+        Pose::Exp((Vec6() << .02 * f, -.01, .03, .004, -.003, .002 * f).finished());
   for (auto& [id, point] : scene.points) point *= 1 + 0.01 * (id % 5 - 2);
   scene.points[1000] = Vec3(0, 0, 9);  // seen once: stays
   scene.frames[2].sightings.push_back({1000, {160, 120, 150}});
@@ -70,15 +73,18 @@ TEST(OdometryWindow, RefineWindowMovesPosesAndPointsToWhereTheyWere) {
   for (StereoFrame& frame : scene.frames) frames.push_back(&frame);
   RefineWindow(scene.camera, 1, frames, 1, scene.points);
   EXPECT_EQ(Off(scene.frames[0].T_odom_left, Pose()), 0);
-  for (int f = 1; f < 5; ++f) EXPECT_LT(Off(scene.frames[f].T_odom_left, truth.frames[f].T_odom_left), 1e-3) << f;
-  for (const auto& [id, point] : truth.points) EXPECT_LT((scene.points[id] - point).norm(), 0.01) << id;
+  for (int f = 1; f < 5; ++f)
+    EXPECT_LT(Off(scene.frames[f].T_odom_left, truth.frames[f].T_odom_left), 1e-3) << f;
+  for (const auto& [id, point] : truth.points)
+    EXPECT_LT((scene.points[id] - point).norm(), 0.01) << id;
   EXPECT_EQ(scene.points[1000], Vec3(0, 0, 9));
 }
 
 TEST(OdometryWindow, RefineWindowCalibrates) {
   Scene scene(2, 5, 80);
   scene.camera.disparity_at_infinity = 0.4;  // it was 0
-  for (const StereoSighting& s : scene.frames[0].sightings) scene.points[s.point] = Triangulate(scene.camera, s.pixel);
+  for (const StereoSighting& s : scene.frames[0].sightings)
+    scene.points[s.point] = Triangulate(scene.camera, s.pixel);
   std::vector<StereoFrame*> frames;
   for (StereoFrame& frame : scene.frames) {
     frames.push_back(&frame);
@@ -86,10 +92,12 @@ TEST(OdometryWindow, RefineWindowCalibrates) {
   }
   EXPECT_EQ(RefineWindow(scene.camera, 1, frames, 1, scene.points), 0.4) << "not asked for";
   EXPECT_NEAR(RefineWindow(scene.camera, 1, frames, 1, scene.points, true), 0, 1e-3);
-  EXPECT_LT(Off(scene.frames[4].T_odom_left, Scene(2, 5, 80).frames[4].T_odom_left), 1e-3) << "to scale again";
+  EXPECT_LT(Off(scene.frames[4].T_odom_left, Scene(2, 5, 80).frames[4].T_odom_left), 1e-3)
+      << "to scale again";
 }
 
-// Left columns are off, and right ones with them: where only that is noise, rows and disparities tell the pose.
+// Left columns are off, and right ones with them: where only that is noise, rows and disparities
+// tell the pose.
 TEST(OdometryWindow, WeightsSayWhatIsWorthHow) {
   Eigen::Matrix3d weight;
   weight << 1, 0, 0, 0, 100, 0, 100, 0, -100;
@@ -132,7 +140,8 @@ TEST(OdometryWindow, StepCovarianceIsThatOfManyTrials) {
     RefineWindow(scene.camera, 1, {&scene.frames[0], &scene.frames[1]}, 1, scene.points);
     const Vec6 error = (scene.frames[1].T_odom_left.inverse() * truth).Log();
     scatter += error * error.transpose() / kTrials;
-    told += StepCovariance(scene.camera, scene.frames[0], scene.frames[1], scene.points, 0.5) / kTrials;
+    told +=
+        StepCovariance(scene.camera, scene.frames[0], scene.frames[1], scene.points, 0.5) / kTrials;
   }
   for (int k = 0; k < 6; ++k) {
     const double ratio = std::sqrt(scatter(k, k) / told(k, k));
@@ -147,9 +156,11 @@ TEST(OdometryWindow, ResidualScaleIsTheirStandardDeviation) {
   std::normal_distribution<double> gauss(0, 0.7);
   for (StereoSighting& s : scene.frames[0].sightings)
     s.pixel.left += gauss(random), s.pixel.row += 3 * gauss(random), s.pixel.right = NAN;
-  EXPECT_LT((ResidualScale(scene.camera, scene.frames[0], scene.points) - Vec3(0.7, 2.1, 0)).norm(), 0.2);
+  EXPECT_LT((ResidualScale(scene.camera, scene.frames[0], scene.points) - Vec3(0.7, 2.1, 0)).norm(),
+            0.2);
   for (std::size_t i = 0; i < 40; ++i) scene.frames[0].sightings[i].pixel.row += 30;
-  EXPECT_NEAR(ResidualScale(scene.camera, scene.frames[0], scene.points).y(), 2.1, 0.4) << "by what fits";
+  EXPECT_NEAR(ResidualScale(scene.camera, scene.frames[0], scene.points).y(), 2.1, 0.4)
+      << "by what fits";
   for (StereoSighting& s : scene.frames[0].sightings) s.weight(0, 0) = 10;
   EXPECT_NEAR(ResidualScale(scene.camera, scene.frames[0], scene.points).x(), 7, 1.2) << "weighted";
   scene.frames[0].sightings.clear();
@@ -159,7 +170,8 @@ TEST(OdometryWindow, ResidualScaleIsTheirStandardDeviation) {
 TEST(OdometryWindow, WithoutCommonPointsTheStepIsUnknown) {
   Scene scene(1, 2, 20);
   for (StereoSighting& s : scene.frames[1].sightings) s.point += 1000;
-  EXPECT_GT(StepCovariance(scene.camera, scene.frames[0], scene.frames[1], scene.points, 0.5)(0, 0), 1e4);
+  EXPECT_GT(StepCovariance(scene.camera, scene.frames[0], scene.frames[1], scene.points, 0.5)(0, 0),
+            1e4);
 }
 
 }  // namespace

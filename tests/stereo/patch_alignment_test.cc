@@ -13,7 +13,8 @@ namespace {
 
 Camera TestCamera() {
   Camera camera;
-  camera.fx = 200, camera.fy = 210, camera.cx = 160, camera.cy = 120, camera.width = 320, camera.height = 240;
+  camera.fx = 200, camera.fy = 210, camera.cx = 160, camera.cy = 120, camera.width = 320,
+  camera.height = 240;
   return camera;
 }
 
@@ -22,11 +23,14 @@ Eigen::Vector2d Project(const Vec3& p) {
   return {c.fx * p.x() / p.z() + c.cx, c.fy * p.y() / p.z() + c.cy};
 }
 
-/// A patterned plane: `normal` . x = 1 in the axes of a camera at the origin, seen from `T_first_camera`.
+/// A patterned plane: `normal` . x = 1 in the axes of a camera at the origin, seen from
+/// `T_first_camera`.
 struct Wall {
   Vec3 normal;
 
-  Vec3 Meet(const Vec3& from, const Vec3& ray) const { return from + ray * ((1 - normal.dot(from)) / normal.dot(ray)); }
+  Vec3 Meet(const Vec3& from, const Vec3& ray) const {
+    return from + ray * ((1 - normal.dot(from)) / normal.dot(ray));
+  }
 
   Vec3 At(double column, double row) const {
     const Camera c = TestCamera();
@@ -38,10 +42,13 @@ struct Wall {
     cv::Mat image(c.height, c.width, CV_8U);
     for (int row = 0; row < c.height; ++row) {
       for (int column = 0; column < c.width; ++column) {
-        const Vec3 ray = T_first_camera.so3() * Vec3((column - c.cx) / c.fx, (row - c.cy) / c.fy, 1);
+        const Vec3 ray =
+            T_first_camera.so3() * Vec3((column - c.cx) / c.fx, (row - c.cy) / c.fy, 1);
         const Vec3 p = Meet(T_first_camera.translation(), ray);
-        const double wave = std::sin(9 * p.x() + 2 * p.y()) + std::sin(7 * p.y() - 3 * p.x() + 4 * p.z() + 1);
-        image.at<unsigned char>(row, column) = cv::saturate_cast<unsigned char>(110 + 40 * wave + brighter);
+        const double wave =
+            std::sin(9 * p.x() + 2 * p.y()) + std::sin(7 * p.y() - 3 * p.x() + 4 * p.z() + 1);
+        image.at<unsigned char>(row, column) =
+            cv::saturate_cast<unsigned char>(110 + 40 * wave + brighter);
       }
     }
     return image;
@@ -60,14 +67,16 @@ TEST(PatchAlignment, PlaneHomographyTakesPixelsToWhereThePlaneAppears) {
     ASSERT_TRUE(homography.has_value());
     for (const double row : {170., 200., 230.}) {
       const Eigen::Vector2d there = Vec3(*homography * Vec3(150, row, 1)).hnormalized();
-      EXPECT_LT((there - Project(T_to_from * wall.At(150, row))).norm(), 1e-9) << normal.transpose() << ", " << row;
+      EXPECT_LT((there - Project(T_to_from * wall.At(150, row))).norm(), 1e-9)
+          << normal.transpose() << ", " << row;
     }
   }
 }
 
 TEST(PatchAlignment, PlaneHomographyKnowsWhatCannotBeSeen) {
   const Camera camera = TestCamera();
-  EXPECT_FALSE(PlaneHomography(camera, Pose::Trans(0, 0, -7), {0, 0, 6}, kFacing)) << "behind the second camera";
+  EXPECT_FALSE(PlaneHomography(camera, Pose::Trans(0, 0, -7), {0, 0, 6}, kFacing))
+      << "behind the second camera";
   EXPECT_FALSE(PlaneHomography(camera, Pose(), {0, 0, -6}, kFacing)) << "behind the first";
   EXPECT_FALSE(PlaneHomography(camera, Pose(), {1, 0, 6}, kLevel)) << "edge on";
 }
@@ -100,7 +109,8 @@ TEST(PatchAlignment, IsNotFoundWhereItIsNot) {
   const cv::Mat part = image.colRange(97, image.cols);
   EXPECT_FALSE(AlignPatch(patch, same, part, {3, 100})) << "there, but not as a whole";
   EXPECT_TRUE(AlignPatch(patch, same, image.colRange(90, image.cols), {10, 100}));
-  EXPECT_FALSE(AlignPatch({image, {3, 100}, patch.point, 4}, same, image, {3, 100})) << "the patch is not in its own";
+  EXPECT_FALSE(AlignPatch({image, {3, 100}, patch.point, 4}, same, image, {3, 100}))
+      << "the patch is not in its own";
   Eigen::Matrix3d endless = same;
   endless(2, 1) = -0.01;  // the row through the patch's middle is at infinity
   EXPECT_FALSE(AlignPatch(patch, endless, image, at)) << "not finite";
@@ -114,7 +124,8 @@ TEST(PatchAlignment, IsNotFoundWhereItIsNot) {
     for (int column = 0; column < ramp.cols; ++column)
       ramp.at<unsigned char>(row, column) =
           cv::saturate_cast<unsigned char>(0.5 * column + 30 * std::sin(0.5 * row) + 40);
-  EXPECT_FALSE(AlignPatch({ramp, at, patch.point, 4}, same, ramp, at)) << "a shift to the right is more light";
+  EXPECT_FALSE(AlignPatch({ramp, at, patch.point, 4}, same, ramp, at))
+      << "a shift to the right is more light";
   const cv::Mat flat(image.size(), CV_8U, cv::Scalar(90));
   EXPECT_FALSE(AlignPatch({flat, at, patch.point, 4}, same, image, at)) << "no texture";
 }
@@ -130,7 +141,9 @@ TEST(PatchAlignment, FindPatchTellsWallsFromFloors) {
       const Patch patch{from, at, wall.At(at.x, at.y), 6};
       const Eigen::Vector2d truth = Project(T_to_from * patch.point);
       const cv::Point2f guess(static_cast<float>(truth.x()), static_cast<float>(truth.y()));
-      const auto off = [&](const cv::Point2f& p) { return std::hypot(p.x - truth.x(), p.y - truth.y()); };
+      const auto off = [&](const cv::Point2f& p) {
+        return std::hypot(p.x - truth.x(), p.y - truth.y());
+      };
       const auto found = FindPatch(patch, TestCamera(), T_to_from, to, guess);
       ASSERT_TRUE(found.has_value()) << column;
       EXPECT_LT(off(*found), 0.06) << normal.transpose();

@@ -12,26 +12,30 @@
 namespace sslcd {
 namespace {
 
-Image Copy(const cv::Mat& grey) { return {{grey.data, grey.data + grey.total()}, grey.cols, grey.rows, 1}; }
+Image Copy(const cv::Mat& grey) {
+  return {{grey.data, grey.data + grey.total()}, grey.cols, grey.rows, 1};
+}
 
-/// A drive ahead, whose right images are turned and then lie some pixels to the right of and below where calibration
-/// has them.
+/// A drive ahead, whose right images are turned and then lie some pixels to the right of and below
+/// where calibration has them.
 struct Rig {
   std::vector<std::pair<Image, Image>> pairs;
 
   Rig(double right_px, double down_px, int frames = 20, double roll_deg = 0) {
     const Camera camera = Tunnel::Camera().left;
-    cv::Mat shift =
-        cv::getRotationMatrix2D({static_cast<float>(camera.cx), static_cast<float>(camera.cy)}, roll_deg, 1);
+    cv::Mat shift = cv::getRotationMatrix2D(
+        {static_cast<float>(camera.cx), static_cast<float>(camera.cy)}, roll_deg, 1);
     shift.at<double>(0, 2) += right_px, shift.at<double>(1, 2) += down_px;
     for (int i = 0; i < frames; ++i) {
       const Tunnel::Pair seen = Tunnel().Look(Pose::Trans(0, 0, 0.4 * i));
       cv::Mat moved;
-      cv::warpAffine(seen.right, moved, shift, seen.right.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT_101);
+      cv::warpAffine(seen.right, moved, shift, seen.right.size(), cv::INTER_CUBIC,
+                     cv::BORDER_REFLECT_101);
       pairs.emplace_back(Copy(seen.left), Copy(moved));
     }
   }
-  RigCheck Check(StereoCamera camera = Tunnel::Camera(), const StereoOdometryOptions& options = {}) const {
+  RigCheck Check(StereoCamera camera = Tunnel::Camera(),
+                 const StereoOdometryOptions& options = {}) const {
     return CheckRig(
         camera, pairs.size(), [&](std::size_t i) { return pairs[i]; }, options);
   }

@@ -18,7 +18,8 @@ StereoScene Wall() {
   return scene;
 }
 
-// Turns and shifts the right image: what a camera does that sits in its rig otherwise than calibration says.
+// Turns and shifts the right image: what a camera does that sits in its rig otherwise than
+// calibration says.
 cv::Mat Moved(const cv::Mat& image, double degrees, double down) {
   cv::Mat warp = cv::getRotationMatrix2D({image.cols / 2.F, image.rows / 2.F}, degrees, 1), moved;
   warp.at<double>(1, 2) += down;
@@ -36,7 +37,8 @@ TEST(RowError, OfPerfectImagesIsNextToNothing) {
 TEST(RowError, TellsHowFarTheRightCameraHasMoved) {
   const StereoScene scene = Wall();
   const cv::Mat lower = Moved(scene.right, 0, 0.4), turned = Moved(scene.right, 0.1, 0);
-  const StereoView shifted{ViewOf(scene.left), ViewOf(lower)}, rolled{ViewOf(scene.left), ViewOf(turned)};
+  const StereoView shifted{ViewOf(scene.left), ViewOf(lower)},
+      rolled{ViewOf(scene.left), ViewOf(turned)};
   const auto shift = RowError(StereoScene().camera, {shifted, shifted}, {});
   ASSERT_TRUE(shift);
   EXPECT_NEAR(*shift, 0.4, 0.03);

@@ -24,7 +24,8 @@ struct StereoFolder {
 
 inline std::vector<std::string> FilesIn(const std::string& folder) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -35,7 +36,8 @@ inline StereoFolder OpenStereoFolder(const std::string& folder, const std::strin
   const bool colour = std::filesystem::exists(folder + "/image_2");
   const Calibration calibration =
       ReadCalibration(folder + "/calib.txt", colour ? CameraPair::kColour : CameraPair::kGrey);
-  if (!calibration.right) throw Error(ErrorKind::kBadInput, folder + "/calib.txt: has no right camera");
+  if (!calibration.right)
+    throw Error(ErrorKind::kBadInput, folder + "/calib.txt: has no right camera");
   result.camera = MakeStereoCamera(*calibration.left, *calibration.right);
   result.left = FilesIn(folder + (colour ? "/image_2" : "/image_l"));
   result.right = FilesIn(folder + (colour ? "/image_3" : "/image_r"));
@@ -46,9 +48,14 @@ inline StereoFolder OpenStereoFolder(const std::string& folder, const std::strin
 inline PairLoader Loader(const StereoFolder& folder) {
   const auto read = [](const std::string& path) {
     const cv::Mat image = cv::imread(path, cv::IMREAD_ANYCOLOR);
-    return Image{{image.data, image.data + image.total() * image.elemSize()}, image.cols, image.rows, image.channels()};
+    return Image{{image.data, image.data + image.total() * image.elemSize()},
+                 image.cols,
+                 image.rows,
+                 image.channels()};
   };
-  return [&folder, read](std::size_t i) { return std::pair(read(folder.left[i]), read(folder.right[i])); };
+  return [&folder, read](std::size_t i) {
+    return std::pair(read(folder.left[i]), read(folder.right[i]));
+  };
 }
 
 }  // namespace sslcd

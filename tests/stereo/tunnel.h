@@ -11,8 +11,8 @@
 
 namespace sslcd {
 
-/// Images of a tunnel of square section with patterned walls, by casting a ray for each pixel: exact geometry, and
-/// patterns that stay put.
+/// Images of a tunnel of square section with patterned walls, by casting a ray for each pixel:
+/// exact geometry, and patterns that stay put.
 class Tunnel {
  public:
   explicit Tunnel(unsigned seed = 1) : seed_(seed) {}
@@ -31,11 +31,13 @@ class Tunnel {
   Pair Look(const Pose& T_world_left, double gain = 1, double noise = 1) const {
     const StereoCamera camera = Camera();
     const Pose T_world_right = T_world_left * Pose::Trans(camera.baseline_m, 0, 0);
-    return {Image(camera.left, T_world_left, gain, noise, 1), Image(camera.left, T_world_right, gain, noise, 2)};
+    return {Image(camera.left, T_world_left, gain, noise, 1),
+            Image(camera.left, T_world_right, gain, noise, 2)};
   }
 
  private:
-  static constexpr double kWide = 3, kUp = 2, kLong = 30;  // half width, half height, length of a section [m]
+  // half width, half height, length of a section [m]
+  static constexpr double kWide = 3, kUp = 2, kLong = 30;
 
   static double Hash(std::int64_t a, std::int64_t b, std::int64_t c) {
     std::uint64_t h = static_cast<std::uint64_t>(a) * 0x9E3779B97F4A7C15U ^
@@ -49,7 +51,8 @@ class Tunnel {
   double Noise(double u, double v, int layer) const {
     const double iu = std::floor(u), iv = std::floor(v);
     const auto at = [&](int du, int dv) {
-      return Hash(static_cast<std::int64_t>(iu) + du, static_cast<std::int64_t>(iv) + dv, layer + 64 * seed_);
+      return Hash(static_cast<std::int64_t>(iu) + du, static_cast<std::int64_t>(iv) + dv,
+                  layer + 64 * seed_);
     };
     const auto smooth = [](double t) { return t * t * (3 - 2 * t); };
     const double a = smooth(u - iu), b = smooth(v - iv);
@@ -76,16 +79,20 @@ class Tunnel {
     return weight > 0 ? sum / weight : 0.5;
   }
 
-  cv::Mat Image(const sslcd::Camera& camera, const Pose& T_world_cam, double gain, double noise, int salt) const {
+  cv::Mat Image(const sslcd::Camera& camera, const Pose& T_world_cam, double gain, double noise,
+                int salt) const {
     cv::Mat image(camera.height, camera.width, CV_8UC1);
     const Eigen::Matrix3d R = T_world_cam.so3().matrix();
     const Vec3 from = T_world_cam.translation();
     const auto moment = static_cast<std::int64_t>(1e6 * (from.sum() + R.sum()));
     for (int row = 0; row < camera.height; ++row) {
       for (int column = 0; column < camera.width; ++column) {
-        const Vec3 ray = R * Vec3((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1);
-        const double grain = Hash(row * 4096 + column, moment, salt) + Hash(row * 4096 + column, moment, salt + 2) - 1;
-        const double grey = gain * 255 * Brightness(from, ray, 1 / camera.fx) + noise * grain * std::sqrt(6);
+        const Vec3 ray =
+            R * Vec3((column - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1);
+        const double grain = Hash(row * 4096 + column, moment, salt) +
+                             Hash(row * 4096 + column, moment, salt + 2) - 1;
+        const double grey =
+            gain * 255 * Brightness(from, ray, 1 / camera.fx) + noise * grain * std::sqrt(6);
         image.at<unsigned char>(row, column) = cv::saturate_cast<unsigned char>(grey);
       }
     }

@@ -22,15 +22,17 @@ struct AssociationOptions {
   double min_score = 0.1;        ///< pairs below this are never matched
   double geometry_weight = 0.6;  ///< robust: share of the 3D distance in the score
   double gate_sigmas = 3.5;      ///< robust: horizontal Mahalanobis distance allowed
-  double gate_m = 4.;            ///< robust: horizontal distance allowed, whatever the covariance says
-  double gate_vertical_m = 2.;   ///< robust: vertical distance allowed
+  /// robust: horizontal distance allowed, whatever the covariance says
+  double gate_m = 4.;
+  double gate_vertical_m = 2.;  ///< robust: vertical distance allowed
 };
 void DescribeFields(FieldVisitor& visitor, AssociationOptions& options);
 
 /// Where something is in the horizontal plane of the world. [m, m^2]
 struct PlanarBelief {
   Vec2 position{0, 0};
-  Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance = Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
+  Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance =
+      Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
 };
 
 /// A detection d_i as association sees it.
@@ -44,7 +46,8 @@ struct AssociationQuery {
 /// A landmark o_k as association sees it in this frame.
 struct AssociationCandidate {
   std::string label;
-  std::vector<PlanarBelief> beliefs;  ///< where it may be, the more plausible first (parked, driving); >= 1
+  /// where it may be, the more plausible first (parked, driving); >= 1
+  std::vector<PlanarBelief> beliefs;
   double height = 0;
   double viewpoint_rad = 0;
   std::optional<Box2d> projected_box;  ///< Eq. 1
@@ -59,6 +62,7 @@ Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
 
 /// Index of the candidate for each query, -1 for none; one-to-one with the largest total score.
 std::vector<int> Associate(const std::vector<AssociationQuery>& queries,
-                           const std::vector<AssociationCandidate>& candidates, const AssociationOptions& options);
+                           const std::vector<AssociationCandidate>& candidates,
+                           const AssociationOptions& options);
 
 }  // namespace sslcd

@@ -7,8 +7,8 @@
 
 namespace sslcd {
 
-/// Hash grid over the horizontal plane. Finding what lies near a point costs as much as there is near that point,
-/// however large the map is. Not thread-safe.
+/// Hash grid over the horizontal plane. Finding what lies near a point costs as much as there is
+/// near that point, however large the map is. Not thread-safe.
 class SpatialIndex {
  public:
   explicit SpatialIndex(double cell_m = 10.) : cell_m_(cell_m) {}

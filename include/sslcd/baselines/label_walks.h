@@ -10,8 +10,8 @@
 
 namespace sslcd::baselines {
 
-/// Objects as the graph that all of these methods start from: a vertex per object, of which only the label counts, and
-/// an edge between any two that are at most `edge_m` apart.
+/// Objects as the graph that all of these methods start from: a vertex per object, of which only
+/// the label counts, and an edge between any two that are at most `edge_m` apart.
 struct LabelGraph {
   std::vector<int> labels;
   std::vector<std::vector<int>> neighbours;  ///< of each vertex, ascending
@@ -28,15 +28,17 @@ struct RandomWalkOptions {
 };
 void DescribeFields(FieldVisitor& visitor, RandomWalkOptions& options);
 
-/// Random walks from each vertex; every neighbour is as likely as the others, the one just left too. Where there is
-/// none, the walk stays.
-std::vector<LabelWalks> RandomWalks(const LabelGraph& graph, const RandomWalkOptions& options, std::mt19937_64& random);
+/// Random walks from each vertex; every neighbour is as likely as the others, the one just left
+/// too. Where there is none, the walk stays.
+std::vector<LabelWalks> RandomWalks(const LabelGraph& graph, const RandomWalkOptions& options,
+                                    std::mt19937_64& random);
 
-/// All walks of `steps` steps from each vertex, in place of a sample. A vertex without neighbours has none.
-/// Memory and time grow with degree^steps.
+/// All walks of `steps` steps from each vertex, in place of a sample. A vertex without neighbours
+/// has none. Memory and time grow with degree^steps.
 std::vector<LabelWalks> AllWalks(const LabelGraph& graph, int steps);
 
-/// The share of walks that two vertices have in common, in [0, 1]: sum of min(count) over the larger number of walks.
+/// The share of walks that two vertices have in common, in [0, 1]: sum of min(count) over the
+/// larger number of walks.
 double CommonShare(const LabelWalks& a, const LabelWalks& b);
 
 /// Cosine of the angle between two vectors of counts, in [0, 1]; 0 where one is empty.

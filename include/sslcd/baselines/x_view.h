@@ -6,9 +6,9 @@
 
 namespace sslcd::baselines {
 
-/// X-View: A. Gawel, C. Del Don, R. Siegwart, J. Nieto, C. Cadena, "X-View: Graph-Based Semantic Multi-View
-/// Localization", RA-L 2018 (section III: graph extraction, descriptors, descriptor matching, localisation back-end).
-/// docs/baselines.md says which of the values are its authors'.
+/// X-View: A. Gawel, C. Del Don, R. Siegwart, J. Nieto, C. Cadena, "X-View: Graph-Based Semantic
+/// Multi-View Localization", RA-L 2018 (section III: graph extraction, descriptors, descriptor
+/// matching, localisation back-end). docs/baselines.md says which of the values are its authors'.
 struct XViewOptions {
   double edge_m = 10;       ///< objects this close are neighbours
   RandomWalkOptions walks;  ///< the descriptor: m walks of n steps
@@ -19,9 +19,11 @@ struct XViewOptions {
 };
 void DescribeFields(FieldVisitor& visitor, XViewOptions& options);
 
-/// Objects of equal labels are as similar as the share of identical random walks. The k best of each, checked for
-/// geometric consistency, give the pose. Score: the number of matches; every pose is taken.
-std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local, const std::vector<LayoutObject>& global,
+/// Objects of equal labels are as similar as the share of identical random walks. The k best of
+/// each, checked for geometric consistency, give the pose. Score: the number of matches; every pose
+/// is taken.
+std::optional<Answer> MatchXView(const std::vector<LayoutObject>& local,
+                                 const std::vector<LayoutObject>& global,
                                  const XViewOptions& options);
 PlaceMatcher XViewMatcher(const XViewOptions& options);
 

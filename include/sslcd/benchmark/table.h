@@ -20,9 +20,10 @@ std::string ToCsv(const Table& table);  ///< RFC 4180: quotes where needed
 /// A list of objects, header -> cell; a cell that is a number becomes one, an empty one null.
 std::string ToJson(const Table& table);
 
-/// Puts the tables' Markdown between the lines `<!-- bench KEY -->` and `<!-- /bench -->` of a document. Throws
-/// Error(kBadInput) if a pair of lines is not there.
-std::string ReplaceTables(std::string document, const std::string& name, const std::vector<Table>& tables);
+/// Puts the tables' Markdown between the lines `<!-- bench KEY -->` and `<!-- /bench -->` of a
+/// document. Throws Error(kBadInput) if a pair of lines is not there.
+std::string ReplaceTables(std::string document, const std::string& name,
+                          const std::vector<Table>& tables);
 
 /// printf-style number.
 std::string Cell(const char* format, double value);

@@ -18,8 +18,9 @@ namespace sslcd::benchmark {
 struct Place {
   std::string key = "lot";
   sim::HalvScene scene;
-  std::vector<int> cases{};    ///< the only ones it is for; empty: all
-  bool way_back_only = false;  ///< keyframes on the way out do not count, for another place has the same
+  std::vector<int> cases{};  ///< the only ones it is for; empty: all
+  /// keyframes on the way out do not count, for another place has the same
+  bool way_back_only = false;
 };
 
 /// One run of one method on one HALV-sim sequence.
@@ -28,7 +29,8 @@ struct Trial {
   int case_number = 1;
   std::uint64_t seed = 1;
   Method method;
-  /// The method is asked at each attempt, but closes nothing: all methods see the same maps. For precision and recall.
+  /// The method is asked at each attempt, but closes nothing: all methods see the same maps. For
+  /// precision and recall.
   bool only_asked = false;
 
   std::string World() const;  ///< e.g. "lot-c1-s7", for files

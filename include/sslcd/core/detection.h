@@ -13,13 +13,16 @@ namespace sslcd {
 /// One detected object in one frame: the paper's d_i = {l, b, h, e, T_co} (III-B) and its cuboid.
 /// The object frame sits in the cuboid's centre: x along its length, y to its left, z up.
 struct Detection {
-  int row = -1;                  ///< 0-based row in the detections file(s); the name that map.json uses
-  std::string label;             ///< semantic class, as the detector wrote it ("Car")
-  double score = 1.;             ///< probability that this is an object, in [0, 1]
-  Pose T_cam_object;             ///< pose in the camera frame (KITTI axes: x right, y down, z forward)
-  Vec3 dims{0, 0, 0};            ///< length, width, height [m], all > 0
-  std::optional<Box2d> box;      ///< 2D box; none: the cue drops out of the association score
-  std::vector<float> colour;     ///< colour vector h (unit sum or unit norm, see perception/colour.h); empty: none
+  /// 0-based row in the detections file(s); the name that map.json uses
+  int row = -1;
+  std::string label;  ///< semantic class, as the detector wrote it ("Car")
+  double score = 1.;  ///< probability that this is an object, in [0, 1]
+  /// pose in the camera frame (KITTI axes: x right, y down, z forward)
+  Pose T_cam_object;
+  Vec3 dims{0, 0, 0};        ///< length, width, height [m], all > 0
+  std::optional<Box2d> box;  ///< 2D box; none: the cue drops out of the association score
+  /// colour vector h (unit sum or unit norm, see perception/colour.h); empty: none
+  std::vector<float> colour;
   std::vector<float> embedding;  ///< re-identification vector e, L2-normalised; empty: none
 };
 

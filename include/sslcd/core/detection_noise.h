@@ -7,9 +7,9 @@
 namespace sslcd {
 
 /// How far a 3D detector is off, as a function of range: sigma = (base + slope * range) * scale.
-/// The shape holds for detectors as different as LiDAR and stereo ones, whose errors differ by a factor of 3 to 10;
-/// that factor is the NoiseScale below, which is learnt during the run from the detections' own scatter about the
-/// landmarks.
+/// The shape holds for detectors as different as LiDAR and stereo ones, whose errors differ by a
+/// factor of 3 to 10; that factor is the NoiseScale below, which is learnt during the run from the
+/// detections' own scatter about the landmarks.
 struct DetectionNoise {
   double radial_m = 0.06, radial_per_m = 0.003;     ///< along the viewing ray
   double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< across the ray, horizontal
@@ -34,8 +34,9 @@ struct DetectionSigmas {
 
 DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale);
 
-/// Rows: unit vectors along the viewing ray, across it (horizontal in the camera), and up the image, for a point in the
-/// camera frame. Turns camera-frame errors into [radial, lateral, vertical].
+/// Rows: unit vectors along the viewing ray, across it (horizontal in the camera), and up the
+/// image, for a point in the camera frame. Turns camera-frame errors into [radial, lateral,
+/// vertical].
 Eigen::Matrix3d RayFrame(const Vec3& point_cam);
 
 /// Covariance of a detection's position in the camera frame. [m^2]

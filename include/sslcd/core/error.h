@@ -25,7 +25,8 @@ struct FileLocation {
 /// "file:line:column", leaving out what is unknown.
 std::string ToString(const FileLocation& location);
 
-/// The only exception this library throws on purpose. The message says what is wrong, where, and a way out.
+/// The only exception this library throws on purpose. The message says what is wrong, where, and a
+/// way out.
 class Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message);

@@ -8,30 +8,35 @@
 
 namespace sslcd {
 
-/// One options struct = one function `void DescribeFields(FieldVisitor&, XOptions&)` that names every field once.
-/// Loading from YAML, `--set`, dumping, range checks and docs/configuration.md are all visitors over that one table.
+/// One options struct = one function `void DescribeFields(FieldVisitor&, XOptions&)` that names
+/// every field once. Loading from YAML, `--set`, dumping, range checks and docs/configuration.md
+/// are all visitors over that one table.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
   /// Inclusive range [low, high]; the unit is the key's suffix (_m, _s, _rad, _px).
-  virtual void Real(const char* key, double& value, double low, double high, const char* meaning) = 0;
+  virtual void Real(const char* key, double& value, double low, double high,
+                    const char* meaning) = 0;
   virtual void Integer(const char* key, int& value, int low, int high, const char* meaning) = 0;
   virtual void Flag(const char* key, bool& value, const char* meaning) = 0;
   virtual void Text(const char* key, std::string& value, const char* meaning) = 0;
 
   /// `value` is an index into `names`. Use the Enum() helper below for enum types.
-  virtual void Choice(const char* key, int& value, const std::vector<const char*>& names, const char* meaning) = 0;
+  virtual void Choice(const char* key, int& value, const std::vector<const char*>& names,
+                      const char* meaning) = 0;
 
   /// A list of numbers, each in [low, high]. Visitors that have no use for lists leave them alone.
-  virtual void Numbers(const char* /*key*/, std::vector<double>& /*values*/, double /*low*/, double /*high*/,
-                       const char* /*meaning*/) {}
+  virtual void Numbers(const char* /*key*/, std::vector<double>& /*values*/, double /*low*/,
+                       double /*high*/, const char* /*meaning*/) {}
 
   /// Names by number >= 0, e.g. `{2: Car, 7: Truck}`. Likewise.
-  virtual void Names(const char* /*key*/, std::map<int, std::string>& /*names*/, const char* /*meaning*/) {}
+  virtual void Names(const char* /*key*/, std::map<int, std::string>& /*names*/,
+                     const char* /*meaning*/) {}
 
   /// A nested section; `describe` visits its fields with the same visitor.
-  virtual void Section(const char* key, const char* meaning, const std::function<void(FieldVisitor&)>& describe) = 0;
+  virtual void Section(const char* key, const char* meaning,
+                       const std::function<void(FieldVisitor&)>& describe) = 0;
 
   /// An enum whose enumerators are 0, 1, 2, ... in the order of `names`.
   template <class E>

@@ -13,9 +13,10 @@
 
 namespace sslcd {
 
-/// Calls work(i) for each i below `count`, in any order, on `threads` threads at most; the calling one is among them.
-/// After each, progress(done, count), one call at a time, `done` from 1 on. The first exception of either ends it and
-/// is thrown here when all threads have stopped. Needs Threads::Threads.
+/// Calls work(i) for each i below `count`, in any order, on `threads` threads at most; the calling
+/// one is among them. After each, progress(done, count), one call at a time, `done` from 1 on. The
+/// first exception of either ends it and is thrown here when all threads have stopped. Needs
+/// Threads::Threads.
 inline void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                     const std::function<void(int done, int count)>& progress = {}) {
   std::atomic<std::size_t> next{0};

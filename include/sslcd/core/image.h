@@ -21,8 +21,8 @@ struct Image {
 
   bool empty() const { return pixels.empty(); }
   ImageView view() const {
-    return {pixels.data(), width, height, static_cast<std::size_t>(width) * static_cast<std::size_t>(channels),
-            channels};
+    return {pixels.data(), width, height,
+            static_cast<std::size_t>(width) * static_cast<std::size_t>(channels), channels};
   }
 };
 
@@ -31,8 +31,8 @@ struct StereoView {
   ImageView left, right;
 };
 
-/// Throws Error(kBadInput), with `what` in front, unless the image has pixels, one or three channels and a stride that
-/// holds a row.
+/// Throws Error(kBadInput), with `what` in front, unless the image has pixels, one or three
+/// channels and a stride that holds a row.
 void CheckImage(const ImageView& image, const char* what);
 
 /// CheckImage on both, and both have the same size.

@@ -33,8 +33,8 @@ struct Observation {
   int detection_row = 0;
 };
 
-/// One object of the finished map, as it is written to map.json. The object frame is upright: roll and pitch are zero
-/// with respect to the map's up axis.
+/// One object of the finished map, as it is written to map.json. The object frame is upright: roll
+/// and pitch are zero with respect to the map's up axis.
 struct MapObject {
   LandmarkId id;
   std::string label;
@@ -43,7 +43,8 @@ struct MapObject {
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
   std::vector<Observation> observations;
   Eigen::Matrix<double, 4, 4, Eigen::DontAlign> covariance =
-      Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();  ///< of [x y z yaw], world axes; zero: not computed
+      Eigen::Matrix<double, 4, 4,
+                    Eigen::DontAlign>::Zero();  ///< of [x y z yaw], world axes; zero: not computed
 };
 
 }  // namespace sslcd

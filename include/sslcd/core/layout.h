@@ -15,19 +15,21 @@ struct AppearanceView {
   std::vector<float> vector;  ///< mean of the unit vectors of its sightings
 };
 
-/// An object as graph matching sees it: a vertex of the paper's G = (V, E) (IV-A). Coordinates are gravity-aligned:
-/// x forward, y left, z up (the axes of GravityFrame), origin anywhere.
+/// An object as graph matching sees it: a vertex of the paper's G = (V, E) (IV-A). Coordinates are
+/// gravity-aligned: x forward, y left, z up (the axes of GravityFrame), origin anywhere.
 struct LayoutObject {
   int id = -1;    ///< landmark id
   int label = 0;  ///< the label's number; equal labels, equal numbers
   Symmetry symmetry = Symmetry::kNone;
-  Vec3 position{0, 0, 0};                         ///< centre [m]
-  double yaw = 0;                                 ///< about z; NaN: unknown [rad]
-  Vec3 dims{0, 0, 0};                             ///< length, width, height [m]; zero: unknown
-  std::vector<AppearanceView> colour, embedding;  ///< one per direction it was seen from; empty: unknown
+  Vec3 position{0, 0, 0};  ///< centre [m]
+  double yaw = 0;          ///< about z; NaN: unknown [rad]
+  Vec3 dims{0, 0, 0};      ///< length, width, height [m]; zero: unknown
+  /// one per direction it was seen from; empty: unknown
+  std::vector<AppearanceView> colour, embedding;
 };
 
-/// A turn about the vertical and a shift: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad, m]
+/// A turn about the vertical and a shift: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad,
+/// m]
 struct YawShift {
   double yaw = 0;
   Vec3 t{0, 0, 0};

@@ -28,7 +28,8 @@ struct LoopClosure {
   double score = 0, second_score = 0;
   Pose T_match_query;  ///< where the query camera stands in the match camera's frame
   /// Of the right perturbation T_match_query Exp(d), d = [translation, rotation].
-  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
+  Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
+      Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
   bool by_views = false;  ///< measured along a tie between aligned images, not by its objects
   double viewpoint_change_rad = 0;
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global

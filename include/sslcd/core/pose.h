@@ -7,7 +7,8 @@
 namespace sslcd {
 
 /// Rigid transform. `T_a_b` maps points of frame b to frame a.
-/// Storage [qx qy qz qw tx ty tz], tangent order [rho (translation), phi (rotation)], right perturbation `T * Exp(d)`.
+/// Storage [qx qy qz qw tx ty tz], tangent order [rho (translation), phi (rotation)], right
+/// perturbation `T * Exp(d)`.
 using Pose = lie::SE3<double>;
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3 = Eigen::Vector3d;
@@ -20,15 +21,15 @@ double WrapAngle(double angle_rad);
 double WrapAngle(double angle_rad, double period_rad);
 
 /// A gravity-aligned frame: which way is up, and the two horizontal axes that yaw is measured in.
-/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up x
-/// forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
+/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left`
+/// (`left` = up x forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
 struct GravityFrame {
   Vec3 up{0, -1, 0};
   Vec3 forward{1, 0, 0};
   Vec3 left{0, 0, 1};
 
-  /// The frame for a given up direction (any non-zero vector; normalised here). For an axis-aligned `up`, `forward` is
-  /// another axis of the world: x for up = -y or +z.
+  /// The frame for a given up direction (any non-zero vector; normalised here). For an axis-aligned
+  /// `up`, `forward` is another axis of the world: x for up = -y or +z.
   static GravityFrame FromUp(const Vec3& up);
 
   /// Columns [forward left up]: turns components in this frame into world components.

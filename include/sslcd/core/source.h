@@ -6,8 +6,8 @@
 
 namespace sslcd {
 
-/// Hands out items in order, e.g. the frames of a sequence; none: that was the last one. May throw, and is not asked
-/// again then.
+/// Hands out items in order, e.g. the frames of a sequence; none: that was the last one. May throw,
+/// and is not asked again then.
 template <class T>
 using Source = std::function<std::optional<T>()>;
 

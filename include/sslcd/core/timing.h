@@ -18,7 +18,9 @@ struct StageTimes {
 /// Collects how long each stage took, call by call. Not thread-safe.
 class TimingTable {
  public:
-  void Add(const std::string& stage, double milliseconds) { samples_[stage].push_back(milliseconds); }
+  void Add(const std::string& stage, double milliseconds) {
+    samples_[stage].push_back(milliseconds);
+  }
 
   void Append(const TimingTable& other);
 
@@ -33,7 +35,9 @@ class TimingTable {
 class ScopedTimer {
  public:
   ScopedTimer(TimingTable& table, std::string stage) : table_(table), stage_(std::move(stage)) {}
-  ~ScopedTimer() { table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count()); }
+  ~ScopedTimer() {
+    table_.Add(stage_, std::chrono::duration<double, std::milli>(Clock::now() - start_).count());
+  }
   ScopedTimer(const ScopedTimer&) = delete;
   ScopedTimer& operator=(const ScopedTimer&) = delete;
 

@@ -7,7 +7,8 @@
 
 namespace sslcd {
 
-/// Stamped poses, in time order. `poses[i]` is T_world_cam at `stamps[i]` [s]; both of the same length.
+/// Stamped poses, in time order. `poses[i]` is T_world_cam at `stamps[i]` [s]; both of the same
+/// length.
 struct Trajectory {
   std::vector<double> stamps;
   std::vector<Pose> poses;

@@ -15,16 +15,17 @@ namespace sslcd {
 /// A model that finds boxes in one image.
 class Detector2d {
  public:
-  /// Reads `model_yaml` (detectors/model_description.h) and loads the model it names. Throws Error when the description
-  /// is wrong, the model cannot be loaded (inference/session.h), or its inputs and outputs have other shapes than the
-  /// description says; the message has both.
+  /// Reads `model_yaml` (detectors/model_description.h) and loads the model it names. Throws Error
+  /// when the description is wrong, the model cannot be loaded (inference/session.h), or its inputs
+  /// and outputs have other shapes than the description says; the message has both.
   static Detector2d Load(const std::string& model_yaml, const InferenceOptions& options = {});
   Detector2d(Detector2d&&) noexcept;
   Detector2d& operator=(Detector2d&&) noexcept;
   ~Detector2d();
 
-  /// The objects in an image, best score first, boxes in its pixels and within it. Times go to `timing` as
-  /// "NAME prepare", "NAME run", "NAME decode". Throws Error when the image is not B G R or the model returns NaN.
+  /// The objects in an image, best score first, boxes in its pixels and within it. Times go to
+  /// `timing` as "NAME prepare", "NAME run", "NAME decode". Throws Error when the image is not B G
+  /// R or the model returns NaN.
   std::vector<ImageDetection> Detect(const ImageView& image, TimingTable* timing = nullptr) const;
 
   const std::string& name() const;

@@ -21,9 +21,9 @@ class Embedder {
   Embedder& operator=(Embedder&&) noexcept;
   ~Embedder();
 
-  /// One vector of unit length for each box; empty for a box that holds no pixel of the image. All boxes go through the
-  /// model at once where it takes any number. Times as Detector2d's. Throws Error when the image is not B G R or the
-  /// model returns NaN.
+  /// One vector of unit length for each box; empty for a box that holds no pixel of the image. All
+  /// boxes go through the model at once where it takes any number. Times as Detector2d's. Throws
+  /// Error when the image is not B G R or the model returns NaN.
   std::vector<std::vector<float>> Embed(const ImageView& image, const std::vector<Box2d>& boxes,
                                         TimingTable* timing = nullptr) const;
 

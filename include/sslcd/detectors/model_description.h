@@ -9,7 +9,8 @@
 
 namespace sslcd {
 
-/// How an image becomes the model's input: rows are cut off on top, the rest is brought to the input's size, then
+/// How an image becomes the model's input: rows are cut off on top, the rest is brought to the
+/// input's size, then
 /// `(pixel * scale - mean) / std` for each channel.
 struct ModelInput {
   enum class Resize {
@@ -20,7 +21,8 @@ struct ModelInput {
   enum class Channels { kRgb, kBgr };
 
   std::string left, right;  ///< names of the inputs; empty: the model's first and second
-  std::string size;         ///< name of an input that asks for the input's width and height; empty: there is none
+  /// name of an input that asks for the input's width and height; empty: there is none
+  std::string size;
   int width_px = 0, height_px = 0;  ///< 0: what the model says
   int crop_top_px = 0;              ///< rows of the image cut off before resizing
   Resize resize = Resize::kStretch;
@@ -48,23 +50,28 @@ struct ModelAnchors {
   double stride_px = 16;                  ///< from one anchor to the next
   std::vector<double> scales;             ///< of the side; empty: 2^(i/4), i = 0..15
   std::vector<double> ratios{0.5, 1, 2};  ///< height over width
-  /// For each class: .npy of (scales * ratios) rows, the ratio running fastest, and 6 columns: z sin2a cos2a w h l.
-  /// Mean z <= 0: no object like that was seen, the anchor is not used.
+  /// For each class: .npy of (scales * ratios) rows, the ratio running fastest, and 6 columns: z
+  /// sin2a cos2a w h l. Mean z <= 0: no object like that was seen, the anchor is not used.
   std::map<int, std::string> mean_files, std_files;
-  double min_y_m = -0.5, max_y_m = 1.8, max_x_m = 40;  ///< where an anchor at its mean depth is worth a look
+  /// where an anchor at its mean depth is worth a look
+  double min_y_m = -0.5, max_y_m = 1.8, max_x_m = 40;
 };
 
 struct ModelOutput {
   enum class BoxFormat { kCorners, kCentre };
 
   ModelLayout layout = ModelLayout::kYoloV8;
-  std::map<int, std::string> names;   ///< the model's names for the layout's tensors; not there: in the model's order
-  int class_count = 80;               ///< how many classes the model tells apart
-  std::map<int, std::string> labels;  ///< class number -> label; classes that are not listed are dropped
-  double min_score = 0.4;             ///< detections with a lower score are dropped
-  double nms_iou = 0.5;               ///< of two boxes of one label that overlap more, the better one stays; 1: both
+  /// the model's names for the layout's tensors; not there: in the model's order
+  std::map<int, std::string> names;
+  int class_count = 80;  ///< how many classes the model tells apart
+  /// class number -> label; classes that are not listed are dropped
+  std::map<int, std::string> labels;
+  double min_score = 0.4;  ///< detections with a lower score are dropped
+  /// of two boxes of one label that overlap more, the better one stays; 1: both
+  double nms_iou = 0.5;
 
-  double box_sigma = 0;  ///< error of a box's sides, share of its width or height: coarse 2D detectors
+  /// error of a box's sides, share of its width or height: coarse 2D detectors
+  double box_sigma = 0;
 
   // kBoxesScoresLabels
   BoxFormat box_format = BoxFormat::kCorners;  ///< left top right bottom, or cx cy w h
@@ -88,7 +95,8 @@ void DescribeFields(FieldVisitor& visitor, ModelDescription& description);
 /// Reads a description; strict like all our configuration (io/config.h).
 ModelDescription LoadModelDescription(const std::string& yaml_path);
 
-/// What a model of this layout is for: decides which of Detector2d, Detector3d and Embedder can load it.
+/// What a model of this layout is for: decides which of Detector2d, Detector3d and Embedder can
+/// load it.
 enum class ModelTask { kDetect2d, kDetect3d, kEmbed };
 ModelTask TaskOf(ModelLayout layout);
 

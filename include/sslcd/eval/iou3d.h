@@ -23,8 +23,8 @@ double HorizontalDistance(const Cuboid& a, const Cuboid& b);
 /// Area common to the two footprints, exact up to rounding. [m^2]
 double FootprintIntersection(const Cuboid& a, const Cuboid& b);
 
-/// Intersection over union of the two volumes, in [0, 1], exact up to rounding. 0 where one is empty (a dimension that
-/// is not positive). Both must be in the same axes.
+/// Intersection over union of the two volumes, in [0, 1], exact up to rounding. 0 where one is
+/// empty (a dimension that is not positive). Both must be in the same axes.
 double Iou3d(const Cuboid& a, const Cuboid& b);
 
 }  // namespace sslcd

@@ -11,36 +11,46 @@
 
 namespace sslcd {
 
-/// A run on a KITTI tracking sequence and what it is judged against. Poses are T_world_cam, indexed by frame number.
+/// A run on a KITTI tracking sequence and what it is judged against. Poses are T_world_cam, indexed
+/// by frame number.
 struct MapRun {
   std::vector<Pose> estimate;
-  std::vector<MapObject> objects;     ///< the final map, in the estimate's world; only confirmed ones count
-  std::vector<Frame> frames;          ///< the detections as they went in: frame number, boxes, scores and rows are used
-  std::vector<Pose> reference;        ///< true poses, or ScaledPath() of the odometry where there are none
+  /// the final map, in the estimate's world; only confirmed ones count
+  std::vector<MapObject> objects;
+  /// the detections as they went in: frame number, boxes, scores and rows are used
+  std::vector<Frame> frames;
+  /// true poses, or ScaledPath() of the odometry where there are none
+  std::vector<Pose> reference;
   std::vector<GroundTruthBox> truth;  ///< annotated boxes of the sequence
 };
 
 struct MapMetricOptions {
-  /// A detection counts as raw result from this score on. Scores are probabilities: a threshold on a detector's raw
-  /// (logit) score goes through Sigmoid(). The default belongs to the raw score 3.
+  /// A detection counts as raw result from this score on. Scores are probabilities: a threshold on
+  /// a detector's raw (logit) score goes through Sigmoid(). The default belongs to the raw score 3.
   double min_score = 0.9525741268224334;
   std::vector<std::string> labels{"Car", "Van"};  ///< annotated classes that count
-  double static_below_m = 2.;    ///< a track that extends less than this in the reference world is static
+  /// a track that extends less than this in the reference world is static
+  double static_below_m = 2.;
   double driving_above_m = 5.;   ///< one that extends more is driving
   double box_gate_m = 2.5;       ///< horizontal; annotated box - detection or map object
   double identity_gate_m = 1.5;  ///< horizontal; detection - annotated box whose identity it takes
   int min_sightings = 5;         ///< detections a track needs to be counted as an object to find
 };
 
-/// Accuracy, completeness and identities of a map. Boxes are compared in the camera frame, upright in it.
+/// Accuracy, completeness and identities of a map. Boxes are compared in the camera frame, upright
+/// in it.
 struct MapMetrics {
-  std::optional<double> iou_raw;             ///< mean 3D IoU of the frames' own detections, over static objects
-  std::optional<double> iou_raw_same_pairs;  ///< the same over the (frame, object) pairs that the map has, too
-  std::optional<double> iou_map;             ///< mean 3D IoU of the map's cuboids seen from the estimated poses
-  int pairs = 0;                             ///< (frame, static object) pairs with a detection
-  double coverage = 0;                       ///< part of them for which the map has an object, too
-  int landmarks = 0;                         ///< confirmed objects of the map
-  double purity = 0;                ///< part of the observations that belong to their landmark's most frequent identity
+  /// mean 3D IoU of the frames' own detections, over static objects
+  std::optional<double> iou_raw;
+  /// the same over the (frame, object) pairs that the map has, too
+  std::optional<double> iou_raw_same_pairs;
+  /// mean 3D IoU of the map's cuboids seen from the estimated poses
+  std::optional<double> iou_map;
+  int pairs = 0;        ///< (frame, static object) pairs with a detection
+  double coverage = 0;  ///< part of them for which the map has an object, too
+  int landmarks = 0;    ///< confirmed objects of the map
+  /// part of the observations that belong to their landmark's most frequent identity
+  double purity = 0;
   int static_objects = 0;           ///< static identities that were detected often enough
   double static_found = 0;          ///< part of them that own a landmark
   double landmarks_per_static = 0;  ///< landmarks per static identity that owns one
@@ -50,8 +60,8 @@ struct MapMetrics {
 /// Throws Error (kUsage) when two frames carry the same number or an annotated box a negative one.
 MapMetrics ComputeMapMetrics(const MapRun& run, const MapMetricOptions& options = {});
 
-/// The path with its positions multiplied by `scale`, the rotations kept: a stand-in for true poses where an odometry
-/// is known to be too long (KITTI tracking's ORB-SLAM3 poses: 0.975).
+/// The path with its positions multiplied by `scale`, the rotations kept: a stand-in for true poses
+/// where an odometry is known to be too long (KITTI tracking's ORB-SLAM3 poses: 0.975).
 std::vector<Pose> ScaledPath(const std::vector<Pose>& T_world_cam, double scale);
 
 }  // namespace sslcd

@@ -30,13 +30,15 @@ struct PrecisionRecall {
   double recall_at_full_precision = 0;      ///< largest recall on the curve without a wrong answer
 };
 
-/// `positives`: how many there were to be found; without any, recalls are 0. Throws Error (kUsage): more correct
-/// answers than positives; a score that is not a number.
+/// `positives`: how many there were to be found; without any, recalls are 0. Throws Error (kUsage):
+/// more correct answers than positives; a score that is not a number.
 PrecisionRecall ComputePrecisionRecall(std::vector<ScoredAnswer> answers, int positives);
 
-/// Bins of the viewpoint change: 0-45, 45-90, 90-135, 135-180 degrees, the lower end included (and 180 in the last).
+/// Bins of the viewpoint change: 0-45, 45-90, 90-135, 135-180 degrees, the lower end included (and
+/// 180 in the last).
 constexpr int kViewpointBins = 4;
-constexpr std::array<const char*, kViewpointBins> kViewpointBinNames{"0-45", "45-90", "90-135", "135-180"};
+constexpr std::array<const char*, kViewpointBins> kViewpointBinNames{"0-45", "45-90", "90-135",
+                                                                     "135-180"};
 int ViewpointBin(double viewpoint_change_rad);
 
 /// The same per bin; `positives` as well. A viewpoint change that is not finite is an Error, too.

@@ -12,11 +12,13 @@ namespace sslcd {
 
 /// When a keyframe counts as one that a loop should be found for.
 struct RevisitOptions {
-  double spacing_m = 5.;  ///< a keyframe every so much path; a loop counts for those this near to its query camera
+  /// a keyframe every so much path; a loop counts for those this near to its query camera
+  double spacing_m = 5.;
   double radius_m = 10.;  ///< an old camera stood this near ...
   double old_m = 60.;     ///< ... and is old by so much path
-  double around_m = 20.;  ///< of the objects seen on so much path before and behind the keyframe ...
-  int common = 5;         ///< ... so many were seen by old cameras
+  /// of the objects seen on so much path before and behind the keyframe ...
+  double around_m = 20.;
+  int common = 5;  ///< ... so many were seen by old cameras
 };
 
 /// A keyframe at a place where the camera has been.
@@ -27,10 +29,12 @@ struct Revisit {
   int common = 0;
 };
 
-/// By true poses T_world_cam of each frame (KITTI camera axes) and true identities of each detection row (negative: a
-/// false alarm). Throws Error (kUsage) where a row has no identity.
-std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference, const std::vector<Frame>& frames,
-                                  const std::vector<int>& identities, const RevisitOptions& options = {});
+/// By true poses T_world_cam of each frame (KITTI camera axes) and true identities of each
+/// detection row (negative: a false alarm). Throws Error (kUsage) where a row has no identity.
+std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
+                                  const std::vector<Frame>& frames,
+                                  const std::vector<int>& identities,
+                                  const RevisitOptions& options = {});
 
 /// What a loop, accepted or not, says and what is true.
 struct LoopOutcome {
@@ -42,12 +46,15 @@ struct LoopOutcome {
   double viewpoint_rad = 0;  ///< true change of heading, in [0, pi]
 };
 /// Throws Error (kUsage) on a frame without a reference pose.
-std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops, const std::vector<Pose>& reference);
+std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
+                                    const std::vector<Pose>& reference);
 
-/// For each revisit the surest loop near it that is right (error below `true_m`), as an answer with the revisit's
-/// viewpoint; and every wrong loop, with its own. What is right elsewhere counts neither way. So precision is that of
-/// places recognised against wrong loops, and nothing is gained by saying the same thing twice.
-std::vector<ScoredAnswer> AnswersOf(const std::vector<Revisit>& revisits, const std::vector<LoopOutcome>& loops,
-                                    double true_m, const RevisitOptions& options = {});
+/// For each revisit the surest loop near it that is right (error below `true_m`), as an answer with
+/// the revisit's viewpoint; and every wrong loop, with its own. What is right elsewhere counts
+/// neither way. So precision is that of places recognised against wrong loops, and nothing is
+/// gained by saying the same thing twice.
+std::vector<ScoredAnswer> AnswersOf(const std::vector<Revisit>& revisits,
+                                    const std::vector<LoopOutcome>& loops, double true_m,
+                                    const RevisitOptions& options = {});
 
 }  // namespace sslcd

@@ -14,11 +14,12 @@ struct SegmentError {
   double rotation_rad_per_m = 0;  ///< mean of rotation error / length
 };
 
-/// Geiger et al., Are we ready for autonomous driving?, CVPR 2012, and its development kit: from each `every`-th frame,
-/// for each length, the sub-path that ends with the first frame further away than that along the reference; its error
-/// (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), with the reference Q and the estimate P, divided by the (nominal) length; the mean
-/// over all of them. KITTI takes every tenth frame and 100, 200, ... 800 m. Throws Error (kBadInput) where the lists
-/// are not of the same length.
+/// Geiger et al., Are we ready for autonomous driving?, CVPR 2012, and its development kit: from
+/// each `every`-th frame, for each length, the sub-path that ends with the first frame further away
+/// than that along the reference; its error (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), with the reference Q and
+/// the estimate P, divided by the (nominal) length; the mean over all of them. KITTI takes every
+/// tenth frame and 100, 200, ... 800 m. Throws Error (kBadInput) where the lists are not of the
+/// same length.
 SegmentError ComputeSegmentError(const std::vector<Pose>& est, const std::vector<Pose>& ref,
                                  const std::vector<double>& lengths_m, int every = 1);
 

@@ -13,13 +13,16 @@ namespace sslcd {
 
 /// How frames are made from images.
 struct VisionOptions {
-  std::string detector;  ///< description of a 2D or 3D detector (docs/models.md); empty: boxes come from a file
+  /// description of a 2D or 3D detector (docs/models.md); empty: boxes come from a file
+  std::string detector;
   std::string embedder;  ///< description of a re-identification model; empty: no embeddings
   InferenceOptions inference;
   LiftOptions lift;  ///< of 2D boxes to cuboids
   StereoOdometryOptions odometry;
-  GroundAlignmentOptions alignment;  ///< of images of different passes; the ground is that of `lift`
-  int ahead = 4;                     ///< frames that wait between two stages that run at the same time
+  /// of images of different passes; the ground is that of `lift`
+  GroundAlignmentOptions alignment;
+  /// frames that wait between two stages that run at the same time
+  int ahead = 4;
 };
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
 

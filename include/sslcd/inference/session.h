@@ -17,10 +17,12 @@ struct InferenceOptions {
 
   /// Path of libonnxruntime.so. Empty: environment SSLCD_ORT_LIB, else the usual names and places.
   std::string library;
-  Provider provider = Provider::kCpu;  ///< kCuda falls back to the CPU, with a warning, where it is not there
-  int device_id = 0;                   ///< which GPU
-  int threads = 1;                     ///< threads of one model; 1: only the one that calls
-  bool warm_up = true;  ///< run once on an empty image when loading, so that the first frame is no slower
+  /// kCuda falls back to the CPU, with a warning, where it is not there
+  Provider provider = Provider::kCpu;
+  int device_id = 0;  ///< which GPU
+  int threads = 1;    ///< threads of one model; 1: only the one that calls
+  /// run once on an empty image when loading, so that the first frame is no slower
+  bool warm_up = true;
 };
 void DescribeFields(FieldVisitor& visitor, InferenceOptions& options);
 
@@ -33,11 +35,12 @@ struct TensorInfo {
 
 using NamedTensors = std::map<std::string, Tensor>;
 
-/// A model that is loaded and ready to run, by ONNX Runtime 1.17 or later. Its library is loaded when the first session
-/// is made: nothing else of sslcd needs it.
+/// A model that is loaded and ready to run, by ONNX Runtime 1.17 or later. Its library is loaded
+/// when the first session is made: nothing else of sslcd needs it.
 ///
-/// Throws Error(kBadInput) with the path and a way out: there is no runtime library, it is too old, the model is
-/// missing, damaged, of an unknown version, or has inputs or outputs other than numbers.
+/// Throws Error(kBadInput) with the path and a way out: there is no runtime library, it is too old,
+/// the model is missing, damaged, of an unknown version, or has inputs or outputs other than
+/// numbers.
 class Session {
  public:
   explicit Session(const std::string& model_path, const InferenceOptions& options = {});
@@ -52,9 +55,10 @@ class Session {
   /// What it really runs on: kCpu where CUDA was asked for and is not there.
   InferenceOptions::Provider provider() const;
 
-  /// All outputs for all inputs. Numbers are converted from and to the model's types. The same input gives the same
-  /// output on one machine, provider and number of threads. Throws Error(kBadInput) naming the model when an input is
-  /// missing or has another shape than the model's, when the model fails, or when an output is not finite.
+  /// All outputs for all inputs. Numbers are converted from and to the model's types. The same
+  /// input gives the same output on one machine, provider and number of threads. Throws
+  /// Error(kBadInput) naming the model when an input is missing or has another shape than the
+  /// model's, when the model fails, or when an output is not finite.
   NamedTensors Run(const NamedTensors& inputs) const;
 
  private:

@@ -19,26 +19,28 @@ enum class DatasetFormat {
   kAuto,           ///< told by what lies in the folder
   kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2 (or image_0)}, poses/NN.txt
   kKittiTracking,  ///< calib/NNNN.txt label_02 oxts image_02
-  kKittiRaw,  ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data, calib_*.txt there or above
-  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy colours.npy
-              ///< sequence.yaml image_2 (or image_0, image_l)]
+  kKittiRaw,       ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data,
+                   ///< calib_*.txt there or above
+  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy
+              ///< colours.npy sequence.yaml image_2 (or image_0, image_l)]
 };
 
 /// "auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence".
 const char* ToString(DatasetFormat format);
 std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text);
 
-/// How much a part is wanted that can be made from images, too. Where there is no odometry, the frames' poses are the
-/// identity, and there are as many as stamps, else as the last left image's number says; without detections, theirs are
-/// none.
+/// How much a part is wanted that can be made from images, too. Where there is no odometry, the
+/// frames' poses are the identity, and there are as many as stamps, else as the last left image's
+/// number says; without detections, theirs are none.
 enum class PartPolicy {
   kNeeded,   ///< an error where there is none
   kIfThere,  ///< none is no error where there are left and right images
   kIgnored,  ///< not read
 };
 
-/// What to load. Empty paths mean the standard place of the format; others are tried relative to `path`, then to the
-/// current folder. Where one leads to a folder that holds SEQUENCE.txt, that file is meant.
+/// What to load. Empty paths mean the standard place of the format; others are tried relative to
+/// `path`, then to the current folder. Where one leads to a folder that holds SEQUENCE.txt, that
+/// file is meant.
 struct DatasetRequest {
   std::string path;
   DatasetFormat format = DatasetFormat::kAuto;
@@ -51,30 +53,38 @@ struct DatasetRequest {
   PartPolicy odometry_policy = PartPolicy::kNeeded, detections_policy = PartPolicy::kNeeded;
 };
 
-/// A sequence in memory. Ground truth is for evaluation only and never enters the frames, with one named exception: a
-/// KITTI raw drive without `odometry` uses its GPS/IMU poses (then there is no ground truth, and a warning says so).
+/// A sequence in memory. Ground truth is for evaluation only and never enters the frames, with one
+/// named exception: a KITTI raw drive without `odometry` uses its GPS/IMU poses (then there is no
+/// ground truth, and a warning says so).
 struct Dataset {
   DatasetFormat format = DatasetFormat::kAuto;
   std::string name;
-  std::vector<Frame> frames;           ///< one per pose; frames[i].index == i, stamps increase
-  std::optional<Camera> camera;        ///< P2, of grey images P0; none: no calibration, nothing can be projected
+  std::vector<Frame> frames;  ///< one per pose; frames[i].index == i, stamps increase
+  /// P2, of grey images P0; none: no calibration, nothing can be projected
+  std::optional<Camera> camera;
   std::optional<Camera> camera_right;  ///< P3 or P1
-  Vec3 up_axis{0, -1, 0};  ///< unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
+  /// unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
+  Vec3 up_axis{0, -1, 0};
   LabelTable labels;
-  std::optional<Trajectory> groundtruth;                         ///< rows without stamps got those of the frames
+  /// rows without stamps got those of the frames
+  std::optional<Trajectory> groundtruth;
   std::string odometry_path, detections_path, groundtruth_path;  ///< as found; empty: there is none
   PoseFormat odometry_format = PoseFormat::kAuto;                ///< kKitti for GPS/IMU packets
-  int rows_read = 0;                                             ///< detection rows; the following are among them
-  int rows_dropped = 0;                                          ///< not finite, or sizes that are not positive
-  int rows_dont_care = 0;                                        ///< class DontCare
-  int rows_beyond_end = 0;                                       ///< of frames that have no pose
-  std::vector<std::string> warnings;                             ///< what was put up with, a sentence each
+  /// detection rows; the following are among them
+  int rows_read = 0;
+  /// not finite, or sizes that are not positive
+  int rows_dropped = 0;
+  int rows_dont_care = 0;   ///< class DontCare
+  int rows_beyond_end = 0;  ///< of frames that have no pose
+  /// what was put up with, a sentence each
+  std::vector<std::string> warnings;
 };
 
 /// Loads a dataset folder.
-/// Stamps come from times.txt (raw drives: timestamps.txt), else from the odometry, else every 0.1 s. Odometry without
-/// stamps must have as many rows as there are stamps; odometry with stamps is looked up by stamp, to half a frame step.
-/// Throws Error (kBadInput, or kUsage for a choice the caller has to make) saying where and what to do.
+/// Stamps come from times.txt (raw drives: timestamps.txt), else from the odometry, else every 0.1
+/// s. Odometry without stamps must have as many rows as there are stamps; odometry with stamps is
+/// looked up by stamp, to half a frame step. Throws Error (kBadInput, or kUsage for a choice the
+/// caller has to make) saying where and what to do.
 Dataset LoadDataset(const DatasetRequest& request);
 
 }  // namespace sslcd

@@ -17,8 +17,8 @@ struct MapFile {
 /// map.json's text, version 1. Numbers read back to the bit.
 std::string MapJson(const MapFile& map);
 
-/// Reads map.json. Throws Error(kBadInput) with file and line: not JSON, another format or version, missing or wrong
-/// keys.
+/// Reads map.json. Throws Error(kBadInput) with file and line: not JSON, another format or version,
+/// missing or wrong keys.
 MapFile ReadMapJson(const std::string& path);
 
 }  // namespace sslcd

@@ -14,8 +14,8 @@ struct NpyMatrix {
   const float* Row(std::size_t row) const { return values.data() + row * columns; }
 };
 
-/// Reads a two-dimensional little-endian float32 or float64 array in C order, format version 1 to 3.
-/// Throws Error saying what was found and how to save it otherwise.
+/// Reads a two-dimensional little-endian float32 or float64 array in C order, format version 1
+/// to 3. Throws Error saying what was found and how to save it otherwise.
 NpyMatrix ReadNpy(const std::string& path);
 
 /// The bytes of a float32 file of the same kind.

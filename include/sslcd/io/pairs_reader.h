@@ -22,8 +22,9 @@ struct LayoutPair {
 ///   L identity label x y z      (n_local rows)
 ///   G identity label x y z      (n_global rows)
 ///
-/// Labels are whole numbers; the identities (-1: none) are not kept, since nothing may match by them. The objects know
-/// neither yaw nor size. Throws Error (kBadInput) with file and line for anything else, and for a file without a pair.
+/// Labels are whole numbers; the identities (-1: none) are not kept, since nothing may match by
+/// them. The objects know neither yaw nor size. Throws Error (kBadInput) with file and line for
+/// anything else, and for a file without a pair.
 std::vector<LayoutPair> ReadLayoutPairs(const std::string& path);
 
 }  // namespace sslcd

@@ -32,7 +32,8 @@ struct RunOutputs {
 std::string TumText(const Trajectory& trajectory);
 /// The 3x4 matrix of each pose in one row: KITTI's format.
 std::string KittiText(const Trajectory& trajectory);
-/// VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT rows; information in the order [translation, rotation], upper triangle.
+/// VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT rows; information in the order [translation, rotation],
+/// upper triangle.
 std::string G2oText(const PoseGraph& graph);
 /// One row per attempt to close a loop, accepted or not; see docs/formats.md.
 std::string LoopsCsv(const std::vector<LoopClosure>& loops);
@@ -41,11 +42,12 @@ std::string PlyText(const MapFile& map, const Trajectory& trajectory);
 std::string TimingJson(const TimingTable& timing);
 std::string MetricsJson(const Metrics& metrics);
 
-/// trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o, loops.csv, timing.json,
-/// metrics.json and config.yaml in that folder.
+/// trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o, loops.csv,
+/// timing.json, metrics.json and config.yaml in that folder.
 std::vector<std::string> RunFolderPaths(const std::string& folder);
 
-/// Writes these files, all or none, into a folder that is made if need be. Returns their paths. Throws Error(kOutput).
+/// Writes these files, all or none, into a folder that is made if need be. Returns their paths.
+/// Throws Error(kOutput).
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs);
 
 }  // namespace sslcd

@@ -25,15 +25,16 @@ struct SequenceFiles {
   std::string config_yaml;  ///< what `sslcd_run run` should be told of it; empty: there is none
 };
 
-/// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score), sequence.yaml, and where
-/// there are such things config.yaml, calib.txt, groundtruth.txt (TUM), embeddings.npy (a detection without one has a
-/// row of zeros) and colours.npy (all have one, or there is no file: the reader would fill gaps from images). All
-/// appear complete or none; then what an earlier run left of those that are missing (but config.yaml) is removed.
-/// Throws Error(kOutput).
+/// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
+/// sequence.yaml, and where there are such things config.yaml, calib.txt, groundtruth.txt (TUM),
+/// embeddings.npy (a detection without one has a row of zeros) and colours.npy (all have one, or
+/// there is no file: the reader would fill gaps from images). All appear complete or none; then
+/// what an earlier run left of those that are missing (but config.yaml) is removed. Throws
+/// Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
-/// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not set, Error(kOutput)
-/// when it cannot be made.
+/// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not
+/// set, Error(kOutput) when it cannot be made.
 void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace sslcd

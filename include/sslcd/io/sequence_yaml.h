@@ -22,7 +22,8 @@ struct SequenceInfo {
 ///   image_size_px: [1242, 375]
 ///   labels: {Car: {symmetry: none}, Tree: {symmetry: full}}
 ///
-/// All keys are optional. Throws Error with file:line:column for unknown or duplicate keys and for wrong values.
+/// All keys are optional. Throws Error with file:line:column for unknown or duplicate keys and for
+/// wrong values.
 SequenceInfo ReadSequenceYaml(const std::string& path);
 
 }  // namespace sslcd

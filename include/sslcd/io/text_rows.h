@@ -14,11 +14,13 @@ namespace sslcd {
 /// The whole file as it lies on disk. Throws Error when it is missing, a folder, or cannot be read.
 std::string ReadFileBytes(const std::string& path);
 
-/// A number that fills the whole text ("1.5x" is none). Knows only the C locale; "nan" and "inf" are numbers here.
+/// A number that fills the whole text ("1.5x" is none). Knows only the C locale; "nan" and "inf"
+/// are numbers here.
 std::optional<double> ParseNumber(std::string_view text);
 
-/// Reads a text table row by row. A line with a comma is split at commas, any other at blanks; one comma at the end is
-/// ignored. Blank lines and lines that start with '#' are skipped; CRLF and a byte-order mark are accepted.
+/// Reads a text table row by row. A line with a comma is split at commas, any other at blanks; one
+/// comma at the end is ignored. Blank lines and lines that start with '#' are skipped; CRLF and a
+/// byte-order mark are accepted.
 ///
 ///   TextRows rows(path);
 ///   while (rows.Next()) sum += rows.Number(0);
@@ -35,7 +37,8 @@ class TextRows {
   bool has_commas() const { return has_commas_; }
   std::string_view Text(std::size_t column) const { return fields_.at(column); }
 
-  /// Fields as numbers; throws with file:line and column when one is not. Number() may be NaN or infinite.
+  /// Fields as numbers; throws with file:line and column when one is not. Number() may be NaN or
+  /// infinite.
   double Number(std::size_t column) const;
   int Integer(std::size_t column) const;
 

@@ -6,23 +6,28 @@
 
 namespace sslcd {
 
-/// How alike sightings of one object are, and of two: cosines of embeddings and of colour signatures. One object seen
-/// from opposite sides looks less like itself; the cosine expected falls with the angle between the two views.
+/// How alike sightings of one object are, and of two: cosines of embeddings and of colour
+/// signatures. One object seen from opposite sides looks less like itself; the cosine expected
+/// falls with the angle between the two views.
 struct AppearanceOptions {
-  double same_side = 0.75;      ///< expected cosine of one object's embeddings, seen from one side ...
+  /// expected cosine of one object's embeddings, seen from one side ...
+  double same_side = 0.75;
   double opposite_side = 0.45;  ///< ... and from opposite sides
   double other_object = 0.3;    ///< of different objects
   double embedding_sigma = 0.12;
   double colour_same = 0.85;  ///< expected cosine of one object's colour signatures
   double colour_other = 0.6;  ///< of different objects
   double colour_sigma = 0.2;
-  double limit = 3.;  ///< appearance never says more, for or against, about one object; colour a third of it [nats]
+  /// appearance never says more, for or against, about one object; colour a third of it [nats]
+  double limit = 3.;
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
 
-/// Log likelihood ratio of "one object" to "two objects" by embedding and colour, paper IV-C's properties as evidence
-/// and never as a gate. Zero where nothing can be compared. Bearings of views are compared as far as the symmetry of
-/// the objects allows. O(views of a * views of b * length).
-double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const AppearanceOptions& options);
+/// Log likelihood ratio of "one object" to "two objects" by embedding and colour, paper IV-C's
+/// properties as evidence and never as a gate. Zero where nothing can be compared. Bearings of
+/// views are compared as far as the symmetry of the objects allows. O(views of a * views of b *
+/// length).
+double AppearanceGain(const LayoutObject& a, const LayoutObject& b,
+                      const AppearanceOptions& options);
 
 }  // namespace sslcd

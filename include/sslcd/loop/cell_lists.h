@@ -8,8 +8,9 @@
 
 namespace sslcd {
 
-/// Numbers listed by the cells of a grid that has no bounds: chains in a hash table. To add one, to take one out and to
-/// come to a cell's list is O(1) on average, however large the map is and however much of it is empty.
+/// Numbers listed by the cells of a grid that has no bounds: chains in a hash table. To add one, to
+/// take one out and to come to a cell's list is O(1) on average, however large the map is and
+/// however much of it is empty.
 class CellLists {
  public:
   explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(256, -1) {}
@@ -37,7 +38,9 @@ class CellLists {
   /// The number has to be there.
   void Remove(int column, int row, int number) {
     int* link = &heads_[Slot(column, row)];
-    const auto is_it = [&](const Entry& e) { return e.number == number && e.column == column && e.row == row; };
+    const auto is_it = [&](const Entry& e) {
+      return e.number == number && e.column == column && e.row == row;
+    };
     while (!is_it(entries_[*link])) link = &entries_[*link].next;
     const int entry = *link;
     *link = entries_[entry].next;
@@ -62,7 +65,8 @@ class CellLists {
 
    private:
     void SkipOthers() {  // of other cells with the same hash
-      while (entry_ >= 0 && (lists_->entries_[entry_].column != column_ || lists_->entries_[entry_].row != row_))
+      while (entry_ >= 0 &&
+             (lists_->entries_[entry_].column != column_ || lists_->entries_[entry_].row != row_))
         entry_ = lists_->entries_[entry_].next;
     }
     const CellLists* lists_;
@@ -83,13 +87,17 @@ class CellLists {
   struct Entry {
     int column = 0, row = 0, number = 0, next = -1;
   };
-  static constexpr std::size_t kRoom = 4;  // chains for each entry: a cell that lists nothing is mostly seen at once
-  static constexpr int kTile = 8;          // cells of a square of so many by so many lie together in memory
+  // chains for each entry: a cell that lists nothing is mostly seen at once
+  static constexpr std::size_t kRoom = 4;
+  // cells of a square of so many by so many lie together in memory
+  static constexpr int kTile = 8;
 
   std::size_t Slot(int column, int row) const {
-    const std::uint64_t tile = static_cast<std::uint64_t>(column / kTile) << 32 | static_cast<unsigned>(row / kTile);
+    const std::uint64_t tile =
+        static_cast<std::uint64_t>(column / kTile) << 32 | static_cast<unsigned>(row / kTile);
     const std::uint64_t first = (tile * 0x9E3779B97F4A7C15u >> 32) * (kTile * kTile);
-    return (first + static_cast<unsigned>(column % kTile * kTile + row % kTile)) & (heads_.size() - 1);
+    return (first + static_cast<unsigned>(column % kTile * kTile + row % kTile)) &
+           (heads_.size() - 1);
   }
   void Widen() {  // called when all entries are in use
     heads_.assign(2 * heads_.size(), -1);

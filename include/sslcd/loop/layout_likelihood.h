@@ -14,33 +14,39 @@
 
 namespace sslcd {
 
-/// How much better the local layout is explained by "this is the map, seen under this pose" than by "these are other
-/// objects, strewn at the map's density". A log likelihood ratio, in nats: it speaks the same language on dense lots
-/// and lonely poles, and knows rare labels from common ones.
+/// How much better the local layout is explained by "this is the map, seen under this pose" than by
+/// "these are other objects, strewn at the map's density". A log likelihood ratio, in nats: it
+/// speaks the same language on dense lots and lonely poles, and knows rare labels from common ones.
 struct LayoutLikelihoodOptions {
-  double wrong_label = 0.03;   ///< how often the detector takes one class for another
-  double mapped_prior = 10.;   ///< Beta prior of the share of local objects that the map has: has ...
+  double wrong_label = 0.03;  ///< how often the detector takes one class for another
+  /// Beta prior of the share of local objects that the map has: has ...
+  double mapped_prior = 10.;
   double unmapped_prior = 2.;  ///< ... and has not
-  bool leave_map = false;      ///< local objects may lie beyond what the map has seen: these do not count as unmapped
+  /// local objects may lie beyond what the map has seen: these do not count as unmapped
+  bool leave_map = false;
   double wrong_height = 0.01;  ///< share of objects whose height says nothing
   double min_gain = -1.5;      ///< a match that says less is none [nats]
-  double seen_prior = 3.;      ///< Beta prior of the share of mapped objects in sight that are seen again: seen ...
-  double unseen_prior = 1.5;   ///< ... and not seen
+  /// Beta prior of the share of mapped objects in sight that are seen again: seen ...
+  double seen_prior = 3.;
+  double unseen_prior = 1.5;  ///< ... and not seen
   AppearanceOptions appearance;
 };
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);
 
 struct LayoutFit {
-  std::vector<std::pair<int, int>> matches;  ///< local index, global index: one to one, in order of the local index
-  double score = 0;                          ///< log likelihood ratio of the layout under the pose [nats]
-  double evidence =
-      0;               ///< the same when the pose is not given but has to be found in this map: below 0, chance does it
-  double sigma = 0;    ///< how well matched objects agree, horizontally (standard deviation per axis) [m]
+  /// local index, global index: one to one, in order of the local index
+  std::vector<std::pair<int, int>> matches;
+  /// log likelihood ratio of the layout under the pose [nats]
+  double score = 0;
+  double evidence = 0;  ///< the same when the pose is not given but has to be found in this map:
+                        ///< below 0, chance does it
+  /// how well matched objects agree, horizontally (standard deviation per axis) [m]
+  double sigma = 0;
   int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
 };
 
-/// Of one local layout on one map; refers to both, which have to outlive it. Positions are finite. It remembers what it
-/// has worked out, so not two threads at once.
+/// Of one local layout on one map; refers to both, which have to outlive it. Positions are finite.
+/// It remembers what it has worked out, so not two threads at once.
 class LayoutLikelihood {
  public:
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
@@ -52,8 +58,9 @@ class LayoutLikelihood {
   /// Matches under `pose` and what they say.
   LayoutFit Evaluate(const YawShift& pose) const;
 
-  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates there. Remembers the way:
-  /// a start that leads to a pose where an earlier one has been costs little.
+  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates
+  /// there. Remembers the way: a start that leads to a pose where an earlier one has been costs
+  /// little.
   LayoutFit Refine(YawShift& pose, int rounds) const;
 
  private:
@@ -83,23 +90,28 @@ class LayoutLikelihood {
   int OnMap(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
-  LayoutFit Assign(const std::vector<Candidate>& candidates, int in_view, int on_map, double sigma) const;
+  LayoutFit Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
+                   double sigma) const;
 
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
   static constexpr int kHeadings = 72;
-  std::vector<double> equal_label_;     // gain of each local object where its label is right; 0 if there is but one
+  // gain of each local object where its label is right; 0 if there is but one
+  std::vector<double> equal_label_;
   double other_label_ = 0;              // ... and where it is wrong
   std::vector<double> chance_heading_;  // of each local object: log density [1/rad]
   std::vector<Vec2> corners_;           // of the local objects' convex hull, counter-clockwise
   std::vector<Edge> hull_;
-  std::vector<double> none_mapped_;                           // log probability that none of so many is mapped
+  // log probability that none of so many is mapped
+  std::vector<double> none_mapped_;
   mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
-  mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;  // where a way through a pose has led
+  // where a way through a pose has led
+  mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;
 };
 
-/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points; else yaw 0.
+/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points;
+/// else yaw 0.
 YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
 
 /// The point where a pose takes it.

@@ -11,18 +11,20 @@
 
 namespace sslcd {
 
-/// Where could the local map lie in the global one, without any prior? Two objects fix a pose (yaw and shift), so every
-/// pair of local objects is laid on every pair of global objects of the same labels and distance; each pose found is
-/// scored by how many other objects fall on one another (one look into a grid each), and the best ones are refined and
-/// weighed by `LayoutLikelihood`. In large maps, triangles of neighbours take the place of the pairs (`LayoutIndex`).
+/// Where could the local map lie in the global one, without any prior? Two objects fix a pose (yaw
+/// and shift), so every pair of local objects is laid on every pair of global objects of the same
+/// labels and distance; each pose found is scored by how many other objects fall on one another
+/// (one look into a grid each), and the best ones are refined and weighed by `LayoutLikelihood`. In
+/// large maps, triangles of neighbours take the place of the pairs (`LayoutIndex`).
 struct PoseSearchOptions {
-  double min_pair_m = 4.;     ///< closer pairs fix the yaw too badly
-  double pair_noise_m = 1.;   ///< how far the distances of two equal pairs may differ
-  double inlier_m = 1.5;      ///< coarse score: objects further apart than this do not fit
-  int pairs_per_object = 6;   ///< local pairs tried per object, the rarest distances first
-  int refine = 100;           ///< the best coarse poses that are refined
-  int min_matches = 4;        ///< three objects fit somewhere in any map
-  double distinct_m = 2.;     ///< two poses are the same if they move the local map's centre to within this ...
+  double min_pair_m = 4.;    ///< closer pairs fix the yaw too badly
+  double pair_noise_m = 1.;  ///< how far the distances of two equal pairs may differ
+  double inlier_m = 1.5;     ///< coarse score: objects further apart than this do not fit
+  int pairs_per_object = 6;  ///< local pairs tried per object, the rarest distances first
+  int refine = 100;          ///< the best coarse poses that are refined
+  int min_matches = 4;       ///< three objects fit somewhere in any map
+  /// two poses are the same if they move the local map's centre to within this ...
+  double distinct_m = 2.;
   double distinct_rad = 0.1;  ///< ... and differ in yaw by less than this
 };
 void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options);
@@ -32,8 +34,9 @@ struct PoseHypothesis {
   LayoutFit fit;  ///< how well the layouts agree under it
 };
 
-/// Distinct poses of `likelihood.local()` in `likelihood.index()`, best first. O(pairs of equal distance), in large
-/// maps O(triangles of equal sides).
-std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood, const PoseSearchOptions& options);
+/// Distinct poses of `likelihood.local()` in `likelihood.index()`, best first. O(pairs of equal
+/// distance), in large maps O(triangles of equal sides).
+std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
+                                        const PoseSearchOptions& options);
 
 }  // namespace sslcd

@@ -25,19 +25,21 @@ struct PoseTrack {
     std::vector<int> objects;  ///< the local map, by id
   };
   int id = 0;
-  YawShift pose;            ///< local to global, as the last attempt has it
-  LayoutFit fit;            ///< of the last attempt
-  double prior = 0;         ///< log odds of the pose before any object was looked at
-  double evidence = 0;      ///< log odds that all attempts together speak for it rather than chance [nats]
+  YawShift pose;     ///< local to global, as the last attempt has it
+  LayoutFit fit;     ///< of the last attempt
+  double prior = 0;  ///< log odds of the pose before any object was looked at
+  /// log odds that all attempts together speak for it rather than chance [nats]
+  double evidence = 0;
   std::vector<Vote> votes;  ///< of the attempts so far, oldest first
 };
 
-/// Temporal agreement: the true pose goes on fitting as the camera moves on, an accidental one does not. Poses found
-/// by one attempt are looked at again in the next; what they score there adds up, but only as far as new objects have
-/// come in:
-///   evidence = prior + volume + mean(score) (different objects in all local maps) / (mean objects in one)
-/// where score and volume are those of LayoutFit (evidence = score + volume). With one attempt this is LayoutFit's own
-/// evidence.
+/// Temporal agreement: the true pose goes on fitting as the camera moves on, an accidental one does
+/// not. Poses found by one attempt are looked at again in the next; what they score there adds up,
+/// but only as far as new objects have come in:
+///   evidence = prior + volume + mean(score) (different objects in all local maps) / (mean objects
+///   in one)
+/// where score and volume are those of LayoutFit (evidence = score + volume). With one attempt this
+/// is LayoutFit's own evidence.
 class PoseTracks {
  public:
   using Prior = std::function<double(const YawShift&, const LayoutFit&)>;

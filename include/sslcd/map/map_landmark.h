@@ -21,7 +21,8 @@ struct Sighting {
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
 };
 
-/// A landmark while the map is being built: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with its life cycle.
+/// A landmark while the map is being built: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with
+/// its life cycle.
 struct MapLandmark {
   LandmarkId id;
   std::string label;
@@ -36,13 +37,13 @@ struct MapLandmark {
   double last_seen_at = 0;          ///< path travelled by then [m]
 };
 
-/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around it. Weights fall
-/// with range, as the detections' precision does. At least one sighting.
+/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around
+/// it. Weights fall with range, as the detections' precision does. At least one sighting.
 Vec3 FuseDims(const std::vector<Sighting>& sightings);
 
-/// Decides which way round the object stands by a vote of its sightings (a detector that takes front for back is wrong
-/// by half a turn, and bundle adjustment does not listen to that half turn). `yaws` are the sightings' yaws in the
-/// world. Returns `yaw` or `yaw + pi`, wrapped.
+/// Decides which way round the object stands by a vote of its sightings (a detector that takes
+/// front for back is wrong by half a turn, and bundle adjustment does not listen to that half
+/// turn). `yaws` are the sightings' yaws in the world. Returns `yaw` or `yaw + pi`, wrapped.
 double VoteHeading(double yaw, const std::vector<double>& yaws);
 
 }  // namespace sslcd

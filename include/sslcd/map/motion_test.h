@@ -8,22 +8,25 @@
 
 namespace sslcd {
 
-/// Parked or driving? Two models explain an object's horizontal positions in the world: one that stands still and one
-/// that drives at nearly constant velocity. The log Bayes factor between them is the stationarity test: the driving
-/// model can follow anything, and pays for that with a wide prediction whenever standing still would have done.
-/// A detector's bias turns with the viewing ray, so a parked object seems to creep as the camera drives by. Driving
-/// therefore also takes a real distance at a real speed.
+/// Parked or driving? Two models explain an object's horizontal positions in the world: one that
+/// stands still and one that drives at nearly constant velocity. The log Bayes factor between them
+/// is the stationarity test: the driving model can follow anything, and pays for that with a wide
+/// prediction whenever standing still would have done. A detector's bias turns with the viewing
+/// ray, so a parked object seems to creep as the camera drives by. Driving therefore also takes a
+/// real distance at a real speed.
 struct MotionTestOptions {
   double speed_prior_mps = 8.;        ///< standard deviation of an unknown object's speed, per axis
   double acceleration_mps2 = 2.;      ///< of the driving model
   double wander_m_per_sqrt_s = 0.02;  ///< of the standing model: what camera drift does to it
-  double decide_at = 6.;              ///< log Bayes factor at which an object is called driving (and, negated, parked)
-  double min_travel_m = 2.;           ///< nothing is called driving that has not come so far ...
-  double min_speed_mps = 0.7;         ///< ... at least so fast
-  double max_parked_speed_mps =
-      2.;                 ///< parked: the driving model's speed is below this, with one standard deviation to spare
+  /// log Bayes factor at which an object is called driving (and, negated, parked)
+  double decide_at = 6.;
+  double min_travel_m = 2.;          ///< nothing is called driving that has not come so far ...
+  double min_speed_mps = 0.7;        ///< ... at least so fast
+  double max_parked_speed_mps = 2.;  ///< parked: the driving model's speed is below this, with one
+                                     ///< standard deviation to spare
   double settle_s = 1.5;  ///< a driving object that stands for so long is a new parked one
-  double memory = 10.;    ///< the factor's limit: how much evidence a change of mind has to overcome
+  /// the factor's limit: how much evidence a change of mind has to overcome
+  double memory = 10.;
   double forget_after_s = 5.;  ///< unseen for longer: start again
 };
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
@@ -40,7 +43,8 @@ class MotionTest {
   };
 
   /// Horizontal position [m] with its covariance at `stamp` [s].
-  void Add(const Point& position, const Covariance& covariance, double stamp, const MotionTestOptions& options);
+  void Add(const Point& position, const Covariance& covariance, double stamp,
+           const MotionTestOptions& options);
 
   Prediction PredictParked(double stamp, const MotionTestOptions& options) const;
   Prediction PredictDriving(double stamp, const MotionTestOptions& options) const;
@@ -69,7 +73,8 @@ class MotionTest {
   Point start_{0, 0}, parked_{0, 0};
   Covariance start_covariance_ = Covariance::Zero();
   Covariance parked_covariance_ = Covariance::Zero();
-  Eigen::Matrix<double, 4, 1, Eigen::DontAlign> state_ = Eigen::Matrix<double, 4, 1, Eigen::DontAlign>::Zero();
+  Eigen::Matrix<double, 4, 1, Eigen::DontAlign> state_ =
+      Eigen::Matrix<double, 4, 1, Eigen::DontAlign>::Zero();
   Eigen::Matrix<double, 4, 4, Eigen::DontAlign> state_covariance_ =
       Eigen::Matrix<double, 4, 4, Eigen::DontAlign>::Zero();
 };

@@ -19,12 +19,16 @@ struct MapOptions {
   double birth_score = 0.5;      ///< a detection less certain than this makes no new landmark
   double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is given up
   double search_radius_m = 12.;  ///< how far from a detection its landmark is looked for
-  double memory_m = 60.;         ///< a landmark out of sight for so much path is found again by loop closure only: by
-                                 ///< then the odometry may have drifted on to its neighbour
-  double caution = 1.5;  ///< factor on the learnt detection sigmas in gates and in the motion test: a detector's
-                         ///< errors drift with range and viewpoint, so successive ones say less than they seem to
-  double min_noise_scale = 3.;  ///< added to that (in quadrature): a good detector's errors have long tails
-  bool learn_noise = true;      ///< learn the detector's noise scale from the scatter of its detections
+  /// a landmark out of sight for so much path is found again by loop closure only: by then the
+  /// odometry may have drifted on to its neighbour
+  double memory_m = 60.;
+  /// factor on the learnt detection sigmas in gates and in the motion test: a detector's errors
+  /// drift with range and viewpoint, so successive ones say less than they seem to
+  double caution = 1.5;
+  /// added to that (in quadrature): a good detector's errors have long tails
+  double min_noise_scale = 3.;
+  /// learn the detector's noise scale from the scatter of its detections
+  bool learn_noise = true;
   MotionTestOptions motion;
 };
 void DescribeFields(FieldVisitor& visitor, MapOptions& options);
@@ -35,22 +39,25 @@ struct MapUpdate {
   int born = 0, confirmed = 0, turned_dynamic = 0;
 };
 
-/// The objects known so far, and the bookkeeping that associates detections with them. All state of the mapping stage.
+/// The objects known so far, and the bookkeeping that associates detections with them. All state of
+/// the mapping stage.
 class ObjectMap {
  public:
   ObjectMap(const GravityFrame& gravity, const LabelTable& labels, const DetectionNoise& noise,
             const AssociationOptions& association, const MapOptions& options);
 
-  /// Associates the detections of a frame seen from T_world_cam, and updates, creates and retires landmarks.
-  /// `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must increase from call to call;
-  /// `travelled_m` is the path so far.
-  MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
-                     const Camera* camera, double travelled_m = 0);
+  /// Associates the detections of a frame seen from T_world_cam, and updates, creates and retires
+  /// landmarks. `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must
+  /// increase from call to call; `travelled_m` is the path so far.
+  MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam,
+                     const std::vector<Detection>& detections, const Camera* camera,
+                     double travelled_m = 0);
 
-  /// Association alone, against the confirmed landmarks as they stand: the landmark of each detection (-1: none).
-  /// `may`: which landmarks come into question; empty: all.
-  std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam, const std::vector<Detection>& detections,
-                                const Camera* camera, const std::function<bool(const MapLandmark&)>& may = {}) const;
+  /// Association alone, against the confirmed landmarks as they stand: the landmark of each
+  /// detection (-1: none). `may`: which landmarks come into question; empty: all.
+  std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam,
+                                const std::vector<Detection>& detections, const Camera* camera,
+                                const std::function<bool(const MapLandmark&)>& may = {}) const;
 
   const std::map<int, MapLandmark>& landmarks() const { return landmarks_; }
   const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id.value); }
@@ -62,13 +69,16 @@ class ObjectMap {
   void SetState(LandmarkId id, LandmarkState state);
   void SetNoiseScale(const NoiseScale& scale) { noise_scale_ = scale; }
 
-  /// `drop` becomes part of `keep`: sightings and galleries merge, where both were seen in one frame `keep`'s stays.
+  /// `drop` becomes part of `keep`: sightings and galleries merge, where both were seen in one
+  /// frame `keep`'s stays.
   void Fuse(LandmarkId keep, LandmarkId drop);
 
-  /// Replaces a landmark's sightings, e.g. after they were associated anew; an empty list removes the landmark.
+  /// Replaces a landmark's sightings, e.g. after they were associated anew; an empty list removes
+  /// the landmark.
   void SetSightings(LandmarkId id, std::vector<Sighting> sightings);
 
-  /// Adds landmarks that somebody else has mapped (a loaded map, a benchmark's ballast). Returns the new id.
+  /// Adds landmarks that somebody else has mapped (a loaded map, a benchmark's ballast). Returns
+  /// the new id.
   LandmarkId Insert(MapLandmark landmark);
 
   /// Ids of landmarks within a horizontal distance of a point, ascending.
@@ -79,15 +89,19 @@ class ObjectMap {
   AssociationQuery QueryOf(const Detection& detection, const View& view) const;
   AssociationCandidate CandidateOf(const MapLandmark& landmark, const View& view) const;
   std::vector<int> CandidateIds(const std::vector<AssociationQuery>& queries) const;
-  std::vector<int> MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids, const View& view) const;
-  std::vector<AssociationQuery> QueriesOf(const std::vector<Detection>& detections, const View& view) const;
+  std::vector<int> MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids,
+                            const View& view) const;
+  std::vector<AssociationQuery> QueriesOf(const std::vector<Detection>& detections,
+                                          const View& view) const;
   void Create(const AssociationQuery& query, const View& view);
   void Update(MapLandmark& landmark, const AssociationQuery& query, const View& view);
   void LearnNoise(const MapLandmark& landmark, const Detection& detection, const View& view);
   void Judge(MapLandmark& landmark, MapUpdate& update);
   void Retire(double stamp);
   void Reindex(const MapLandmark& landmark, double stamp);
-  Vec2 Horizontal(const Vec3& world) const { return {world.dot(gravity_.forward), world.dot(gravity_.left)}; }
+  Vec2 Horizontal(const Vec3& world) const {
+    return {world.dot(gravity_.forward), world.dot(gravity_.left)};
+  }
   bool Movable(const MapLandmark& landmark) const { return landmark.symmetry != Symmetry::kFull; }
 
   GravityFrame gravity_;

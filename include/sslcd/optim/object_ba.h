@@ -20,8 +20,9 @@ struct BaOptions {
   Residual residual = Residual::kRobust;
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 30;
-  double loss_scale = 3.;   ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
-  double correlation = 2.;  ///< robust: factor on detection sigmas, because errors of successive frames are alike
+  double loss_scale = 3.;  ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
+  /// robust: factor on detection sigmas, because errors of successive frames are alike
+  double correlation = 2.;
   OdometryNoise odometry;
 };
 void DescribeFields(FieldVisitor& visitor, BaOptions& options);
@@ -49,14 +50,15 @@ struct BaOdometry {
   Pose T_from_to;
 };
 
-/// Two cameras whose place to each other was measured otherwise, e.g. from their images. It may be wrong (Cauchy loss).
+/// Two cameras whose place to each other was measured otherwise, e.g. from their images. It may be
+/// wrong (Cauchy loss).
 struct BaTie {
   int from = 0, to = 0;  ///< indices of cameras; the same twice says nothing
   RelativePose pose;     ///< T_from_to, metric
 };
 
-/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x - x0)|^2. The state order
-/// is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
+/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x -
+/// x0)|^2. The state order is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
 struct BaPrior {
   std::vector<int> frames, object_ids;  ///< whose states it talks about, by name
   std::vector<Pose> cameras;            ///< x0
@@ -67,8 +69,9 @@ struct BaPrior {
   bool empty() const { return J.rows() == 0; }
 };
 
-/// What is known of a vehicle's road: how steep it is, and that elsewhere it is steep otherwise. Nothing else holds the
-/// roll and pitch of an odometry that does not measure gravity, and with them its height, between the ends of a loop.
+/// What is known of a vehicle's road: how steep it is, and that elsewhere it is steep otherwise.
+/// Nothing else holds the roll and pitch of an odometry that does not measure gravity, and with
+/// them its height, between the ends of a loop.
 struct SlopePrior {
   double sigma_rad = 0;   ///< standard deviation of the slope; 0: nothing is known
   double length_m = 200;  ///< of path, after which the slope is another one
@@ -84,13 +87,14 @@ struct BaProblem {
   double log_scale = 0;
   double expected_log_scale = 0;  ///< mean of the scale's prior, where `prior` is empty
   BaPrior prior;                  ///< empty: the first camera and the scale get their own
-  /// Holds the first camera where it is, also where there is a prior: what is left of a long way says next to nothing
-  /// about where in the world all of it is.
+  /// Holds the first camera where it is, also where there is a prior: what is left of a long way
+  /// says next to nothing about where in the world all of it is.
   bool hold_first = false;
   DetectionNoise noise;
   NoiseScale noise_scale;
   OdometryFactors odometry_factors;  ///< on BaOptions::odometry
-  /// The first camera, which stands on a slope like all others, tells which direction of the cameras is up.
+  /// The first camera, which stands on a slope like all others, tells which direction of the
+  /// cameras is up.
   SlopePrior slope;
 };
 
@@ -102,18 +106,20 @@ struct BaSummary {
   std::string message;  ///< one line
 };
 
-/// Eq. 7: moves cameras, objects and scale to the minimum. Deterministic for any thread count. Never throws on odd
-/// geometry: a problem without sightings and ties, or with non-finite input comes back unchanged with `usable` false.
+/// Eq. 7: moves cameras, objects and scale to the minimum. Deterministic for any thread count.
+/// Never throws on odd geometry: a problem without sightings and ties, or with non-finite input
+/// comes back unchanged with `usable` false.
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options);
 
-/// The prior that replaces the given cameras and objects (sorted indices) and every residual that touches them,
-/// linearised where the problem stands (Schur complement). Objects not named must not be seen from a dropped camera
-/// only.
-BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras, const std::vector<int>& objects,
-                    const BaOptions& options);
+/// The prior that replaces the given cameras and objects (sorted indices) and every residual that
+/// touches them, linearised where the problem stands (Schur complement). Objects not named must not
+/// be seen from a dropped camera only.
+BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
+                    const std::vector<int>& objects, const BaOptions& options);
 
-/// Factor between the detector's real scatter about the map and `problem.noise`, per component, from the median of the
-/// absolute residuals. Keeps the present scale where there are fewer than 20 residuals.
+/// Factor between the detector's real scatter about the map and `problem.noise`, per component,
+/// from the median of the absolute residuals. Keeps the present scale where there are fewer than 20
+/// residuals.
 NoiseScale EstimateNoiseScale(const BaProblem& problem);
 
 }  // namespace sslcd

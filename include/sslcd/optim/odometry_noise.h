@@ -6,9 +6,10 @@
 
 namespace sslcd {
 
-/// How far the odometry is off: a random walk, so variances grow with the distance d between two frames, and a share of
-/// each turn a: var = floor^2 + walk^2 d (+ turn^2 a^2 for rotations). Height has a walk of its own: slowly pitching
-/// cameras and uneven roads make it drift further than the way on the ground.
+/// How far the odometry is off: a random walk, so variances grow with the distance d between two
+/// frames, and a share of each turn a: var = floor^2 + walk^2 d (+ turn^2 a^2 for rotations).
+/// Height has a walk of its own: slowly pitching cameras and uneven roads make it drift further
+/// than the way on the ground.
 struct OdometryNoise {
   double translation_floor_m = 0.003;
   double translation_walk = 0.01;  ///< horizontal [m per sqrt(m)]
@@ -26,18 +27,21 @@ struct OdometrySigmas {
 };
 OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise);
 
-/// Factors on the standard deviations of what loops measure well: the horizontal part of a step, and its heading.
+/// Factors on the standard deviations of what loops measure well: the horizontal part of a step,
+/// and its heading.
 struct OdometryFactors {
   double horizontal = 1, heading = 1;
 };
 
-/// Symmetric matrices that whiten the two halves of the error of a step: Log(measured^-1 * T_from_to). [1/m, 1/rad]
+/// Symmetric matrices that whiten the two halves of the error of a step: Log(measured^-1 *
+/// T_from_to). [1/m, 1/rad]
 struct OdometryWhitening {
   Eigen::Matrix3d translation, rotation;
 };
 
 /// `up`: unit vector against gravity, in the frame of the step's second pose, as its error is.
-OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors, const Vec3& up);
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,
+                              const Vec3& up);
 
 /// The same as the information of an edge between two poses [translation, rotation].
 Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up);

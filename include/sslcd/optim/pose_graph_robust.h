@@ -8,37 +8,41 @@
 
 namespace sslcd {
 
-/// Graduated non-convexity with truncated least squares (GNC-TLS; Yang et al., RA-L 2020) over the loop edges. Edges
-/// that are no loops are always trusted.
+/// Graduated non-convexity with truncated least squares (GNC-TLS; Yang et al., RA-L 2020) over the
+/// loop edges. Edges that are no loops are always trusted.
 struct RobustPoseGraphOptions {
   PoseGraphOptions graph;
-  double inlier_probability = 0.99;  ///< a true loop passes with this probability: sets the chi2 limit
-  double drift_factor = 3.;  ///< a loop is ruled out where odometry would have to be this many times worse than its
-                             ///< information says; such a loop comes back only if the others lead to it
-  double mu_factor = 1.4;    ///< how fast the cost turns from convex to truncated
-  int max_rounds = 100;      ///< weight updates, from each of two starts
+  /// a true loop passes with this probability: sets the chi2 limit
+  double inlier_probability = 0.99;
+  /// a loop is ruled out where odometry would have to be this many times worse than its information
+  /// says; such a loop comes back only if the others lead to it
+  double drift_factor = 3.;
+  double mu_factor = 1.4;  ///< how fast the cost turns from convex to truncated
+  int max_rounds = 100;    ///< weight updates, from each of two starts
 };
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
 
 struct RobustPoseGraphSummary {
-  PoseGraphSummary graph;           ///< chi2, of the given and of the returned poses, counts the kept loops only
+  /// chi2, of the given and of the returned poses, counts the kept loops only
+  PoseGraphSummary graph;
   std::vector<double> edge_weight;  ///< per edge: 1 trusted or kept, 0 loop refused
   int loops_kept = 0, loops_refused = 0;
   int rounds = 0;         ///< weight updates; 0 where all loops agreed at once
   double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
 };
 
-/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all loops ever proposed
-/// each time; a loop kept before may be refused once others contradict it, and come back. `kept_before`: per edge, 1
-/// for loops that a former solve has kept and for new ones, 0 for those it has refused; the vertices are where that
-/// solve has left them. If next to nothing changes from there, that is the answer, and a cheap one. Otherwise, or if it
-/// is empty, the start is the trusted edges' own geometry, which false loops cannot spoil. Never throws, as
+/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all
+/// loops ever proposed each time; a loop kept before may be refused once others contradict it, and
+/// come back. `kept_before`: per edge, 1 for loops that a former solve has kept and for new ones, 0
+/// for those it has refused; the vertices are where that solve has left them. If next to nothing
+/// changes from there, that is the answer, and a cheap one. Otherwise, or if it is empty, the start
+/// is the trusted edges' own geometry, which false loops cannot spoil. Never throws, as
 /// SolvePoseGraph.
 RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
                                    const std::vector<double>& kept_before = {});
 
-/// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's approximation (within 0.5 %
-/// for dof >= 3 and probabilities from .9 to .999).
+/// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's
+/// approximation (within 0.5 % for dof >= 3 and probabilities from .9 to .999).
 double Chi2Quantile(double probability, int dof);
 
 }  // namespace sslcd

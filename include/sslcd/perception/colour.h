@@ -16,12 +16,14 @@ struct ColourOptions {
     kPaper,   ///< clusters in HSV, vector = their shares, largest first
   };
   Method method = Method::kRobust;
-  int clusters = 6;        ///< K
-  int max_pixels = 1000;   ///< the box is sampled on a regular grid of at most this many
-  double box_share = 0.7;  ///< central part of the box that is looked at, per side; the rest is mostly background
-  int iterations = 10;     ///< of K-means, at most
-  int seed = 1;            ///< of K-means
-  double softness = 0.25;  ///< robust: how far apart in colour space two colours still resemble each other
+  int clusters = 6;       ///< K
+  int max_pixels = 1000;  ///< the box is sampled on a regular grid of at most this many
+  /// central part of the box that is looked at, per side; the rest is mostly background
+  double box_share = 0.7;
+  int iterations = 10;  ///< of K-means, at most
+  int seed = 1;         ///< of K-means
+  /// robust: how far apart in colour space two colours still resemble each other
+  double softness = 0.25;
 };
 void DescribeFields(FieldVisitor& visitor, ColourOptions& options);
 
@@ -32,9 +34,10 @@ struct ColourCluster {
 };
 using ColourSignature = std::vector<ColourCluster>;  ///< largest share first; the shares sum to one
 
-/// Hue-safe colour space: the HSV cone [C cos(hue), C sin(hue), L], whose value axis is compressed like the eye's, so
-/// that a change of brightness moves a colour little, except near black. L = log(1 + v/e) / log(1 + 1/e) and C =
-/// saturation * v (1 + e) / (v + e), e = 0.1; both in [0, 1]. Arguments in [0, 1].
+/// Hue-safe colour space: the HSV cone [C cos(hue), C sin(hue), L], whose value axis is compressed
+/// like the eye's, so that a change of brightness moves a colour little, except near black. L =
+/// log(1 + v/e) / log(1 + 1/e) and C = saturation * v (1 + e) / (v + e), e = 0.1; both in [0, 1].
+/// Arguments in [0, 1].
 Vec3 ConeColour(double red, double green, double blue);
 
 /// HSV in OpenCV's 8-bit scale: hue [0, 180), saturation and value [0, 255]. Arguments in [0, 1].
@@ -42,15 +45,17 @@ Vec3 HsvColour(double red, double green, double blue);
 
 /// Clusters of the pixels in `box`. Empty when the box has no pixel in the image.
 /// Throws Error(kBadInput) unless the image has three channels, data and a stride that holds a row.
-ColourSignature ExtractColour(const ImageView& image, const Box2d& box, const ColourOptions& options);
+ColourSignature ExtractColour(const ImageView& image, const Box2d& box,
+                              const ColourOptions& options);
 
 /// The vector h for Detection::colour; empty for an empty signature.
-/// Robust: soft assignment to a palette that is the same for all objects, L2-normalised with entries >= 0, so that the
-/// dot product of two is their cosine in [0, 1]. Paper: the K shares (zeros at the end where there are fewer clusters),
-/// sum one.
+/// Robust: soft assignment to a palette that is the same for all objects, L2-normalised with
+/// entries >= 0, so that the dot product of two is their cosine in [0, 1]. Paper: the K shares
+/// (zeros at the end where there are fewer clusters), sum one.
 std::vector<float> ColourVector(const ColourSignature& signature, const ColourOptions& options);
 
 /// Both steps.
-std::vector<float> ColourVector(const ImageView& image, const Box2d& box, const ColourOptions& options);
+std::vector<float> ColourVector(const ImageView& image, const Box2d& box,
+                                const ColourOptions& options);
 
 }  // namespace sslcd

@@ -8,7 +8,8 @@
 
 namespace sslcd {
 
-/// Which detections are worth using (paper III-A.1: "excessively large or distant" ones are dropped).
+/// Which detections are worth using (paper III-A.1: "excessively large or distant" ones are
+/// dropped).
 struct DetectionFilterOptions {
   double min_score = 0.5;
   double max_range_m = 70.;  ///< distance from the camera to the cuboid's centre
@@ -31,6 +32,7 @@ struct FilterReport {
 };
 
 /// Drops what fails; the order of the others stays.
-FilterReport FilterDetections(std::vector<Detection>& detections, const DetectionFilterOptions& options);
+FilterReport FilterDetections(std::vector<Detection>& detections,
+                              const DetectionFilterOptions& options);
 
 }  // namespace sslcd

@@ -9,19 +9,22 @@ namespace sslcd {
 
 struct KMeansOptions {
   int clusters = 6;
-  int iterations = 10;  ///< of Lloyd's algorithm, at most; it stops when no point changes its cluster
+  /// of Lloyd's algorithm, at most; it stops when no point changes its cluster
+  int iterations = 10;
   std::uint64_t seed = 1;
 };
 
 /// Points are columns.
 struct KMeansResult {
-  Eigen::Matrix3Xf centres;  ///< at most `clusters`; fewer where there are fewer different points. None is empty.
-  std::vector<int> sizes;    ///< points per centre
-  double compactness = 0;    ///< sum of squared distances of the points to their centres
+  /// at most `clusters`; fewer where there are fewer different points. None is empty.
+  Eigen::Matrix3Xf centres;
+  std::vector<int> sizes;  ///< points per centre
+  double compactness = 0;  ///< sum of squared distances of the points to their centres
 };
 
-/// K-means with the k-means++ seeding of Arthur and Vassilvitskii (2007), in its greedy form: each new centre is the
-/// best of a few draws. Deterministic for a seed. Points must be finite. No points: no centres.
+/// K-means with the k-means++ seeding of Arthur and Vassilvitskii (2007), in its greedy form: each
+/// new centre is the best of a few draws. Deterministic for a seed. Points must be finite. No
+/// points: no centres.
 KMeansResult KMeans(const Eigen::Matrix3Xf& points, const KMeansOptions& options);
 
 }  // namespace sslcd

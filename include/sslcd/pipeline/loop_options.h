@@ -12,17 +12,20 @@ namespace sslcd {
 
 /// What is compared with what.
 struct LoopLayoutOptions {
-  double every_m = 5.;       ///< an attempt every so much path
-  double local_m = 75.;      ///< the local map: objects seen on the last so much path
-  double hindsight_m = 60.;  ///< ... when the whole run is looked at again: the pose is nearly known, fewer objects do
-  double gap_m = 10.;        ///< the global map: objects on passes that ended so long before the local map begins
-  double split_m = 30.;      ///< an object unseen for so much path is on another pass when it comes back
-  int min_sightings = 2;     ///< objects seen less often on a pass take no part
+  double every_m = 5.;   ///< an attempt every so much path
+  double local_m = 75.;  ///< the local map: objects seen on the last so much path
+  /// ... when the whole run is looked at again: the pose is nearly known, fewer objects do
+  double hindsight_m = 60.;
+  /// the global map: objects on passes that ended so long before the local map begins
+  double gap_m = 10.;
+  /// an object unseen for so much path is on another pass when it comes back
+  double split_m = 30.;
+  int min_sightings = 2;  ///< objects seen less often on a pass take no part
 };
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 
-/// How far odometry may be off before any object is looked at. Closed loops count as shortcuts: after the first one the
-/// camera is known to be near where it believes to be.
+/// How far odometry may be off before any object is looked at. Closed loops count as shortcuts:
+/// after the first one the camera is known to be near where it believes to be.
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< position error per path
   double drift_yaw = 0.02;    ///< yaw error [rad per sqrt(m)]
@@ -32,25 +35,29 @@ void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
 
 /// When a loop is believed, and taken back.
 struct LoopBeliefOptions {
-  double min_margin = 13.;               ///< log odds of its track against all others and against "nowhere" [nats]
-  double min_own_evidence = 0.;          ///< its own objects agree better than chance by this, where the track expects
-                                         ///< them [nats]
+  /// log odds of its track against all others and against "nowhere" [nats]
+  double min_margin = 13.;
+  /// its own objects agree better than chance by this, where the track expects them [nats]
+  double min_own_evidence = 0.;
   double max_heading_sigma_rad = 0.042;  ///< the heading is known this well
   double max_apart_m = 30.;              ///< the two cameras stood this near to each other
-  double probation_m = 2.;               ///< taken back where the refined trajectory differs by more than this ...
-  double probation_rad = 0.06;           ///< ... or this
+  /// taken back where the refined trajectory differs by more than this ...
+  double probation_m = 2.;
+  double probation_rad = 0.06;  ///< ... or this
 };
 void DescribeFields(FieldVisitor& visitor, LoopBeliefOptions& options);
 
-/// Where cameras of different passes are tied to each other by their images (ViewAligner): where odometry, with closed
-/// loops as shortcuts, says where to look.
+/// Where cameras of different passes are tied to each other by their images (ViewAligner): where
+/// odometry, with closed loops as shortcuts, says where to look.
 struct LoopViewOptions {
   bool enabled = true;
-  double every_m = 2;   ///< a tie every so much path at most
-  double ahead_m = 7;   ///< the two look at one spot on the ground, so far ahead of each (SpotAhead) ...
-  double apart_m = 6;   ///< ... to this
-  double gap_m = 30;    ///< so much path lies between them at least
-  double reach_m = 75;  ///< ... and with closed loops as shortcuts so much at most, or what a better odometry takes ...
+  double every_m = 2;  ///< a tie every so much path at most
+  /// the two look at one spot on the ground, so far ahead of each (SpotAhead) ...
+  double ahead_m = 7;
+  double apart_m = 6;  ///< ... to this
+  double gap_m = 30;   ///< so much path lies between them at least
+  /// ... and with closed loops as shortcuts so much at most, or what a better odometry takes ...
+  double reach_m = 75;
   double guess_m = 0.3;  ///< ... to be this far off (LoopOptions::odometry)
 };
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options);
@@ -64,20 +71,24 @@ struct LoopOptions {
   LoopPriorOptions prior;
   LoopBeliefOptions belief;
   LoopViewOptions views;
-  double lag_m = 25.;     ///< the query camera stood so far back: with matched objects before and behind it
+  /// the query camera stood so far back: with matched objects before and behind it
+  double lag_m = 25.;
   double sigma_m = 0.15;  ///< of every loop measured by objects, on top of what its matches say
   double sigma_rad = 0.02;
-  double fuse_m = 3.;  ///< matched landmarks that are still further apart than this do not become one
+  /// matched landmarks that are still further apart than this do not become one
+  double fuse_m = 3.;
   DriftOptions drift;
   double keyframe_m = 5.;  ///< vertices of the pose graph: a keyframe every so much path
-  /// Of the edges between them. Coarser than the odometry of a good stereo rig: what loops reveal over kilometres is
-  /// more than what the sliding window has to expect over metres.
+  /// Of the edges between them. Coarser than the odometry of a good stereo rig: what loops reveal
+  /// over kilometres is more than what the sliding window has to expect over metres.
   OdometryNoise odometry;
-  bool learn_odometry = true;  ///< how far it is off, at the end, from the closed loops (LearnOdometryFactors)
+  /// how far it is off, at the end, from the closed loops (LearnOdometryFactors)
+  bool learn_odometry = true;
   RobustPoseGraphOptions graph;
-  int adjust_keyframes = 500;  ///< a run of so many keyframes at most has all cameras and objects adjusted after a loop
-                               ///< has moved them; a longer one not before the end
-  PaperMatchOptions paper;     ///< of mode: paper
+  /// a run of so many keyframes at most has all cameras and objects adjusted after a loop has moved
+  /// them; a longer one not before the end
+  int adjust_keyframes = 500;
+  PaperMatchOptions paper;  ///< of mode: paper
 
   LoopOptions();
 };

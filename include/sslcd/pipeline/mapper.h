@@ -55,31 +55,33 @@ struct ViewTie {
 class Leveller;
 class LoopCloser;
 
-/// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III). The world is the
-/// odometry's frame, made metric: the first camera stays where the odometry has it.
-/// Not thread-safe; one mapper per sequence.
+/// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III).
+/// The world is the odometry's frame, made metric: the first camera stays where the odometry has
+/// it. Not thread-safe; one mapper per sequence.
 class Mapper {
  public:
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
 
-  /// Frames in order of time. O(window), whatever the size of the map, but for attempts to close a loop. Throws
-  /// Error(kBadInput) on a stamp that does not increase or a pose that is not finite; the mapper is then as it was
-  /// before.
+  /// Frames in order of time. O(window), whatever the size of the map, but for attempts to close a
+  /// loop. Throws Error(kBadInput) on a stamp that does not increase or a pose that is not finite;
+  /// the mapper is then as it was before.
   FrameReport AddFrame(const Frame& frame);
 
-  /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted loops are measured
-  /// anew. With a ViewAligner images of different passes are aligned, and all is optimised once more with that.
-  /// May be called any time, and again.
+  /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted
+  /// loops are measured anew. With a ViewAligner images of different passes are aligned, and all is
+  /// optimised once more with that. May be called any time, and again.
   BaSummary Refine();
 
   const ObjectMap& map() const { return map_; }
   const std::vector<FrameRecord>& frames() const { return frames_; }
-  Trajectory CameraTrajectory() const;                                  ///< one pose a frame
-  std::vector<MapObject> Objects() const;                               ///< every landmark, by id
-  std::vector<LoopClosure> LoopClosures() const;                        ///< every attempt, refused ones too
+  Trajectory CameraTrajectory() const;     ///< one pose a frame
+  std::vector<MapObject> Objects() const;  ///< every landmark, by id
+  /// every attempt, refused ones too
+  std::vector<LoopClosure> LoopClosures() const;
   const std::vector<ViewTie>& view_ties() const { return view_ties_; }  ///< of the last Refine
-  double scale() const;                                                 ///< metres per odometry metre
+  /// metres per odometry metre
+  double scale() const;
   TimingTable& timing() { return timing_; }
 
  private:

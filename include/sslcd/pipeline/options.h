@@ -18,7 +18,8 @@ struct WindowOptions {
   int keyframes = 8;           ///< cameras in the window
   double keyframe_m = 0.5;     ///< a new keyframe every so far ...
   double keyframe_rad = 0.05;  ///< ... or every such turn
-  int min_sightings = 5;       ///< objects seen less often stay out ("more than 4 times", paper III-C)
+  /// objects seen less often stay out ("more than 4 times", paper III-C)
+  int min_sightings = 5;
 };
 void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
 
@@ -30,9 +31,10 @@ struct RefineOptions {
   double keyframe_rad = 0.1;  ///< ... or every such turn; all other frames follow
   int min_sightings = 2;      ///< objects seen less often do not enter the final map
   double duplicate_m = 1.;    ///< landmarks of one label closer than this are one object
-  double moved_m = 1.5;       ///< a landmark whose late sightings lie further than this from its early ones has moved
-  double min_seen_share =
-      0.4;  ///< a movable object seen in fewer of the frames it was in sight for is a chimera of passers-by
+  /// a landmark whose late sightings lie further than this from its early ones has moved
+  double moved_m = 1.5;
+  double min_seen_share = 0.4;  ///< a movable object seen in fewer of the frames it was in sight
+                                ///< for is a chimera of passers-by
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 
@@ -41,7 +43,8 @@ struct LevelOptions {
   bool enabled = true;
   double max_slope_rad = 0.1;  ///< no ground is steeper than this on average ...
   double window_m = 200.;      ///< ... over so much path
-  /// How steep it usually is over so much path, a standard deviation, for the adjustments of all cameras: SlopePrior.
+  /// How steep it usually is over so much path, a standard deviation, for the adjustments of all
+  /// cameras: SlopePrior.
   double slope_rad = 0.05;
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);

@@ -5,8 +5,8 @@
 
 namespace sslcd::render {
 
-/// Sun and camera of one pass. Directions are those of the world: azimuth 0 is where the first camera looks, 90 to its
-/// right.
+/// Sun and camera of one pass. Directions are those of the world: azimuth 0 is where the first
+/// camera looks, 90 to its right.
 struct Light {
   double sun_azimuth_deg = 0;
   double sun_elevation_deg = 0;
@@ -18,9 +18,10 @@ struct Light {
 struct RenderOptions {
   Light out{130, 48, 1, 0};         ///< on the way out
   Light back{-115, 24, 1.15, 0.6};  ///< on the way back
-  double noise = 1.5;               ///< standard deviation of the sensor's noise, in grey levels of 255
-  double vignetting = 0.25;         ///< share of light lost in the corners
-  bool smooth_edges = true;         ///< four rays instead of one where two surfaces meet in a pixel
+  /// standard deviation of the sensor's noise, in grey levels of 255
+  double noise = 1.5;
+  double vignetting = 0.25;  ///< share of light lost in the corners
+  bool smooth_edges = true;  ///< four rays instead of one where two surfaces meet in a pixel
 };
 void DescribeFields(FieldVisitor& visitor, RenderOptions& options);
 

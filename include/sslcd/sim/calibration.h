@@ -36,8 +36,8 @@ struct DetectionStats {
 };
 DetectionStats MeasureDetections(const World& world, const SimulatedDetections& detections);
 
-/// All four cases with seeds 1 to `seeds`: the paper's figures and our own of docs/halv_sim.md. Options other
-/// than the case are the caller's.
+/// All four cases with seeds 1 to `seeds`: the paper's figures and our own of docs/halv_sim.md.
+/// Options other than the case are the caller's.
 std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options = {});
 
 /// As a Markdown table.

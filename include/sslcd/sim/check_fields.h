@@ -17,11 +17,14 @@ class FieldChecker : public FieldVisitor {
   void Real(const char* key, double& value, double low, double high, const char*) override {
     Check(key, value, low, high);
   }
-  void Integer(const char* key, int& value, int low, int high, const char*) override { Check(key, value, low, high); }
+  void Integer(const char* key, int& value, int low, int high, const char*) override {
+    Check(key, value, low, high);
+  }
   void Flag(const char*, bool&, const char*) override {}
   void Text(const char*, std::string&, const char*) override {}
   void Choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
-  void Section(const char*, const char*, const std::function<void(FieldVisitor&)>& describe) override {
+  void Section(const char*, const char*,
+               const std::function<void(FieldVisitor&)>& describe) override {
     describe(*this);
   }
   const std::string& problems() const { return problems_; }
@@ -30,8 +33,8 @@ class FieldChecker : public FieldVisitor {
   template <class T>
   void Check(const char* key, T value, T low, T high) {
     if (value >= low && value <= high) return;  // false for NaN
-    problems_ += std::string(problems_.empty() ? "" : "; ") + key + " is " + Short(value) + ", must be " + Short(low) +
-                 " to " + Short(high);
+    problems_ += std::string(problems_.empty() ? "" : "; ") + key + " is " + Short(value) +
+                 ", must be " + Short(low) + " to " + Short(high);
   }
   template <class T>
   static std::string Short(T value) {

@@ -6,12 +6,13 @@
 
 namespace sslcd::sim {
 
-/// Random numbers that are the same with every standard library: the engine's output is fixed by the C++ standard, that
-/// of std::normal_distribution and its kin is not.
+/// Random numbers that are the same with every standard library: the engine's output is fixed by
+/// the C++ standard, that of std::normal_distribution and its kin is not.
 class Random {
  public:
   /// Different streams of one seed have nothing to do with each other.
-  explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : engine_(seed + 0x9E3779B97F4A7C15u * stream) {}
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
+      : engine_(seed + 0x9E3779B97F4A7C15u * stream) {}
 
   double Uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }  ///< in [0, 1)
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }

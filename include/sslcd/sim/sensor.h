@@ -12,10 +12,11 @@
 
 namespace sslcd::sim {
 
-/// How visual odometry goes wrong: a wrong scale, random walks that grow with the square root of the distance, and
-/// errors that stay alike for a while.
+/// How visual odometry goes wrong: a wrong scale, random walks that grow with the square root of
+/// the distance, and errors that stay alike for a while.
 struct OdometryNoise {
-  double scale_error = 0.03;  ///< every step is too long by this fraction (real stereo odometry: about 3 %)
+  /// every step is too long by this fraction (real stereo odometry: about 3 %)
+  double scale_error = 0.03;
   double heading_rad_per_sqrt_m = 5e-4;
   double tilt_rad_per_sqrt_m = 5e-5;    ///< roll and pitch
   double position_m_per_sqrt_m = 4e-3;  ///< each axis
@@ -26,23 +27,29 @@ struct OdometryNoise {
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 
-/// Odometry T_odom_cam with the stamps of `truth`; the first pose is the identity. A camera that stands still gets no
-/// noise.
-Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise, std::uint64_t seed);
+/// Odometry T_odom_cam with the stamps of `truth`; the first pose is the identity. A camera that
+/// stands still gets no noise.
+Trajectory SimulateOdometry(const Trajectory& truth, const OdometryNoise& noise,
+                            std::uint64_t seed);
 
 /// What a 3D object detector gets wrong.
 struct DetectorNoise {
-  DetectionNoise sigmas;           ///< position, yaw and size, growing with range; its initial_scale is not used here
-  double scale = 1.;               ///< factor on all of `sigmas`
-  double constant_fraction = 0.5;  ///< share of the variance that is the same in all sightings of an object
-  double flip_rate = 0.03;         ///< front and back mistaken
-  double box_sigma_px = 2.;        ///< each side of the 2D box
+  /// position, yaw and size, growing with range; its initial_scale is not used here
+  DetectionNoise sigmas;
+  double scale = 1.;  ///< factor on all of `sigmas`
+  /// share of the variance that is the same in all sightings of an object
+  double constant_fraction = 0.5;
+  double flip_rate = 0.03;   ///< front and back mistaken
+  double box_sigma_px = 2.;  ///< each side of the 2D box
   double max_range_m = 60.;
   double miss_rate_near = 0.03;  ///< chance to miss a visible object at range 0 ...
   double miss_rate_far = 0.5;    ///< ... and at the maximal range
-  double miss_rate_hidden = 0;   ///< further chance to miss what is all but hidden; half of it for what is half hidden
-  double min_visible = 0.25;     ///< less than this fraction in the image or not hidden by nearer objects: not seen
-  double wrong_label = 0;        ///< car for van, pole for tree and the like, where the world has both classes
+  /// further chance to miss what is all but hidden; half of it for what is half hidden
+  double miss_rate_hidden = 0;
+  /// less than this fraction in the image or not hidden by nearer objects: not seen
+  double min_visible = 0.25;
+  /// car for van, pole for tree and the like, where the world has both classes
+  double wrong_label = 0;
   double false_positives = 0.2;  ///< mean number per frame
 };
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise);
@@ -53,9 +60,11 @@ struct SimulatedDetections {
   std::vector<int> identity;  ///< true WorldObject::id of every row, -1 = false positive
 };
 
-/// Detections of `world` along its true path. Position errors are drawn in the camera's ray frame (RayFrame), so a
-/// constant one turns with the viewing direction. Objects of symmetry `full` get any yaw. Same seed, same detections.
-SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise, std::uint64_t seed);
+/// Detections of `world` along its true path. Position errors are drawn in the camera's ray frame
+/// (RayFrame), so a constant one turns with the viewing direction. Objects of symmetry `full` get
+/// any yaw. Same seed, same detections.
+SimulatedDetections SimulateDetections(const World& world, const DetectorNoise& noise,
+                                       std::uint64_t seed);
 
 /// Puts odometry and detections together, as a dataset reader would.
 std::vector<Frame> MakeFrames(const Trajectory& odometry, const SimulatedDetections& detections);

@@ -14,14 +14,16 @@
 
 namespace sslcd::sim {
 
-/// One thing that stands or drives in a synthetic world. Its frame is that of a Detection: centre, x along the length,
-/// z up.
+/// One thing that stands or drives in a synthetic world. Its frame is that of a Detection: centre,
+/// x along the length, z up.
 struct WorldObject {
   int id = 0;  ///< index in World::objects
   std::string label;
-  Vec3 dims{0, 0, 0};                               ///< length, width, height [m]
-  std::vector<Pose> T_world_object;                 ///< one pose where it stands, one for every frame where it drives
-  Vec3 paint{0.5, 0.5, 0.5};                        ///< colour of its body: red, green, blue in [0, 1]
+  Vec3 dims{0, 0, 0};  ///< length, width, height [m]
+  /// one pose where it stands, one for every frame where it drives
+  std::vector<Pose> T_world_object;
+  /// colour of its body: red, green, blue in [0, 1]
+  Vec3 paint{0.5, 0.5, 0.5};
   int first_frame = 0;                              ///< it is there from this frame ...
   int end_frame = std::numeric_limits<int>::max();  ///< ... until before this one
   bool driving() const { return T_world_object.size() > 1; }
@@ -29,8 +31,9 @@ struct WorldObject {
   const Pose& PoseAt(int frame) const { return T_world_object[driving() ? frame : 0]; }
 };
 
-/// A flat synthetic world and the camera's true path through it. World axes are those of the first camera, KITTI style
-/// (x right, y down, z forward), so the first pose is the identity and up is -y.
+/// A flat synthetic world and the camera's true path through it. World axes are those of the first
+/// camera, KITTI style (x right, y down, z forward), so the first pose is the identity and up is
+/// -y.
 struct World {
   std::vector<WorldObject> objects;
   Trajectory truth;  ///< T_world_cam for every frame
@@ -41,8 +44,8 @@ struct World {
   LabelTable labels;
 };
 
-/// A street that winds gently: cars parked along both kerbs with gaps, poles on the pavement, cars driving in both
-/// lanes.
+/// A street that winds gently: cars parked along both kerbs with gaps, poles on the pavement, cars
+/// driving in both lanes.
 struct StreetOptions {
   int frames = 300;
   double frame_rate_hz = 10.;
@@ -54,8 +57,9 @@ struct StreetOptions {
 };
 World MakeStreet(std::uint64_t seed, const StreetOptions& options = {});
 
-/// A regular parking lot: the camera drives round and round a double row of stalls, with a row on the outer side of
-/// each aisle. After one lap (about 170 m with the default length) it is back where it was.
+/// A regular parking lot: the camera drives round and round a double row of stalls, with a row on
+/// the outer side of each aisle. After one lap (about 170 m with the default length) it is back
+/// where it was.
 struct ParkingLotOptions {
   int frames = 300;
   double frame_rate_hz = 10.;

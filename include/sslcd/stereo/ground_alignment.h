@@ -12,7 +12,8 @@
 namespace sslcd {
 
 struct GroundAlignmentOptions {
-  double near_m = 2.5;       ///< the ground that is looked at: from so far ahead of the first camera ...
+  /// the ground that is looked at: from so far ahead of the first camera ...
+  double near_m = 2.5;
   double length_m = 11.5;    ///< ... so far on
   double half_width_m = 8;   ///< ... and to either side
   double search_m = 0.6;     ///< how far off the guess may be, in each direction ...
@@ -23,21 +24,24 @@ struct GroundAlignmentOptions {
 };
 void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options);
 
-/// How far ahead of both of two cameras that face each other the ground should lie that AlignGround looks at. It is
-/// measured the better the nearer it is, but both must see some metres of it. [m] `rows`: of the image; `height_m`: of
-/// the camera over the ground. None: the camera sees no level ground within 12 m. It is for LoopViewOptions::ahead_m.
+/// How far ahead of both of two cameras that face each other the ground should lie that AlignGround
+/// looks at. It is measured the better the nearer it is, but both must see some metres of it. [m]
+/// `rows`: of the image; `height_m`: of the camera over the ground. None: the camera sees no level
+/// ground within 12 m. It is for LoopViewOptions::ahead_m.
 std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m);
 
-/// Where the second stereo camera stands in the first one's frame (reference cameras, see Camera::offset), by the
-/// ground that both see, from whichever sides: cracks, stains and markings look alike from above. Both left images are
-/// seen from above by the planes of the ground (EstimateGround), and patches of the one are looked for in the other by
-/// normalised correlation. What most of them agree on tells which pixels show the same places; from there on it is
-/// bundle adjustment of these places and the pose in all four images, so the ground need not be a plane.
-/// None where the guess is too far off or too little ground looks alike. The two may have been taken at different
-/// times: what has moved or lies in another light finds no partner, or not that of the others.
-/// Throws Error(kBadInput) as CheckImages and CheckSize do.
-std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b, const StereoCamera& camera,
-                                        const Pose& T_a_b_guess, const GroundOptions& ground,
+/// Where the second stereo camera stands in the first one's frame (reference cameras, see
+/// Camera::offset), by the ground that both see, from whichever sides: cracks, stains and markings
+/// look alike from above. Both left images are seen from above by the planes of the ground
+/// (EstimateGround), and patches of the one are looked for in the other by normalised correlation.
+/// What most of them agree on tells which pixels show the same places; from there on it is bundle
+/// adjustment of these places and the pose in all four images, so the ground need not be a plane.
+/// None where the guess is too far off or too little ground looks alike. The two may have been
+/// taken at different times: what has moved or lies in another light finds no partner, or not that
+/// of the others. Throws Error(kBadInput) as CheckImages and CheckSize do.
+std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b,
+                                        const StereoCamera& camera, const Pose& T_a_b_guess,
+                                        const GroundOptions& ground,
                                         const GroundAlignmentOptions& options);
 
 }  // namespace sslcd

@@ -14,11 +14,13 @@ namespace sslcd {
 /// What is known of the ground before an image is looked at, and how it is looked for.
 struct GroundOptions {
   double height_m = 1.5, height_sigma_m = 0.3;  ///< of the camera above the ground
-  double tilt_sigma_rad = 0.03;                 ///< of the camera against the ground, each of roll and pitch
-  double disparity_sigma_px = 0.5;              ///< of a pixel on the ground; more than thrice as much is not ground
-  int samples = 20000;                          ///< pixels that are weighed, at most
-  int trials = 200;                             ///< of RANSAC
-  int seed = 1;                                 ///< of RANSAC
+  /// of the camera against the ground, each of roll and pitch
+  double tilt_sigma_rad = 0.03;
+  /// of a pixel on the ground; more than thrice as much is not ground
+  double disparity_sigma_px = 0.5;
+  int samples = 20000;  ///< pixels that are weighed, at most
+  int trials = 200;     ///< of RANSAC
+  int seed = 1;         ///< of RANSAC
 };
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options);
 
@@ -30,19 +32,22 @@ struct GroundPlane {
   double HeightOf(const Vec3& point_cam) const { return up.dot(point_cam) + height_m; }
 };
 
-/// With less support than this a plane is hardly the ground. Streets and car parks had 0.5 to 0.95, from heights twice
-/// and three times the true one 0 to 0.3.
+/// With less support than this a plane is hardly the ground. Streets and car parks had 0.5 to 0.95,
+/// from heights twice and three times the true one 0 to 0.3.
 inline constexpr double kGroundSupport = 0.3;
 
-/// The ground in front of the camera: a plane in disparity (d = -f b up.ray / height is linear in up / height), found
-/// by RANSAC in the lower part of the images outside of `objects`, then adjusted together with the prior. Where there
-/// is no evidence the prior is the answer. Throws Error(kBadInput) as CheckImages does.
-GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera, const std::vector<Box2d>& objects,
-                           const GroundOptions& options);
+/// The ground in front of the camera: a plane in disparity (d = -f b up.ray / height is linear in
+/// up / height), found by RANSAC in the lower part of the images outside of `objects`, then
+/// adjusted together with the prior. Where there is no evidence the prior is the answer. Throws
+/// Error(kBadInput) as CheckImages does.
+GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera,
+                           const std::vector<Box2d>& objects, const GroundOptions& options);
 
-/// How high the camera stands where `options` may be far off: EstimateGround from heights of a quarter to four times
-/// `options.height_m`, the one with the largest support; none where that is less than kGroundSupport.
+/// How high the camera stands where `options` may be far off: EstimateGround from heights of a
+/// quarter to four times `options.height_m`, the one with the largest support; none where that is
+/// less than kGroundSupport.
 std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
-                                       const std::vector<Box2d>& objects, const GroundOptions& options);
+                                       const std::vector<Box2d>& objects,
+                                       const GroundOptions& options);
 
 }  // namespace sslcd

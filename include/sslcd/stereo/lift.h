@@ -18,24 +18,29 @@ namespace sslcd {
 struct ClassPrior {
   double length_m = 4.3, width_m = 1.8, height_m = 1.55;
   double length_sigma_m = 0.4, width_sigma_m = 0.1, height_sigma_m = 0.12;
-  double overhang = 0.18;  ///< from either end to where it stands on the ground (axle), share of the length
-  double roof = 0.5;       ///< the part of it that is as high as the object, share of the length
+  /// from either end to where it stands on the ground (axle), share of the length
+  double overhang = 0.18;
+  double roof = 0.5;  ///< the part of it that is as high as the object, share of the length
 };
 void DescribeFields(FieldVisitor& visitor, ClassPrior& prior);
 
 struct LiftOptions {
-  std::map<std::string, ClassPrior> classes = DefaultClasses();  ///< by label; boxes of other labels are not lifted
+  /// by label; boxes of other labels are not lifted
+  std::map<std::string, ClassPrior> classes = DefaultClasses();
   GroundOptions ground;
   double min_range_m = 2, max_range_m = 40;  ///< from the camera to the object's visible side
   double min_height_px = 14;                 ///< boxes that are less high are not lifted
-  double max_yaw_sigma_rad = 0.8;            ///< nor those whose heading stays less certain than this
-  double box_sigma_px = 2;                   ///< of each side of a box, the detector's error ...
-  double box_sigma_share = 0;                ///< ... of a coarse one: share of the box's width, height ...
-  double shape_sigma_m = 0.06;               ///< ... and what the object's own shape adds
-  double disparity_sigma_px = 0.3;           ///< of one column of pixels on the object
-  double disparity_bias_px = 0.05;           ///< what all columns of an object share
-  double ground_sigma_m = 0.04;              ///< of the ground under an object against the plane ...
-  double ground_sigma_rad = 0.003;           ///< ... and of the plane's slope
+  /// nor those whose heading stays less certain than this
+  double max_yaw_sigma_rad = 0.8;
+  double box_sigma_px = 2;  ///< of each side of a box, the detector's error ...
+  /// ... of a coarse one: share of the box's width, height ...
+  double box_sigma_share = 0;
+  double shape_sigma_m = 0.06;      ///< ... and what the object's own shape adds
+  double disparity_sigma_px = 0.3;  ///< of one column of pixels on the object
+  double disparity_bias_px = 0.05;  ///< what all columns of an object share
+  /// of the ground under an object against the plane ...
+  double ground_sigma_m = 0.04;
+  double ground_sigma_rad = 0.003;  ///< ... and of the plane's slope
 
   static std::map<std::string, ClassPrior> DefaultClasses();
 };
@@ -57,29 +62,36 @@ const char* ToString(LiftStatus status);
 /// A box and, where `status` is kLifted or kAmbiguous, the cuboid that it shows.
 struct LiftedBox {
   LiftStatus status = LiftStatus::kBadBox;
-  Detection detection;  ///< label, score, box of the image detection; pose in the reference camera, yaw modulo pi
-  // Of the fit, the other headings that explain what is seen included; LiftNoise() is what to expect on average.
+  /// label, score, box of the image detection; pose in the reference camera, yaw modulo pi
+  Detection detection;
+  // Of the fit, the other headings that explain what is seen included; LiftNoise() is what to
+  // expect on average.
   DetectionSigmas sigmas;    ///< of the position in the ray's frame, and of the yaw [m, rad]
   Vec3 dims_sigma{0, 0, 0};  ///< of length, width, height [m]
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the position in the camera's axes [m^2]
+  /// of the position in the camera's axes [m^2]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// What a mapper should take such detections' noise for: measured on rendered images at a baseline of 12 cm
-/// (docs/results.md). The mapper learns a factor on each component; with another baseline it has to.
+/// What a mapper should take such detections' noise for: measured on rendered images at a baseline
+/// of 12 cm (docs/results.md). The mapper learns a factor on each component; with another baseline
+/// it has to.
 DetectionNoise LiftNoise();
 
-/// Cuboids from 2D boxes and a rectified pair, one answer a box and in its order. For each box: semi-global matching
-/// inside of it, the contour of the lower body by columns (as a laser scanner would see it), and the cuboid that best
-/// explains contour, the sides of the box, the ground and the class' usual size, by least squares from twelve headings.
-/// What one side does not show (the length, seen from behind) is the prior's. Front and back are not told apart.
+/// Cuboids from 2D boxes and a rectified pair, one answer a box and in its order. For each box:
+/// semi-global matching inside of it, the contour of the lower body by columns (as a laser scanner
+/// would see it), and the cuboid that best explains contour, the sides of the box, the ground and
+/// the class' usual size, by least squares from twelve headings. What one side does not show (the
+/// length, seen from behind) is the prior's. Front and back are not told apart.
 ///
-/// Sides at the image's border, and those where a nearer box begins, only say that the object reaches so far at least.
-/// Boxes are lifted from the nearest to the furthest: a nearer object tells which pixels are its own, and where nothing
-/// else can stand. The order of the boxes changes nothing.
+/// Sides at the image's border, and those where a nearer box begins, only say that the object
+/// reaches so far at least. Boxes are lifted from the nearest to the furthest: a nearer object
+/// tells which pixels are its own, and where nothing else can stand. The order of the boxes changes
+/// nothing.
 ///
-/// Never throws for a box. Throws Error(kBadInput) for images as CheckImages does, and for images of another size than
-/// the camera's, where that is known.
+/// Never throws for a box. Throws Error(kBadInput) for images as CheckImages does, and for images
+/// of another size than the camera's, where that is known.
 std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& camera,
-                                 const std::vector<ImageDetection>& boxes, const LiftOptions& options);
+                                 const std::vector<ImageDetection>& boxes,
+                                 const LiftOptions& options);
 
 }  // namespace sslcd

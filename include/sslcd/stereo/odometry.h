@@ -13,25 +13,30 @@
 namespace sslcd {
 
 struct StereoOdometryOptions {
-  int points = 400;               ///< image points followed, spread over the image; time grows with them
-  double min_corner = 0.01;       ///< a corner's least share of the strongest corner's smaller eigenvalue
+  /// image points followed, spread over the image; time grows with them
+  int points = 400;
+  /// a corner's least share of the strongest corner's smaller eigenvalue
+  double min_corner = 0.01;
   int patch_px = 9;               ///< side of the patches that are compared
   double min_disparity_px = 0.5;  ///< points further away than that are not used
-  double max_row_error_px = 1.5;  ///< left and right of a point; more: not the same point, or images not rectified
-  double ransac_px = 2;           ///< a point fits a pose if it appears so near to where it should
+  /// left and right of a point; more: not the same point, or images not rectified
+  double max_row_error_px = 1.5;
+  double ransac_px = 2;  ///< a point fits a pose if it appears so near to where it should
   int ransac_iterations = 200;
-  int min_tracked = 20;        ///< with fewer points that fit, the frame is lost
-  int window = 8;              ///< keyframes adjusted together, of which the oldest two stand still
-  double keyframe_px = 8;      ///< a keyframe is due when the points have moved that far (median) since the last one,
+  int min_tracked = 20;  ///< with fewer points that fit, the frame is lost
+  int window = 8;        ///< keyframes adjusted together, of which the oldest two stand still
+  /// a keyframe is due when the points have moved that far (median) since the last one,
+  double keyframe_px = 8;
   double keyframe_share = .8;  ///< ... or fewer than this share of its points are still followed
-  int patience = 2;            ///< frames in a row lost before the odometry starts anew from where it believes to be
-  bool calibrate = true;       ///< CheckRig does; StereoOdometry itself takes the camera as it is
+  /// frames in a row lost before the odometry starts anew from where it believes to be
+  int patience = 2;
+  bool calibrate = true;  ///< CheckRig does; StereoOdometry itself takes the camera as it is
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for: that of real images, or as much less, in headings down to a
-/// fifth, as `row_error_rad` (RowError over the focal length in px) tells that calibration is nearer to ideal. None:
-/// not known, taken for real ones. Figures: docs/results.md.
+/// What a mapper should take such odometry's noise for: that of real images, or as much less, in
+/// headings down to a fifth, as `row_error_rad` (RowError over the focal length in px) tells that
+/// calibration is nearer to ideal. None: not known, taken for real ones. Figures: docs/results.md.
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
 /// How a frame got its pose.
@@ -44,44 +49,49 @@ const char* ToString(OdometryStatus status);
 
 /// One frame of the odometry.
 struct OdometryStep {
-  Pose T_odom_cam;  ///< of the reference camera (see Camera::offset), in the axes that it had in the first frame
+  /// of the reference camera (see Camera::offset), in the axes that it had in the first frame
+  Pose T_odom_cam;
   OdometryStatus status = OdometryStatus::kFirst;
   const char* reason = "";  ///< why it is lost; empty: it is not
   bool keyframe = false;    ///< new points were taken up here
-  int points = 0;           ///< points that fit the pose; of the first frame, and of one started anew, points found
-  /// Covariance of the step from the previous frame, of the right perturbation of T_previous_current,
-  /// [translation, rotation], in the current reference camera's axes; its variances are twice too large where
-  /// calibration is exact, and too small where it is not. Of a step that was guessed, and of the one after it, which
-  /// takes the error of the guess back, what constant velocity may be off by. Zero for the first frame.
+  /// points that fit the pose; of the first frame, and of one started anew, points found
+  int points = 0;
+  /// Covariance of the step from the previous frame, of the right perturbation of
+  /// T_previous_current, [translation, rotation], in the current reference camera's axes; its
+  /// variances are twice too large where calibration is exact, and too small where it is not. Of a
+  /// step that was guessed, and of the one after it, which takes the error of the guess back, what
+  /// constant velocity may be off by. Zero for the first frame.
   Pose::Matrix6 covariance = Pose::Matrix6::Zero();
 };
 
-/// Stereo visual odometry: the path of the camera from rectified image pairs alone. Corners of the last keyframe are
-/// found again in each new left image (Lucas-Kanade), and from there in the right one; the pose that most of them agree
-/// on (P3P in RANSAC), refined over all that fit, whose patches are found to a fraction of a pixel as they must look
-/// from there; at keyframes, points and poses of a window adjusted together, each point by where it appears in all left
-/// and right images (bundle adjustment). After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011, and
-/// Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, IJRR 2015 (without its
-/// inertial part).
+/// Stereo visual odometry: the path of the camera from rectified image pairs alone. Corners of the
+/// last keyframe are found again in each new left image (Lucas-Kanade), and from there in the right
+/// one; the pose that most of them agree on (P3P in RANSAC), refined over all that fit, whose
+/// patches are found to a fraction of a pixel as they must look from there; at keyframes, points
+/// and poses of a window adjusted together, each point by where it appears in all left and right
+/// images (bundle adjustment). After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011,
+/// and Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization,
+/// IJRR 2015 (without its inertial part).
 ///
-/// Frames come at even intervals: what is guessed assumes that the camera moves on as it did. One object per sequence,
-/// not thread-safe; the same images give the same bytes for any number of OpenCV threads. A pose that has been
-/// returned is not revised.
+/// Frames come at even intervals: what is guessed assumes that the camera moves on as it did. One
+/// object per sequence, not thread-safe; the same images give the same bytes for any number of
+/// OpenCV threads. A pose that has been returned is not revised.
 class StereoOdometry {
  public:
   /// Throws Error(kBadInput) on a camera without focal length or baseline.
   StereoOdometry(const StereoCamera& camera, const StereoOdometryOptions& options);
   ~StereoOdometry();
 
-  /// Throws Error(kBadInput), and leaves everything as it was, where the images are no pair or have not the size of
-  /// the first one. Images in which there is nothing to see (black, no texture) are no error: such a frame is lost.
+  /// Throws Error(kBadInput), and leaves everything as it was, where the images are no pair or have
+  /// not the size of the first one. Images in which there is nothing to see (black, no texture) are
+  /// no error: such a frame is lost.
   OdometryStep AddFrame(const StereoView& images);
 
   /// A frame whose images are missing: it is lost, and has a pose nevertheless.
   OdometryStep AddMissingFrame();
 
-  /// StereoCamera::disparity_at_infinity [px] that fits what the window of keyframes has seen best. None: it is not
-  /// full. CheckRig says how far to believe it.
+  /// StereoCamera::disparity_at_infinity [px] that fits what the window of keyframes has seen best.
+  /// None: it is not full. CheckRig says how far to believe it.
   std::optional<double> DisparityAtInfinity() const;
 
  private:

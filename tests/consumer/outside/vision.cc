@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host program with images: two stereo pairs of a textured wall with boxes on it, and models that cannot be loaded.
+// A host program with images: two stereo pairs of a textured wall with boxes on it, and models that
+// cannot be loaded.
 //   consumer_vision MODEL_YAML    an installed description, whose model is not there
 #include <cstddef>
 #include <cstdio>
@@ -23,7 +24,8 @@ sslcd::Image Wall(int disparity) {
     for (int x = 0; x < kWidth; ++x) {
       unsigned cell = static_cast<unsigned>((x + disparity) / kCell + 101 * (y / kCell));
       cell = (cell ^ (cell >> 3)) * 2654435761u;
-      image.pixels[static_cast<std::size_t>(y * kWidth + x)] = static_cast<unsigned char>(cell >> 24);
+      image.pixels[static_cast<std::size_t>(y * kWidth + x)] =
+          static_cast<unsigned char>(cell >> 24);
     }
   }
   return image;
@@ -43,12 +45,15 @@ bool FramesFromImages() {
     sequence.frames.push_back(frame);
     (*sequence.boxes)[i] = {{"Car", 0.9, {100, 80, 180, 160}}, {"Sofa", 0.9, {100, 80, 180, 160}}};
   }
-  const auto load = [](const std::string& path) { return Wall(path == "left" ? 0 : 10); };  // 10 m away
+  // 10 m away
+  const auto load = [](const std::string& path) { return Wall(path == "left" ? 0 : 10); };
   sslcd::ImageFrontend frontend(std::move(sequence), {}, {}, {load}, /*threads=*/2);
   double moved_m = -1;
-  while (const std::optional<sslcd::Frame> frame = frontend.Next()) moved_m = frame->T_odom_cam.translation().norm();
+  while (const std::optional<sslcd::Frame> frame = frontend.Next())
+    moved_m = frame->T_odom_cam.translation().norm();
   const sslcd::FrontendReport report = frontend.Finish();
-  for (const auto& [status, count] : report.lift) std::printf("%d boxes: %s\n", count, sslcd::ToString(status));
+  for (const auto& [status, count] : report.lift)
+    std::printf("%d boxes: %s\n", count, sslcd::ToString(status));
   std::printf("%d frames, %d lost, moved %.4f m\n", report.frames, report.lost, moved_m);
   return report.frames == 2 && report.lost == 0 && moved_m >= 0 && moved_m < 0.01 &&
          report.lift.at(sslcd::LiftStatus::kUnknownLabel) == 2;

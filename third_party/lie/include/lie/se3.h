@@ -41,15 +41,16 @@ class SE3 {
 
   /// The quaternion is normalised.
   template <class Derived>
-  static SE3 FromQuaternionTranslation(const Eigen::QuaternionBase<Derived>& q, const Vector3& translation) {
+  static SE3 FromQuaternionTranslation(const Eigen::QuaternionBase<Derived>& q,
+                                       const Vector3& translation) {
     return SE3(SO3<T>(q), translation);
   }
 
   /// A 4x4 or 3x4 matrix [R t]; R as in SO3::FromMatrix, a last row is not read.
   template <class Derived>
   static SE3 FromMatrix(const Eigen::MatrixBase<Derived>& M) {
-    static_assert(int(Derived::ColsAtCompileTime) == 4 &&
-                      (int(Derived::RowsAtCompileTime) == 3 || int(Derived::RowsAtCompileTime) == 4),
+    static_assert(int(Derived::ColsAtCompileTime) == 4 && (int(Derived::RowsAtCompileTime) == 3 ||
+                                                           int(Derived::RowsAtCompileTime) == 4),
                   "FromMatrix takes a 3x4 or a 4x4 matrix");
     return SE3(SO3<T>::FromMatrix(M.template block<3, 3>(0, 0)), M.template block<3, 1>(0, 3));
   }

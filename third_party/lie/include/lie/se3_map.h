@@ -39,7 +39,9 @@ class SE3View {
   }
   SE3View& operator=(const SE3View& other) { return *this = other.Get(); }
 
-  Group Get() const { return Group(SO3<Scalar>::FromUnitQuaternion(unit_quaternion()), translation()); }
+  Group Get() const {
+    return Group(SO3<Scalar>::FromUnitQuaternion(unit_quaternion()), translation());
+  }
   operator Group() const { return Get(); }  // NOLINT(google-explicit-constructor)
 
   QuaternionMap unit_quaternion() const { return QuaternionMap(data_); }

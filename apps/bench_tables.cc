@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench_tables.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "bench_kitti.h"
+#include "sslcd/benchmark/foreign.h"
+#include "sslcd/benchmark/halv_tables.h"
+#include "sslcd/benchmark/results.h"
+#include "sslcd/core/error.h"
+#include "sslcd/io/atomic_file.h"
+#include "sslcd/io/config.h"
+#include "sslcd_commit.h"
+
+namespace sslcd::apps {
+namespace {
+
+using benchmark::Method;
+using benchmark::MethodResults;
+using benchmark::Place;
+using benchmark::Table;
+using benchmark::Trial;
+using benchmark::TrialResult;
+
+baselines::BaselineOptions LoadBaselines(const std::string& file) {
+  baselines::BaselineOptions options;
+  if (!file.empty())
+    LoadConfigFile(file, [&](FieldVisitor& visitor) { DescribeFields(visitor, options); });
+  return options;
+}
+
+std::string Dump(baselines::BaselineOptions options) {
+  return DumpConfig([&](FieldVisitor& visitor) { DescribeFields(visitor, options); }, false);
+}
+
+class Bench {
+ public:
+  Bench(const BenchArguments& arguments, const Console& console)
+      : arguments_(arguments),
+        console_(console),
+        baselines_(LoadBaselines(arguments.baselines)),
+        folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
+
+  // What is asked for, in the order of the paper's tables.
+  void Run() {
+    const std::vector<std::pair<std::string, void (Bench::*)()>> all = {
+        {"table1", &Bench::Table1},
+        {"table2", &Bench::Table2},
+        {"table3", &Bench::Table3},
+        {"attempts", &Bench::Attempts},
+        {"pr", &Bench::Pr},
+        {"viewpoint", &Bench::Viewpoint},
+        {"ablation", &Bench::Ablation}};
+    CheckOptions();
+    for (const auto& [name, run] : all)
+      if (Asked(name)) (this->*run)();
+    if (!arguments_.docs.empty()) WriteDocument();
+  }
+
+ private:
+  bool Asked(const std::string& table) const {
+    return arguments_.name == "all" || arguments_.name == table;
+  }
+
+  // What is wrong is to be known at once, not after hours of runs.
+  void CheckOptions() {
+    if (!arguments_.docs.empty()) ReadDocument();
+    if (Asked("viewpoint")) AddViewpoints();
+    if (!Asked("table2") && !Asked("pr") && !Asked("viewpoint")) return;
+    for (const Method& method : Chosen())
+      if (method.key == "appearance")
+        CheckRendered(arguments_.images, TrialsOf(viewpoints_, method, true));
+  }
+
+  // A range counts once, however often and in whatever spelling it is given.
+  void AddViewpoints() {
+    for (const std::string& range : arguments_.viewpoints) {
+      Place place = benchmark::PlaceAtViewpoint(range);
+      const auto same = [&](const Place& other) { return other.key == place.key; };
+      if (std::none_of(viewpoints_.begin(), viewpoints_.end(), same))
+        viewpoints_.push_back(std::move(place));
+    }
+  }
+
+  void Table1() {
+    if (arguments_.kitti.empty()) {
+      if (arguments_.name != "all")
+        throw Error(ErrorKind::kUsage,
+                    "table1 is of real data: give --kitti FOLDER, of KITTI's tracking benchmark");
+      console_.Say("table1: left out, for there is no --kitti FOLDER\n");
+      return;
+    }
+    Table table = KittiTable(arguments_.kitti, arguments_.detections, {}, Interrupted);
+    if (table.rows.empty()) throw BenchStopped();
+    table.note = Provenance({});
+    Write(std::move(table));
+  }
+
+  void Table2() {
+    std::vector<MethodResults> foreign;  // first: what is wrong with them is to be known at once
+    for (const std::string& given : arguments_.trajectories) foreign.push_back(Foreign(given));
+    std::vector<MethodResults> results = Results({Places()[0]}, Chosen(), false);
+    for (MethodResults& other : foreign) results.push_back(std::move(other));
+    Write(AteTable(results));
+  }
+
+  // What another system has made of the same sequences: "NAME=FOLDER", with a file for each, e.g.
+  // lot-c1-s7.txt.
+  MethodResults Foreign(const std::string& given) const {
+    const std::size_t equals = given.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error(ErrorKind::kUsage, "--trajectories " + given + ": write NAME=FOLDER");
+    MethodResults foreign;
+    foreign.method.key = foreign.method.title = given.substr(0, equals);
+    for (Trial& trial : TrialsOf({Places()[0]}, foreign.method, false)) {
+      const std::string file = given.substr(equals + 1) + "/" + trial.World() + ".txt";
+      TrialResult result;
+      result.ate = benchmark::ForeignAte(file, MakeSequence(trial).scene.world.truth);
+      foreign.results.push_back(result);
+      foreign.trials.push_back(std::move(trial));
+    }
+    return foreign;
+  }
+
+  // Times are of one run at a time, whatever --threads says.
+  void Table3() {
+    std::vector<Trial> trials;
+    for (int seed = 1; seed <= arguments_.seeds; ++seed) {
+      Trial& trial = trials.emplace_back();
+      trial.case_number = 1;
+      trial.seed = static_cast<std::uint64_t>(seed);
+      trial.method = benchmark::Methods()[0];
+      trial.method.key += "-timed";
+    }
+    Table table = StageTable(RunAll(trials, 1));
+    table.note = Provenance({1});
+    Write(std::move(table));
+  }
+
+  void Attempts() {
+    std::vector<MethodResults> all;
+    for (const Place& place : Places()) {
+      const MethodResults results = Results({place}, {benchmark::Methods()[0]}, false)[0];
+      const std::string key = place.key == "lot" ? "attempts" : "attempts_" + place.key;
+      Write(
+          AttemptsTable(results, key, "sslcd: keyframes recognised and loops, " + TitleOf(place)));
+      all.push_back(results);
+    }
+    WriteCsv(LoopTable(all));
+  }
+
+  void Pr() {
+    const std::vector<MethodResults> results = Answers({Places()[0]});
+    Write(PrecisionRecallTable(results));
+    WriteCsv(PrecisionRecallCurves(results));
+  }
+
+  // The four cases, and small loops that meet themselves at angles which these seldom have.
+  void Viewpoint() {
+    const std::vector<MethodResults> results = Answers(viewpoints_);
+    const std::string key = arguments_.images.empty() ? "viewpoint" : "viewpoint_images";
+    Write(ViewpointTable(results, key));
+    WriteCsv(ViewpointCurves(results, key));
+  }
+
+  void Ablation() { Write(AblationTable(Results({Places()[0]}, benchmark::Ablations(), false))); }
+
+  // Of the methods that have answers to be scored: sslcd itself, and those that are asked on maps
+  // without loops.
+  std::vector<MethodResults> Answers(const std::vector<Place>& places) {
+    std::vector<Method> full, asked;
+    for (const Method& method : Chosen()) {
+      if (method.matcher) asked.push_back(method);
+      if (method.key == "sslcd") full.push_back(method);
+    }
+    if (!arguments_.matches.empty())
+      asked.push_back(benchmark::PointMatchMethod(arguments_.matches, baselines_.point_matches));
+    if (full.empty() && asked.empty())
+      throw Error(ErrorKind::kUsage,
+                  "none of --methods has answers to be scored: take sslcd, or one with a matcher");
+    std::vector<MethodResults> results = Results(places, full, false);
+    for (MethodResults& method : Results(places, asked, true)) results.push_back(std::move(method));
+    return results;
+  }
+
+  std::vector<Method> Chosen() const {
+    std::vector<Method> methods = benchmark::Methods(baselines_);
+    if (!arguments_.images.empty())
+      methods.push_back(benchmark::AppearanceMethod(arguments_.images, baselines_.appearance));
+    return benchmark::Select(methods, arguments_.methods);
+  }
+
+  // The car park, the same with other cars on the way back, and a real one where it is given.
+  std::vector<Place> Places() const {
+    std::vector<Place> places(2);
+    places[1].key = "churn";
+    places[1].scene.churn = 0.3;
+    if (arguments_.layout.empty()) return places;
+    Place& real = places.emplace_back();
+    real.key = "layout-" + std::filesystem::path(arguments_.layout).stem().string();
+    real.scene.layout = arguments_.layout;
+    return places;
+  }
+
+  std::string TitleOf(const Place& place) const {
+    if (place.key == "churn") return "car park with 30 % of the cars changed between the passes";
+    return place.key == "lot" ? "generated car park" : place.key;
+  }
+
+  std::vector<Trial> TrialsOf(const std::vector<Place>& places, const Method& method,
+                              bool only_asked) const {
+    std::vector<Trial> trials;
+    for (const Place& place : places)
+      for (const int c : place.cases.empty() ? arguments_.cases : place.cases)
+        for (int seed = 1; seed <= arguments_.seeds; ++seed)
+          trials.push_back({place, c, static_cast<std::uint64_t>(seed), method, only_asked});
+    return trials;
+  }
+
+  std::vector<MethodResults> Results(const std::vector<Place>& places,
+                                     const std::vector<Method>& methods, bool only_asked) {
+    std::vector<Trial> trials;
+    for (const Method& method : methods)
+      for (Trial& trial : TrialsOf(places, method, only_asked)) trials.push_back(std::move(trial));
+    const std::vector<TrialResult> results = RunAll(trials, arguments_.threads);
+    std::vector<MethodResults> sorted;
+    const std::size_t each = methods.empty() ? 0 : trials.size() / methods.size();
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      MethodResults& of_method = sorted.emplace_back();
+      of_method.method = methods[m];
+      of_method.trials.assign(trials.begin() + m * each, trials.begin() + (m + 1) * each);
+      of_method.results.assign(results.begin() + m * each, results.begin() + (m + 1) * each);
+    }
+    return sorted;
+  }
+
+  std::vector<TrialResult> RunAll(const std::vector<Trial>& trials, int threads) {
+    benchmark::TrialHooks hooks;
+    hooks.stop = Interrupted;
+    const auto start = std::chrono::steady_clock::now();
+    int first = -1;
+    hooks.progress = [&](int done, int total) {
+      if (first < 0) first = done - 1;
+      const double passed =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double left = passed / (done - first) * (total - done);
+      console_.Status("run " + std::to_string(done) + "/" + std::to_string(total) + ", " +
+                      Number("%.0f", std::ceil(left / 60)) + " min left");
+    };
+    auto results = RunTrials(trials, folder_, threads, hooks);
+    console_.EndProgress();
+    if (!results) throw BenchStopped();
+    return std::move(*results);
+  }
+
+  void Write(Table table) {
+    if (table.note.empty()) table.note = Provenance(arguments_.cases);
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".md", ToMarkdown(table));
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".json", ToJson(table));
+    WriteCsv(table);
+    console_.Say(ToMarkdown(table));
+    tables_.push_back(std::move(table));
+  }
+
+  void WriteCsv(const Table& table) const {
+    WriteFileAtomically(folder_.path() + "/" + table.key + ".csv", ToCsv(table));
+  }
+
+  // What stands below a table: which code, which worlds, how. No cases: it is not of HALV-sim.
+  std::string Provenance(const std::vector<int>& cases) const {
+    std::string note = "Commit " + std::string(SSLCD_COMMIT);
+    if (!cases.empty()) note += ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases ";
+    for (const int c : cases) note += (c == cases[0] ? "" : ", ") + std::to_string(c);
+    note += ": `sslcd_run bench " + arguments_.name;
+    const auto add = [&](const char* option, const std::string& value) {
+      if (!value.empty())
+        note +=
+            std::string(" --") + option + " " + std::filesystem::path(value).filename().string();
+    };
+    if (cases.empty()) add("kitti", arguments_.kitti);
+    if (!arguments_.methods.empty()) note += " --methods ...";
+    if (Asked("viewpoint") && arguments_.viewpoints != benchmark::ViewpointRanges())
+      note += " --viewpoints ...";
+    add("images", arguments_.images);
+    add("matches", arguments_.matches);
+    add("baselines", arguments_.baselines);
+    return note + "`.";
+  }
+
+  std::string ReadDocument() const {
+    std::ifstream file(arguments_.docs, std::ios::binary);
+    if (!file)
+      throw Error(ErrorKind::kBadInput, {arguments_.docs},
+                  "cannot be read: check the path of --docs");
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  void WriteDocument() const {
+    WriteFileAtomically(arguments_.docs,
+                        benchmark::ReplaceTables(ReadDocument(), arguments_.docs, tables_));
+  }
+
+  const BenchArguments& arguments_;
+  const Console& console_;
+  baselines::BaselineOptions baselines_;
+  benchmark::ResultFolder folder_;
+  // the car park, and small loops where they are asked for
+  std::vector<Place> viewpoints_ = {Places()[0]};
+  std::vector<Table> tables_;
+};
+
+}  // namespace
+
+void RunBenchTables(const BenchArguments& arguments, const Console& console) {
+  Bench(arguments, console).Run();
+}
+
+}  // namespace sslcd::apps
