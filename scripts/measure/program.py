@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs sslcd_run and says what the run took."""
+import os
+import re
+import subprocess
+import tempfile
+import time
+
+
+def rounded(value):
+    """Six significant digits: more than any table shows, without the noise of the last bits."""
+    return float(f'{value:.6g}') if isinstance(value, float) else value
+
+
+class Program:
+    """sslcd_run as built in a folder."""
+
+    def __init__(self, build):
+        self.path = os.path.join(build, 'apps', 'sslcd_run')
+        self.built = 'unknown'
+        header = os.path.join(build, 'apps', 'generated', 'sslcd_commit.h')
+        if os.path.exists(header):
+            with open(header, encoding='utf-8') as file:
+                found = re.search(r'SSLCD_COMMIT "([^"]*)"', file.read())
+            self.built = found.group(1) if found else 'unknown'
+
+    def run(self, arguments):
+        """Standard output, and {wall_s, cpu_s, memory_mib}. A run that fails ends it all."""
+        with tempfile.TemporaryFile('w+') as out:
+            start = time.monotonic()
+            child = subprocess.Popen([self.path, *arguments], stdout=out)
+            _, status, used = os.wait4(child.pid, 0)
+            child.returncode = os.waitstatus_to_exitcode(status)
+            wall = time.monotonic() - start
+            if child.returncode != 0:
+                raise SystemExit(f'{self.path} {" ".join(arguments)}: exit code {child.returncode}')
+            out.seek(0)
+            cost = {'wall_s': wall, 'cpu_s': used.ru_utime + used.ru_stime,
+                    'memory_mib': used.ru_maxrss / 1024}
+            return out.read(), {name: float(f'{value:.3g}') for name, value in cost.items()}
+
+
+def processor():
+    """The name of the CPU and how many of it there are."""
+    name = 'unknown'
+    if os.path.exists('/proc/cpuinfo'):
+        with open('/proc/cpuinfo', encoding='utf-8') as file:
+            found = re.search(r'model name\s*: (.*)', file.read())
+        name = found.group(1) if found else name
+    return f'{os.cpu_count()} x {name}'
