@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sslcd/core/error.h"
+#include "sslcd/io/csv.h"
 #include "sslcd/io/text_rows.h"
 
 namespace sslcd::benchmark {
@@ -18,15 +19,7 @@ std::string MarkdownRow(const std::vector<std::string>& cells) {
 
 std::string CsvRow(const std::vector<std::string>& cells) {
   std::string row;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    std::string cell = cells[i];
-    if (cell.find_first_of(",\"\n") != std::string::npos) {
-      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2))
-        cell.insert(at, "\"");
-      cell = "\"" + cell + "\"";
-    }
-    row += (i > 0 ? "," : "") + cell;
-  }
+  for (std::size_t i = 0; i < cells.size(); ++i) row += (i > 0 ? "," : "") + CsvField(cells[i]);
   return row + "\n";
 }
 

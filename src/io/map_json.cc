@@ -1,132 +1,84 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/map_json.h"
 
-#include <yaml-cpp/yaml.h>
+#include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "io/number_text.h"
-#include "sslcd/core/error.h"
-#include "sslcd/io/text_rows.h"
+#include "io/json_text.h"
+#include "sslcd/io/json.h"
 
 namespace sslcd {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 template <class Values>
-std::string List(const Values& values, int size) {
-  std::string text = "[";
-  for (int i = 0; i < size; ++i) text += (i ? "," : "") + ShortestNumber(values[i]);
-  return text + "]";
+Json ListOf(const Values& values, int size) {
+  Json list = Json::array();
+  for (int i = 0; i < size; ++i) list.push_back(values[i]);
+  return list;
 }
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + "\"";
+Json JsonOf(const MapObject& object) {
+  Json json;
+  json["id"] = object.id.value;
+  json["label"] = object.label;
+  json["state"] = ToString(object.state);
+  json["pose_world_object"] = ListOf(object.T_world_object.data(), 7);
+  json["dimensions_lwh"] = ListOf(object.dims, 3);
+  Json& observations = json["observations"] = Json::array();
+  for (const auto& observation : object.observations)
+    observations.push_back(Json::array({observation.frame, observation.detection_row}));
+  return json;
 }
 
-// Every JSON file is a YAML file; yaml-cpp tells the line.
-class Reader {
- public:
-  explicit Reader(const std::string& path) : path_(path) {}
-
-  [[noreturn]] void Fail(const YAML::Node& at, const std::string& message) const {
-    const YAML::Mark mark = at.Mark();
-    throw Error(ErrorKind::kBadInput, {path_, mark.is_null() ? 0 : mark.line + 1, 0}, message);
+LandmarkState StateOf(const JsonValue& value) {
+  for (const LandmarkState state : {LandmarkState::kTentative, LandmarkState::kConfirmed,
+                                    LandmarkState::kDynamic, LandmarkState::kStale}) {
+    if (value.Text() == ToString(state)) return state;
   }
+  value.Fail("unknown state '" + value.Text() + "'");
+}
 
-  YAML::Node Child(const YAML::Node& parent, const char* key) const {
-    if (!parent.IsMap()) Fail(parent, "expected an object with key '" + std::string(key) + "'");
-    const YAML::Node child = parent[key];
-    if (!child.IsDefined()) Fail(parent, "key '" + std::string(key) + "' is missing");
-    return child;
+MapObject ObjectOf(const JsonValue& json) {
+  MapObject object;
+  object.id.value = json.Child("id").Integer();
+  object.label = json.Child("label").Text();
+  object.state = StateOf(json.Child("state"));
+  const std::vector<double> pose = json.Child("pose_world_object").Numbers(7);
+  std::copy(pose.begin(), pose.end(), object.T_world_object.data());
+  object.T_world_object.normalise();
+  object.dims = Vec3(json.Child("dimensions_lwh").Numbers(3).data());
+  for (const JsonValue& pair : json.Child("observations").List()) {
+    if (pair.List().size() != 2) pair.Fail("an observation is a pair [frame, detection_row]");
+    object.observations.push_back({pair.items[0].Integer(), pair.items[1].Integer()});
   }
-
-  double Number(const YAML::Node& node) const {
-    const auto number = node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
-    if (!number) Fail(node, "expected a number");
-    return *number;
-  }
-
-  template <class Out>
-  void Numbers(const YAML::Node& parent, const char* key, int size, Out out) const {
-    const YAML::Node list = Child(parent, key);
-    if (!list.IsSequence() || static_cast<int>(list.size()) != size)
-      Fail(list,
-           "'" + std::string(key) + "' must be a list of " + std::to_string(size) + " numbers");
-    for (int i = 0; i < size; ++i) out[i] = Number(list[i]);
-  }
-
-  MapObject Object(const YAML::Node& node) const {
-    MapObject object;
-    object.id.value = static_cast<int>(Number(Child(node, "id")));
-    object.label = Child(node, "label").Scalar();
-    const YAML::Node state = Child(node, "state");
-    bool known = false;
-    for (const LandmarkState s : {LandmarkState::kTentative, LandmarkState::kConfirmed,
-                                  LandmarkState::kDynamic, LandmarkState::kStale}) {
-      if (state.Scalar() != ToString(s)) continue;
-      object.state = s;
-      known = true;
-    }
-    if (!known) Fail(state, "unknown state '" + state.Scalar() + "'");
-    double pose[7];
-    Numbers(node, "pose_world_object", 7, pose);
-    std::copy_n(pose, 7, object.T_world_object.data());
-    object.T_world_object.normalise();
-    Numbers(node, "dimensions_lwh", 3, object.dims.data());
-    for (const YAML::Node& pair : Child(node, "observations")) {
-      if (!pair.IsSequence() || pair.size() != 2)
-        Fail(pair, "an observation is a pair [frame, detection_row]");
-      object.observations.push_back(
-          {static_cast<int>(Number(pair[0])), static_cast<int>(Number(pair[1]))});
-    }
-    return object;
-  }
-
- private:
-  std::string path_;
-};
+  return object;
+}
 
 }  // namespace
 
 std::string MapJson(const MapFile& map) {
-  std::string text = "{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":" + List(map.up_axis, 3) +
-                     ",\"objects\":[";
-  bool first = true;
-  for (const MapObject& object : map.objects) {
-    text += (first ? "\n" : ",\n") + std::string("{\"id\":") + std::to_string(object.id.value);
-    first = false;
-    text += ",\"label\":" + Quoted(object.label) + ",\"state\":\"" + ToString(object.state) + "\"";
-    text += ",\"pose_world_object\":" + List(object.T_world_object.data(), 7);
-    text += ",\"dimensions_lwh\":" + List(object.dims, 3) + ",\"observations\":[";
-    for (std::size_t i = 0; i < object.observations.size(); ++i)
-      text += (i ? ",[" : "[") + std::to_string(object.observations[i].frame) + "," +
-              std::to_string(object.observations[i].detection_row) + "]";
-    text += "]}";
-  }
-  return text + "\n]}\n";
+  Json root;
+  root["format"] = "sslcd-map";
+  root["version"] = 1;
+  root["up_axis"] = ListOf(map.up_axis, 3);
+  Json& objects = root["objects"] = Json::array();
+  for (const MapObject& object : map.objects) objects.push_back(JsonOf(object));
+  return JsonText(root, objects);
 }
 
 MapFile ReadMapJson(const std::string& path) {
-  const Reader reader(path);
-  YAML::Node root;
-  try {
-    root = YAML::Load(ReadFileBytes(path));
-  } catch (const YAML::ParserException& problem) {
-    throw Error(ErrorKind::kBadInput, {path, problem.mark.line + 1, problem.mark.column + 1},
-                "not JSON: " + problem.msg);
-  }
-  if (reader.Child(root, "format").Scalar() != "sslcd-map")
-    reader.Fail(root, "this is not an sslcd map");
-  if (reader.Number(reader.Child(root, "version")) != 1)
-    reader.Fail(root, "version " + root["version"].Scalar() +
-                          " of the map format; this program reads version 1");
+  const JsonValue root = ReadJson(path);
+  if (root.Child("format").Text() != "sslcd-map") root.Fail("this is not an sslcd map");
+  const int version = root.Child("version").Integer();
+  if (version != 1)
+    root.Fail("version " + std::to_string(version) +
+              " of the map format; this program reads version 1");
   MapFile map;
-  reader.Numbers(root, "up_axis", 3, map.up_axis.data());
-  for (const YAML::Node& object : reader.Child(root, "objects"))
-    map.objects.push_back(reader.Object(object));
+  map.up_axis = Vec3(root.Child("up_axis").Numbers(3).data());
+  for (const JsonValue& object : root.Child("objects").List())
+    map.objects.push_back(ObjectOf(object));
   return map;
 }
 

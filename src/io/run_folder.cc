@@ -6,6 +6,7 @@
 
 #include "io/number_text.h"
 #include "sslcd/io/atomic_file.h"
+#include "sslcd/io/csv.h"
 
 namespace sslcd {
 namespace {
@@ -19,10 +20,6 @@ std::string PoseText(const Pose& T) {
   for (const double component : {q.x(), q.y(), q.z()})
     text += FixedNumber(sign * component, 9) + " ";
   return text + FixedNumber(sign * q.w(), 9);
-}
-
-std::string Json(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? ShortestNumber(*value) : "null";
 }
 
 /// Paths and contents.
@@ -115,13 +112,13 @@ std::string PlyText(const MapFile& map, const Trajectory& trajectory) {
 std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
   constexpr double kDegrees = 180 / M_PI;
   std::string text =
-      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,tx,"
-      "ty,tz,qx,qy,qz,qw,"
-      "pairs\n";
+      "query_frame,match_frame,decision,reason,score,second_score,matches,viewpoint_change_deg,"
+      "tx,ty,tz,qx,qy,qz,qw,pairs\n";
   for (const LoopClosure& loop : loops) {
     text += std::to_string(loop.query_frame) + "," + std::to_string(loop.match_frame) + "," +
-            ToString(loop.decision) + "," + loop.reason + "," + FixedNumber(loop.score, 3) + "," +
-            FixedNumber(loop.second_score, 3) + "," + std::to_string(loop.pairs.size()) + "," +
+            ToString(loop.decision) + "," + CsvField(loop.reason) + "," +
+            FixedNumber(loop.score, 3) + "," + FixedNumber(loop.second_score, 3) + "," +
+            std::to_string(loop.pairs.size()) + "," +
             FixedNumber(loop.viewpoint_change_rad * kDegrees, 2);
     std::string pose = PoseText(loop.T_match_query);
     std::replace(pose.begin(), pose.end(), ' ', ',');
@@ -132,26 +129,6 @@ std::string LoopsCsv(const std::vector<LoopClosure>& loops) {
     text += "\n";
   }
   return text;
-}
-
-std::string TimingJson(const TimingTable& timing) {
-  std::string text = "{";
-  for (const auto& [stage, times] : timing.Summary()) {
-    text += text.size() > 1 ? ",\n" : "\n";
-    text += "\"" + stage + "\":{\"count\":" + std::to_string(times.count) +
-            ",\"mean_ms\":" + Json(times.mean) + ",\"p50_ms\":" + Json(times.p50) +
-            ",\"p95_ms\":" + Json(times.p95) + ",\"max_ms\":" + Json(times.max) + "}";
-  }
-  return text + "\n}\n";
-}
-
-std::string MetricsJson(const Metrics& metrics) {
-  std::string text = "{";
-  for (const auto& [name, value] : metrics) {
-    text += text.size() > 1 ? ",\n" : "\n";
-    text += "\"" + name + "\":" + Json(value);
-  }
-  return text + "\n}\n";
 }
 
 std::vector<std::string> RunFolderPaths(const std::string& folder) {

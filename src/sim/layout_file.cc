@@ -1,90 +1,68 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sim/layout_file.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/io/json.h"
 
 namespace sslcd::sim {
 namespace {
 
-// Every JSON file is a YAML file; yaml-cpp tells the line.
-class Reader {
- public:
-  explicit Reader(const std::string& path) : path_(path) {}
+double NumberOf(const JsonValue& car, const std::string& key) {
+  const JsonValue& value = car.Child(key);
+  if (value.kind != JsonValue::Kind::kNumber) value.Fail("'" + key + "' must be a number");
+  return value.number;
+}
 
-  std::vector<Slot> Read() const {
-    YAML::Node root;
-    try {
-      root = YAML::Load(ReadFileBytes(path_));
-    } catch (const YAML::Exception& error) {
-      throw Error(ErrorKind::kBadInput, {path_, error.mark.line + 1, 0}, error.msg);
-    }
-    if (!root.IsSequence() || root.size() == 0)
-      Fail(root, "expected a list of cars, [{\"x\": .., \"y\": .., \"qz\": .., \"w\": ..}, ...]");
-    std::vector<Slot> slots;
-    for (const YAML::Node& node : root) slots.push_back(Car(node));
-    return slots;
+/// A misspelt key would be ignored in silence.
+void CheckKeys(const JsonValue& car) {
+  static const std::set<std::string> kKnown{"x", "y", "z", "qx", "qy", "qz", "qw", "w", "label"};
+  if (!car.IsObject()) car.Fail("expected a car as an object with keys x, y, z, qx, qy, qz, w");
+  for (std::size_t i = 0; i < car.keys.size(); ++i) {
+    if (kKnown.count(car.keys[i]) == 0)
+      car.items[i].Fail("unknown key '" + car.keys[i] +
+                        "': x, y, z, qx, qy, qz, w, label are known");
   }
+}
 
- private:
-  [[noreturn]] void Fail(const YAML::Node& at, const std::string& message) const {
-    const YAML::Mark mark = at.Mark();
-    throw Error(ErrorKind::kBadInput, {path_, mark.is_null() ? 0 : mark.line + 1, 0}, message);
-  }
+std::string LabelOf(const JsonValue& car) {
+  const JsonValue* label = car.Find("label");
+  if (label == nullptr) return "";
+  const std::string text = label->Text();
+  if (text != "Car" && text != "Van" && text != "Truck")
+    label->Fail("'label' must be Car, Van or Truck");
+  return text;
+}
 
-  double Number(const YAML::Node& car, const std::string& key) const {
-    const YAML::Node node = car[key];
-    if (!node.IsDefined()) Fail(car, "key '" + key + "' is missing");
-    const auto number = node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
-    if (!number || !std::isfinite(*number)) Fail(node, "'" + key + "' must be a number");
-    return *number;
-  }
+Slot SlotOf(const JsonValue& car) {
+  constexpr double kFar = 1e4;  // [m]
+  CheckKeys(car);
+  const double x = NumberOf(car, "x"), y = NumberOf(car, "y");
+  if (std::max(std::abs(x), std::abs(y)) > kFar)
+    car.Fail("the car stands more than 10 km from the origin");
+  NumberOf(car, "z");
+  const double qx = NumberOf(car, "qx"), qy = NumberOf(car, "qy"), qz = NumberOf(car, "qz");
+  const double w = NumberOf(car, car.Find("qw") != nullptr ? "qw" : "w");
+  if (std::abs(qx * qx + qy * qy + qz * qz + w * w - 1) > 0.02)
+    car.Fail("'qx qy qz w' is no unit quaternion: its length must be 1");
+  // Seen from above with +y of the file ahead: its yaw counts from x against the clock, a heading
+  // from ahead with it.
+  const double yaw = std::atan2(2 * (w * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
+  return {x, y, 0.5 * M_PI - yaw, LabelOf(car)};
+}
 
-  // Misspelt keys and repeated ones, which yaml-cpp passes over in silence.
-  void CheckKeys(const YAML::Node& car) const {
-    static const std::set<std::string> kKnown{"x", "y", "z", "qx", "qy", "qz", "qw", "w", "label"};
-    if (!car.IsMap()) Fail(car, "expected a car as an object with keys x, y, z, qx, qy, qz, w");
-    std::set<std::string> seen;
-    for (const auto& entry : car) {
-      const std::string key = entry.first.Scalar();
-      if (kKnown.count(key) == 0)
-        Fail(entry.first, "unknown key '" + key + "': x, y, z, qx, qy, qz, w, label are known");
-      if (!seen.insert(key).second) Fail(entry.first, "key '" + key + "' stands here twice");
-    }
-  }
-
-  Slot Car(const YAML::Node& node) const {
-    constexpr double kFar = 1e4;  // [m]
-    CheckKeys(node);
-    const double x = Number(node, "x"), y = Number(node, "y");
-    if (std::max(std::abs(x), std::abs(y)) > kFar)
-      Fail(node, "the car stands more than 10 km from the origin");
-    Number(node, "z");
-    const double qx = Number(node, "qx"), qy = Number(node, "qy"), qz = Number(node, "qz");
-    const double w = Number(node, node["qw"].IsDefined() ? "qw" : "w");
-    if (std::abs(qx * qx + qy * qy + qz * qz + w * w - 1) > 0.02)
-      Fail(node, "'qx qy qz w' is no unit quaternion: its length must be 1");
-    std::string label;
-    if (const YAML::Node given = node["label"]) {
-      label = given.IsScalar() ? given.Scalar() : "";
-      if (label != "Car" && label != "Van" && label != "Truck")
-        Fail(given, "'label' must be Car, Van or Truck");
-    }
-    // Seen from above with +y of the file ahead: its yaw counts from x against the clock, a heading
-    // from ahead with it.
-    const double yaw = std::atan2(2 * (w * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
-    return {x, y, 0.5 * M_PI - yaw, label};
-  }
-
-  std::string path_;
-};
+std::vector<Slot> ReadSlots(const std::string& path) {
+  const JsonValue root = ReadJson(path);
+  if (!root.IsList() || root.items.empty())
+    root.Fail("expected a list of cars, [{\"x\": .., \"y\": .., \"qz\": .., \"w\": ..}, ...]");
+  std::vector<Slot> slots;
+  for (const JsonValue& car : root.items) slots.push_back(SlotOf(car));
+  return slots;
+}
 
 std::vector<Slot> WithoutDoubles(const std::vector<Slot>& slots, double turn_rad) {
   std::vector<Slot> kept;
@@ -142,7 +120,7 @@ bool Near(const Slot& slot, const std::vector<Path::Point>& points) {
 }  // namespace
 
 LayoutFile ReadLayout(const std::string& path) {
-  const std::vector<Slot> slots = Reader(path).Read();
+  const std::vector<Slot> slots = ReadSlots(path);
   LayoutFile file{WithoutDoubles(slots, 0), 0};
   std::vector<Slot> across = WithoutDoubles(slots, 0.5 * M_PI);
   if (across.size() > file.slots.size()) file.slots = std::move(across);

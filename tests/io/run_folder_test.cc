@@ -104,12 +104,69 @@ TEST_F(RunFolder, BadMapsAreRefusedWithTheirLine) {
   EXPECT_THAT(error("{\"format\":\"x\"}"), HasSubstr("not an sslcd map"));
   EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":2}"), HasSubstr("version 2"));
   EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":[0,1]}"),
-              HasSubstr("list of 3 numbers"));
+              HasSubstr("map.json:1: expected a list of 3 numbers"));
   EXPECT_THAT(error("{\"format\":\"sslcd-map\",\"version\":1,\n\"up_axis\":[0,-1,0],\"objects\":["
                     "\n{\"id\":1}]}"),
               HasSubstr("map.json:3: key 'label' is missing"));
   EXPECT_THAT(error("{\"format\": ["), HasSubstr("not JSON"));
   EXPECT_THROW(ReadMapJson(In("none.json")), Error);
+}
+
+TEST_F(RunFolder, MapHasALineForEachObject) {
+  MapFile map = SmallMap();
+  map.objects[0].T_world_object = Pose::Trans(1e20, -0.5, 1e-7);
+  map.objects[1].T_world_object = Pose();
+  map.objects[1].observations.clear();
+  EXPECT_EQ(
+      MapJson(map),
+      "{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":[0,-1,0],\"objects\":[\n"
+      "{\"id\":7,\"label\":\"Car \\\"x\\\"\",\"state\":\"confirmed\",\"pose_world_object\":"
+      "[0,0,0,1,1e+20,-0.5,1e-07],\"dimensions_lwh\":[4.1,1.6,0.30000000000000004],"
+      "\"observations\":[[3,14],[4,20]]},\n"
+      "{\"id\":9,\"label\":\"Car \\\"x\\\"\",\"state\":\"dynamic\",\"pose_world_object\":"
+      "[0,0,0,1,0,0,0],\"dimensions_lwh\":[4.1,1.6,0.30000000000000004],\"observations\":[]}\n"
+      "]}\n");
+  EXPECT_EQ(MapJson({Vec3(0, 0, 1), {}}),
+            "{\"format\":\"sslcd-map\",\"version\":1,\"up_axis\":[0,0,1],\"objects\":[\n]}\n");
+}
+
+TEST_F(RunFolder, LabelsOfAnyBytesReadBack) {
+  MapFile map = SmallMap();
+  map.objects[0].label = "tab\t line\n bell\a back\\slash";
+  map.objects[1].label =
+      "Stra\xC3\x9F"
+      "e \xF0\x9F\x9A\x97";
+  WriteFileAtomically(In("map.json"), MapJson(map));
+  EXPECT_THAT(ReadFileBytes(In("map.json")), HasSubstr("\"tab\\t line\\n bell\\u0007 back"));
+  const MapFile read = ReadMapJson(In("map.json"));
+  EXPECT_EQ(read.objects[0].label, map.objects[0].label);
+  EXPECT_EQ(read.objects[1].label, map.objects[1].label);
+  map.objects[0].label = "latin \xE9";
+  WriteFileAtomically(In("map.json"), MapJson(map));
+  EXPECT_EQ(ReadMapJson(In("map.json")).objects[0].label, "latin \xEF\xBF\xBD");
+}
+
+TEST_F(RunFolder, NumbersThatAreNotFiniteAreNoNumbersInJson) {
+  MapFile map = SmallMap();
+  map.objects[0].dims.x() = std::numeric_limits<double>::infinity();
+  WriteFileAtomically(In("map.json"), MapJson(map));
+  EXPECT_THAT(ReadFileBytes(In("map.json")), HasSubstr("\"dimensions_lwh\":[null,1.6,"));
+  EXPECT_THROW(ReadMapJson(In("map.json")), Error);
+}
+
+TEST_F(RunFolder, StagesAndReasonsOfAnyTextKeepTheFilesWhole) {
+  TimingTable timing;
+  timing.Add("a \"stage\"\n", 1.5);
+  timing.Add("other", 2);
+  EXPECT_EQ(TimingJson(timing),
+            "{\n\"a \\\"stage\\\"\\n\":{\"count\":1,\"mean_ms\":1.5,\"p50_ms\":1.5,\"p95_ms\":1.5,"
+            "\"max_ms\":1.5},\n\"other\":{\"count\":1,\"mean_ms\":2,\"p50_ms\":2,\"p95_ms\":2,"
+            "\"max_ms\":2}\n}\n");
+  EXPECT_EQ(TimingJson({}), "{\n}\n");
+
+  LoopClosure loop;
+  loop.reason = "near, but not \"here\"";
+  EXPECT_THAT(LoopsCsv({loop}), HasSubstr("\n0,0,none,\"near, but not \"\"here\"\"\",0.000,"));
 }
 
 TEST_F(RunFolder, WritesEveryFileAndNoTemporaryOnes) {

@@ -42,19 +42,19 @@ TEST(ReadLayout, BadFilesAreNamed) {
     all.push_back("bad.json");
     ExpectError([&] { ReadLayout(path); }, all);
   };
-  refuse("", {"list of cars"});
+  refuse("", {"bad.json:1", "not JSON"});
   refuse("[]", {"list of cars"});
   refuse("{\"x\": 1}", {"list of cars"});
-  refuse("[{\"x\": 1,", {"bad.json:"});
+  refuse("[{\"x\": 1,", {"bad.json:1:"});
   refuse("[3]", {"bad.json:1", "keys x, y"});
   refuse("[" + Car(0, 0, 0) + ",\n{\"x\": 1}]", {"bad.json:2", "'y' is missing"});
   refuse(R"([{"x": "one", "y": 0}])", {"'x' must be a number"});
-  refuse(R"([{"x": .nan, "y": 0}])", {"'x' must be a number"});
+  refuse(R"([{"x": NaN, "y": 0}])", {"bad.json:1:8: not JSON"});
   refuse(R"([{"x": 1, "y": 0, "z": 0, "qx": 0, "qy": 0, "qz": 0, "w": 2}])", {"unit quaternion"});
   refuse(R"([{"x": 1, "y": 0, "z": 0, "qx": 0, "qy": 0, "qz": 0}])", {"'w' is missing"});
   refuse("[" + Car(0, 0, 0, R"(, "label": "Boat")") + "]", {"'label' must be"});
   refuse("[" + Car(0, 0, 0, R"(, "lable": "Van")") + "]", {"unknown key 'lable'"});
-  refuse("[" + Car(0, 0, 0, R"(, "x": 3)") + "]", {"'x' stands here twice"});
+  refuse("[" + Car(0, 0, 0, R"(, "x": 3)") + "]", {"key 'x' is there twice"});
   refuse("[" + Car(1e300, 0, 0) + "]", {"more than 10 km"});
   ExpectError([] { ReadLayout("/nowhere.json"); }, {"/nowhere.json"});
 }
