@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "layout_cases.h"
 
 namespace sslcd {
@@ -157,6 +159,91 @@ TEST(MatchLayouts, AnyLabelNumberIsFine) {
   std::vector<LayoutObject> map = Strewn(60, 80, 1);
   for (LayoutObject& object : map) object.label = object.label * 1000000000 - 1;
   const LayoutAnswer answer = MatchMaps(SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), map);
+  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+}
+
+// Poles along a line at uneven distances: only one shift and no turn fits.
+std::vector<LayoutObject> UnevenLine() {
+  std::vector<LayoutObject> line;
+  for (const double x : {0., 7., 12., 21., 35., 41., 60.}) line.push_back(ObjectAt({x, 0, 0}));
+  return line;
+}
+
+TEST(MatchLayouts, WithoutARivalTheMarginIsThatOverChance) {
+  LayoutMatchOptions options;
+  options.search.distinct_m = 1e6;  // all poses count as one
+  options.search.distinct_rad = 4;
+  for (const double chance : {-10., 3.}) {
+    options.decision.min_evidence = chance;
+    const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
+    ASSERT_EQ(answer.hypotheses.size(), 1u);
+    const double evidence = answer.hypotheses[0].fit.evidence;
+    EXPECT_NEAR(answer.score, evidence - chance, 1e-9);
+    EXPECT_NEAR(answer.second_score, chance - evidence, 1e-9);
+  }
+}
+
+TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
+  const LayoutAnswer answer = MatchMaps(SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1), grid);
+  ASSERT_GE(answer.hypotheses.size(), 3u);
+  double chance_and_others = std::exp(DecisionOptions().min_evidence), all_but_second = 0;
+  for (std::size_t i = 0; i < answer.hypotheses.size(); ++i) {
+    const double weight = std::exp(answer.hypotheses[i].fit.evidence);
+    if (i != 0) chance_and_others += weight;
+    if (i != 1) all_but_second += weight;
+  }
+  all_but_second += std::exp(DecisionOptions().min_evidence);
+  EXPECT_NEAR(answer.score, answer.hypotheses[0].fit.evidence - std::log(chance_and_others), 1e-6);
+  EXPECT_NEAR(answer.second_score, answer.hypotheses[1].fit.evidence - std::log(all_but_second),
+              1e-6);
+}
+
+TEST(MatchLayouts, AsManyObjectsAsHaveToAgreeAreEnough) {
+  LayoutMatchOptions options;
+  options.search.min_matches = 7;
+  EXPECT_EQ(MatchMaps(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
+  options.search.min_matches = 8;
+  const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
+  EXPECT_EQ(answer.decision, LoopDecision::kNone);
+  EXPECT_THAT(answer.reason, testing::StartsWith("7 objects are too few"));
+}
+
+TEST(MatchLayouts, EachBarAloneRefuses) {
+  const LayoutAnswer accepted = MatchMaps(UnevenLine(), UnevenLine());
+  ASSERT_EQ(accepted.decision, LoopDecision::kAccepted) << accepted.reason;
+  const double evidence = accepted.hypotheses[0].fit.evidence;
+  LayoutMatchOptions options;
+  options.decision.min_evidence = evidence + 0.1;
+  LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
+  EXPECT_EQ(answer.decision, LoopDecision::kNone);
+  EXPECT_THAT(answer.reason, testing::HasSubstr("chance"));
+  options = {};
+  options.decision.min_margin = accepted.score + 0.1;
+  answer = MatchMaps(UnevenLine(), UnevenLine(), options);
+  EXPECT_EQ(answer.decision, LoopDecision::kAmbiguous);
+  EXPECT_THAT(answer.reason, testing::HasSubstr("other poses"));
+  options.decision.min_margin = accepted.score - 0.1;
+  EXPECT_EQ(MatchMaps(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
+}
+
+// A line lies on its own mirror image, so only the headings tell which of the two was seen.
+TEST(MatchLayouts, TheMirrorImageTurnsHeadingsToo) {
+  std::vector<LayoutObject> map = UnevenLine();
+  for (std::size_t i = 0; i < map.size(); ++i)
+    map[i].yaw = 0.6 + 0.3 * static_cast<double>(i % 4);  // to the left of the line, all of them
+  std::vector<LayoutObject> mirrored = map;
+  for (LayoutObject& object : mirrored) object.yaw *= -1;
+  LayoutMatchOptions options;
+  options.decision.min_evidence = -1000;  // nothing but the mirror image refuses
+  options.decision.min_margin = -1000;
+  EXPECT_EQ(MatchMaps(map, map, options).decision, LoopDecision::kAccepted);
+  LayoutAnswer answer = MatchMaps(mirrored, map, options);
+  EXPECT_EQ(answer.decision, LoopDecision::kNone);
+  EXPECT_THAT(answer.reason, testing::HasSubstr("mirror"));
+  options.decision.mirror_gain = 1000;
+  answer = MatchMaps(mirrored, map, options);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
 }
 
