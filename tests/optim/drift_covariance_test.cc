@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <utility>
+
+#include "drift_scene.h"
+
+/// What SolveDrift minimises, and how sure it is of the answer.
+namespace sslcd {
+namespace {
+
+TEST(Drift, CovarianceIsHonestFarFromTheOrigin) {
+  Random random(11);
+  for (const bool six_dof : {false, true}) {
+    Scene scene;
+    scene.middle = Vec3(180, 3, 240);
+    scene.position_noise_m = 0.2;
+    scene.yaw_noise_rad = 0.05;
+    DriftOptions options;
+    options.six_dof = six_dof;
+    options.tilt_sigma_rad = 0.03;
+    double nees = 0;
+    constexpr int kTrials = 300;
+    for (int i = 0; i < kTrials; ++i) {
+      scene.D = TurnAndShift(scene.up, random.Uniform(-1, 1), scene.middle, Vec3(3, 0, 1));
+      if (six_dof) {
+        const Vec3 tilt =
+            0.02 * scene.gravity().Basis() * Vec3(random.Normal(1), random.Normal(1), 0);
+        scene.D = scene.D *
+                  TurnAndShift(Vec3(tilt.normalized()), tilt.norm(), scene.middle, Vec3(0, 0, 0));
+      }
+      const DriftResult result = SolveDrift(scene.Pairs(random), scene.gravity(), options);
+      ASSERT_TRUE(result.usable) << result.reason;
+      const Eigen::Matrix<double, 6, 1> d = (result.T_global_local.inverse() * scene.D).Log();
+      nees += d.dot(Eigen::Matrix<double, 6, 6>(result.covariance.inverse()) * d) / kTrials;
+    }
+    const double expected = six_dof ? 6 : 4;
+    EXPECT_GT(nees, 0.6 * expected);
+    EXPECT_LT(nees, 1.3 * expected);
+  }
+}
+
+// What SolveDrift promises to minimise: a Cauchy loss on each pair's position (three rows) and
+// heading (one), s^2 log(1 + mean square / s^2).
+double RobustCost(const std::vector<DriftPair>& pairs, const Pose& D, double loss_scale) {
+  const auto loss = [&](double mean_square) {
+    return loss_scale * loss_scale * std::log1p(mean_square / (loss_scale * loss_scale));
+  };
+  double cost = 0;
+  for (const DriftPair& pair : pairs) {
+    const Pose E = pair.T_world_global.inverse() * D * pair.T_world_local;
+    const double position = E.translation().squaredNorm() / std::pow(pair.sigma_horizontal_m, 2);
+    cost += 3 * loss(position / 3) + loss(std::pow(E.so3().Log().z() / pair.sigma_yaw_rad, 2));
+  }
+  return cost;
+}
+
+TEST(Drift, IsAMinimumOfTheCauchyLoss) {
+  Random random(4);
+  Scene scene;
+  scene.up = Vec3(0, 0, 1);
+  scene.objects = 7;
+  scene.position_noise_m = 0.3;
+  scene.yaw_noise_rad = 0.05;
+  std::vector<DriftPair> pairs = scene.Pairs(random);
+  pairs[0].T_world_global.translation() += Vec3(1.5, 0, 0);  // pulls, but less than by its square
+  pairs[1].T_world_global = pairs[1].T_world_global * Pose::RotZ(0.4);
+  for (const double loss_scale : {0.7, 2., 5.}) {
+    DriftOptions options;
+    options.loss_scale = loss_scale;
+    const DriftResult result = SolveDrift(pairs, scene.gravity(), options);
+    ASSERT_TRUE(result.converged);
+    const double least = RobustCost(pairs, result.T_global_local, loss_scale);
+    for (const int i : {0, 1, 2, 5}) {
+      for (const double step : {-1e-3, 1e-3}) {
+        Pose::Tangent d = Pose::Tangent::Zero();
+        d[i] = step;
+        EXPECT_GT(RobustCost(pairs, result.T_global_local * Pose::Exp(d), loss_scale), least)
+            << "loss scale " << loss_scale << ", component " << i << " by " << step;
+      }
+    }
+  }
+}
+
+// Poles at the corners of a square, 10 m from its middle, each moved outwards by the same: nothing
+// to correct, and residuals whose size is known.
+std::vector<DriftPair> Corners(double outwards_m) {
+  std::vector<DriftPair> pairs;
+  for (const Vec3& corner : {Vec3(10, 0, 0), Vec3(0, 10, 0), Vec3(-10, 0, 0), Vec3(0, -10, 0)})
+    pairs.push_back(At(corner, corner * (1 + outwards_m / 10), kNaN, kNaN, Symmetry::kFull));
+  return pairs;
+}
+
+TEST(Drift, ResidualsWithinTheSigmasLeaveTheCovarianceToThem) {
+  const double sigma = DriftPair().sigma_horizontal_m, tilt = DriftOptions().tilt_sigma_rad;
+  const DriftResult result = Solve(Corners(0));
+  ASSERT_TRUE(result.usable);
+  for (const int axis : {0, 1, 2})
+    EXPECT_NEAR(result.covariance(axis, axis), sigma * sigma / 4, 1e-9) << "a mean of four";
+  EXPECT_NEAR(result.covariance(5, 5), sigma * sigma / 400, 1e-9) << "four arms of 10 m";
+  for (const int axis : {3, 4}) EXPECT_NEAR(result.covariance(axis, axis), tilt * tilt, 1e-12);
+}
+
+TEST(Drift, LargerResidualsTakeTheSigmasPlaceInTheCovariance) {
+  constexpr double kOff = 0.9;  // three sigmas
+  DriftOptions options;
+  options.loss_scale = 0;
+  const DriftResult result =
+      SolveDrift(Corners(kOff), GravityFrame::FromUp(Vec3::UnitZ()), options);
+  ASSERT_TRUE(result.usable);
+  EXPECT_LT(Difference(result.T_global_local, Pose()), 1e-9);
+  EXPECT_NEAR(result.rms_m, kOff, 1e-9);
+  // Four squares over 12 coordinates less four unknowns, whatever the sigmas promise.
+  const double variance = 4 * kOff * kOff / (12 - 4);
+  EXPECT_NEAR(result.covariance(0, 0), variance / 4, 1e-9);
+  EXPECT_NEAR(result.covariance(5, 5), variance / 400, 1e-9);
+  EXPECT_NEAR(result.covariance(3, 3), std::pow(options.tilt_sigma_rad, 2), 1e-12)
+      << "the tilt is not measured";
+}
+
+TEST(Drift, InliersEndAtInlierSigmas) {
+  const double sigma = DriftPair().sigma_horizontal_m;
+  DriftOptions options;
+  for (const auto& [sigmas, inliers] : {std::pair<double, int>{3.4, 4}, {3.6, 0}}) {
+    const DriftResult result =
+        SolveDrift(Corners(sigmas * sigma), GravityFrame::FromUp(Vec3::UnitZ()), options);
+    EXPECT_EQ(result.inliers, inliers);
+    EXPECT_NEAR(result.rms_m, inliers > 0 ? sigmas * sigma : 0, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace sslcd
