@@ -85,5 +85,152 @@ TEST(MotionTest, ShiftMovesBothModels) {
   EXPECT_NEAR(test.PredictDriving(2., {}).position.x(), driving + 3, 1e-12);
 }
 
+// Bars out of the way, so that one alone decides; and nothing known of a speed, so that the
+// driving model follows each sighting.
+MotionTestOptions OnlyTheNoise() {
+  MotionTestOptions options;
+  options.speed_prior_mps = 1e4;
+  options.decide_at = -100;
+  options.min_travel_m = 0;
+  options.min_speed_mps = 0;
+  return options;
+}
+
+Motion VerdictOfTwo(double apart_m, double seconds, double sigma,
+                    const MotionTestOptions& options) {
+  MotionTest test;
+  const Eigen::Matrix2d covariance = sigma * sigma * Eigen::Matrix2d::Identity();
+  test.Add(Vec2(0, 0), covariance, 0, options);
+  test.Add(Vec2(0, apart_m), covariance, seconds, options);
+  return test.Verdict(options);
+}
+
+TEST(MotionTest, ADistanceWithinTwoSigmasIsNoJourney) {  // sigma of a difference: sqrt(2)
+  const double limit = 2 * std::sqrt(2.);
+  EXPECT_NE(VerdictOfTwo(0.98 * limit, 1, 1, OnlyTheNoise()), Motion::kDriving);
+  EXPECT_EQ(VerdictOfTwo(1.02 * limit, 1, 1, OnlyTheNoise()), Motion::kDriving);
+}
+
+TEST(MotionTest, DrivingTakesADistanceAndASpeed) {
+  MotionTestOptions options = OnlyTheNoise();
+  options.min_travel_m = 2;
+  EXPECT_NE(VerdictOfTwo(1.9, 1, 0.01, options), Motion::kDriving);
+  EXPECT_EQ(VerdictOfTwo(2.1, 1, 0.01, options), Motion::kDriving);
+  options.min_speed_mps = 0.7;
+  EXPECT_EQ(VerdictOfTwo(2.1, 2.9, 0.01, options), Motion::kDriving);
+  EXPECT_NE(VerdictOfTwo(2.1, 3.1, 0.01, options), Motion::kDriving);
+}
+
+TEST(MotionTest, TheFactorIsTheRatioOfBothDensities) {
+  MotionTestOptions options;
+  options.memory = 100;
+  constexpr double kSigma = 0.3, kSeconds = 0.5, kApart = 0.8;
+  MotionTest test;
+  const Eigen::Matrix2d covariance = kSigma * kSigma * Eigen::Matrix2d::Identity();
+  test.Add(Vec2(0, 0), covariance, 0, options);
+  EXPECT_EQ(test.log_bayes_factor(), 0);
+  test.Add(Vec2(0, kApart), covariance, kSeconds, options);
+  // Variance of the second sighting about the first: both noises, and what the model adds.
+  const double noise = 2 * kSigma * kSigma;
+  const double parked = noise + std::pow(options.wander_m_per_sqrt_s, 2) * kSeconds;
+  const double driving = noise + std::pow(options.speed_prior_mps * kSeconds, 2) +
+                         std::pow(0.5 * options.acceleration_mps2 * kSeconds * kSeconds, 2);
+  const auto log_density = [](double variance) {
+    return -0.5 * kApart * kApart / variance - std::log(variance);  // two components
+  };
+  EXPECT_NEAR(test.log_bayes_factor(), log_density(driving) - log_density(parked), 1e-9);
+}
+
+TEST(MotionTest, OneWildDetectionSaysNoMoreThanFourSigmas) {
+  MotionTestOptions options;
+  options.memory = 100;
+  const auto factor = [&](double apart_m) {
+    MotionTest test;
+    const Eigen::Matrix2d covariance = 0.01 * Eigen::Matrix2d::Identity();
+    test.Add(Vec2(0, 0), covariance, 0, options);
+    test.Add(Vec2(apart_m, 0), covariance, 0.1, options);
+    return test.log_bayes_factor();
+  };
+  EXPECT_NEAR(factor(100), factor(1000), 1e-9);
+  EXPECT_GT(factor(0.5), factor(0.4));
+}
+
+TEST(MotionTest, MemoryLimitsTheFactorOnBothSides) {
+  MotionTestOptions options;
+  options.memory = 3;
+  MotionTest parked, driving;
+  const Eigen::Matrix2d covariance = 0.01 * Eigen::Matrix2d::Identity();
+  for (int i = 0; i < 20; ++i) {
+    parked.Add(Vec2(0, 0), covariance, 0.1 * i, options);
+    driving.Add(Vec2(i, 0), covariance, 0.1 * i, options);
+  }
+  EXPECT_EQ(parked.log_bayes_factor(), -3);
+  EXPECT_EQ(driving.log_bayes_factor(), 3);
+}
+
+TEST(MotionTest, AtRestThePredictionsWidenWithTime) {
+  MotionTestOptions options;
+  MotionTest test;
+  test.Add(Vec2(1, 2), 0.04 * Eigen::Matrix2d::Identity(), 10, options);
+  for (const double dt : {0., 1., 4.}) {
+    const MotionTest::Prediction parked = test.PredictParked(10 + dt, options),
+                                 driving = test.PredictDriving(10 + dt, options);
+    EXPECT_EQ(parked.position, Vec2(1, 2));
+    EXPECT_NEAR(parked.covariance(0, 0), 0.04 + std::pow(options.wander_m_per_sqrt_s, 2) * dt,
+                1e-12);
+    EXPECT_NEAR(driving.covariance(1, 1),
+                0.04 + std::pow(options.speed_prior_mps * dt, 2) +
+                    std::pow(0.5 * options.acceleration_mps2 * dt * dt, 2),
+                1e-9);
+  }
+  const double forgotten = options.forget_after_s;
+  EXPECT_EQ(test.PredictParked(1000, options).covariance,
+            test.PredictParked(10 + forgotten, options).covariance)
+      << "no further than until it is forgotten";
+  EXPECT_EQ(test.PredictDriving(1000, options).covariance,
+            test.PredictDriving(10 + forgotten, options).covariance);
+}
+
+TEST(MotionTest, SeenAfterLongerThanForgetAfterItStartsAgain) {
+  MotionTestOptions options;
+  for (const double gap : {4.9, 5.1}) {
+    MotionTest test = Watch(10, 0.1, 10, 3);
+    test.Add(Vec2(0, 0), 0.01 * Eigen::Matrix2d::Identity(), 0.9 + gap, options);
+    EXPECT_EQ(test.velocity() == Vec2(0, 0), gap > options.forget_after_s);
+  }
+}
+
+TEST(MotionTest, AJourneyBeginsWhereTheObjectStoodLast) {
+  MotionTestOptions options;
+  MotionTest test;
+  double x = 0, stamp = 0;
+  const auto drive = [&](double speed, double seconds) {
+    for (int i = 0; i < 10 * seconds; ++i, stamp += 0.1, x += 0.1 * speed)
+      test.Add(Vec2(x, 0), 1e-4 * Eigen::Matrix2d::Identity(), stamp, options);
+  };
+  drive(10, 2);
+  ASSERT_EQ(test.Verdict(options), Motion::kDriving);
+  drive(0, 3);
+  EXPECT_NE(test.Verdict(options), Motion::kDriving) << "it has settled";
+  const double stopped_at = test.StandingSince();
+  EXPECT_NEAR(stopped_at, 2, 0.5);
+  drive(10, 0.15);
+  EXPECT_NE(test.Verdict(options), Motion::kDriving) << "not 2 m yet, counted from the new place";
+  drive(10, 1);
+  EXPECT_EQ(test.Verdict(options), Motion::kDriving);
+}
+
+TEST(MotionTest, ParkedOnceTheSpeedIsSurelyLow) {
+  MotionTestOptions options;
+  MotionTest test;
+  const Eigen::Matrix2d covariance = 0.01 * Eigen::Matrix2d::Identity();
+  test.Add(Vec2(0, 0), covariance, 0, options);
+  EXPECT_EQ(test.Verdict(options), Motion::kUndecided) << "it may have any speed";
+  for (int i = 1; i <= 20; ++i) test.Add(Vec2(0, 0), covariance, 0.1 * i, options);
+  EXPECT_EQ(test.Verdict(options), Motion::kParked);
+  options.max_parked_speed_mps = 0.01;
+  EXPECT_EQ(test.Verdict(options), Motion::kUndecided);
+}
+
 }  // namespace
 }  // namespace sslcd
