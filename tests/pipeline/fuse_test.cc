@@ -142,6 +142,102 @@ TEST(FuseDuplicates, NothingAndNonFiniteDoNoHarm) {
   EXPECT_TRUE(world.map.at(a).pose.position.allFinite());
 }
 
+MapLandmark SeenIn(int first, int count) {
+  MapLandmark landmark;
+  for (int frame = first; frame < first + count; ++frame) {
+    landmark.sightings.emplace_back();
+    landmark.sightings.back().frame = frame;
+  }
+  return landmark;
+}
+
+TEST(SeenTogether, InMoreThanATenthOfTheSightingsOfTheOneSeenLess) {
+  const MapLandmark often = SeenIn(0, 100), seldom = SeenIn(95, 20), slip = SeenIn(98, 20);
+  EXPECT_TRUE(SeenTogether(often, seldom)) << "5 of 20";
+  EXPECT_TRUE(SeenTogether(seldom, often));
+  EXPECT_FALSE(SeenTogether(often, slip)) << "2 of 20";
+  EXPECT_FALSE(SeenTogether(slip, often));
+  EXPECT_TRUE(SeenTogether(often, SeenIn(97, 20))) << "3 of 20";
+  EXPECT_FALSE(SeenTogether(often, SeenIn(200, 5)));
+  EXPECT_FALSE(SeenTogether(often, MapLandmark()));
+}
+
+TEST(FuseMatched, TheConfirmedOneKeepsItsNameElseTheOneSeenMoreOften) {
+  for (const bool swapped : {false, true}) {
+    TwoVisits world;
+    const LandmarkId once = world.Add({4, 1, 12}, 0, 2), again = world.Add({4, 1, 12}, 300, 8);
+    const auto pair = swapped ? std::make_pair(again, once) : std::make_pair(once, again);
+    world.map.SetState(again, LandmarkState::kTentative);
+    FuseMatched(world.map, world.frames, {pair}, world.options);
+    EXPECT_TRUE(world.Gone(again)) << "confirmed counts before often";
+    EXPECT_FALSE(world.Gone(once));
+    EXPECT_EQ(world.map.at(once).sightings.size(), 10u);
+  }
+  TwoVisits world;
+  const LandmarkId once = world.Add({4, 1, 12}, 0, 2), again = world.Add({4, 1, 12}, 300, 8);
+  FuseMatched(world.map, world.frames, {{once, again}}, world.options);
+  EXPECT_TRUE(world.Gone(once));
+}
+
+// Sightings that are all as exact: means weighted by how often each was seen.
+TEST(FuseMatched, PoseIsTheMeanWeightedByInformation) {
+  TwoVisits world;
+  world.options.noise.yaw_per_m = world.options.noise.lateral_per_m = 0;
+  world.options.noise.radial_per_m = world.options.noise.vertical_per_m = 0;
+  world.options.noise.radial_m = world.options.noise.lateral_m = world.options.noise.vertical_m = 1;
+  const LandmarkId a = world.Add({-4, 1, 12}, 0, 8, "Car", 0.1),
+                   b = world.Add({-4, 1.5, 13}, 300, 2, "Car", 0.3);
+  FuseMatched(world.map, world.frames, {{b, a}}, world.options);
+  const UprightPose& pose = world.map.at(a).pose;
+  EXPECT_NEAR(pose.yaw, (8 * 0.1 + 2 * 0.3) / 10, 1e-9);
+  EXPECT_LT((pose.position - Vec3(-4, 1 + 0.5 * 2 / 10, 12 + 1. * 2 / 10)).norm(), 1e-9);
+}
+
+TEST(FuseMatched, WhatIsRoundSaysNothingOfTheYaw) {
+  TwoVisits world;
+  const LandmarkId a = world.Add({4, 1, 12}, 0, 8, "Tree", 0.1),
+                   b = world.Add({4, 1, 12}, 300, 2, "Tree", 0.3);
+  FuseMatched(world.map, world.frames, {{a, b}}, world.options);
+  EXPECT_EQ(world.map.at(a).pose.yaw, 0.1);
+}
+
+// With a detector that is next to exact, bodies alone decide: two trees of 0.5 m overlap by more
+// than half where their centres are within 0.25 m.
+TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
+  for (const auto& [apart, one] : {std::pair<double, bool>{0.24, true}, {0.26, false}}) {
+    TwoVisits world;
+    for (double* sigma : {&world.options.noise.radial_m, &world.options.noise.radial_per_m,
+                          &world.options.noise.lateral_m, &world.options.noise.lateral_per_m})
+      *sigma = 1e-4;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4 + apart, 1, 12}, 4, 3);
+    FuseDuplicates(world.map, world.frames, world.options);
+    EXPECT_EQ(world.Gone(twin), one) << apart;
+  }
+}
+
+TEST(FuseDuplicates, FurtherThanDuplicateIsNotOnePlace) {
+  for (const double duplicate_m : {0.15, 0.25}) {
+    TwoVisits world;
+    world.options.refine.duplicate_m = duplicate_m;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4.2, 1, 12}, 4, 3);
+    FuseDuplicates(world.map, world.frames, world.options);
+    EXPECT_EQ(world.Gone(twin), duplicate_m > 0.2);
+  }
+}
+
+TEST(FuseDuplicates, TentativeOnesAndThoseThatDriveAreLeftAlone) {
+  for (const LandmarkState state : {LandmarkState::kTentative, LandmarkState::kDynamic}) {
+    TwoVisits world;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4, 1, 12}, 4, 3);
+    world.map.SetState(twin, state);
+    FuseDuplicates(world.map, world.frames, world.options);
+    EXPECT_FALSE(world.Gone(twin));
+  }
+}
+
 TEST(Stretches, NeighboursAndSharedObjectsTie) {
   TwoVisits world;
   const LandmarkId early = world.Add({4, 1, 12}, 0, 3), late = world.Add({4, 1, 12}, 300, 3);
