@@ -59,9 +59,10 @@ TEST(Tracklets, RefusesBrokenFiles) {
   const std::string good = Document(Item("Car", "1.5", 0, "10"));
   refuse("", {"t.xml:1", "not a KITTI tracklet file"});
   refuse("<html></html>", {"t.xml:1", "not a KITTI tracklet file"});
-  refuse(good.substr(0, good.find("</poses>")), {"t.xml:8", "<poses> does not end"});
-  refuse(good.substr(0, good.find("</poses>") + 3), {"t.xml:8", "tag does not end"});
-  refuse("<boost_serialization></tracklets>", {"t.xml:1", "unexpected </tracklets>"});
+  refuse(good.substr(0, good.find("</poses>")), {"t.xml:8", "the file is cut off"});
+  refuse(good.substr(0, good.find("</poses>") + 3), {"t.xml:8", "the file is cut off"});
+  refuse("<boost_serialization></tracklets>", {"t.xml:1", "tags mismatch at '</tracklets>'"});
+  refuse("<boost_serialization>\n<a>\n</b>\n</boost_serialization>", {"t.xml:3", "at '</b>'"});
   refuse("<boost_serialization></boost_serialization>", {"has no <tracklets>"});
   refuse(Document("<item><h>1</h></item>"), {"t.xml:6", "<item> has no <objectType>"});
   refuse(Document(Item("Car", "1.5x", 0, "10")),
@@ -69,6 +70,25 @@ TEST(Tracklets, RefusesBrokenFiles) {
   refuse(Document(Item("Car", "0", 0, "10")), {"t.xml:6", "must be positive"});
   refuse(Document(Item("Car", "1.5", -1, "10")), {"t.xml:6", "first frame"});
   refuse(Document(Item("Car", "1.5", 0, "nan")), {"t.xml:8", "<tx>"});
+}
+
+TEST(Tracklets, NestingAndEntitiesDoNoHarm) {
+  const TempFolder folder;
+  constexpr int kDepth = 1'000'000;
+  std::string deep;
+  for (int i = 0; i < kDepth; ++i) deep += "<a>";
+  for (int i = 0; i < kDepth; ++i) deep += "</a>";
+  ExpectError([&] { ReadTracklets(folder.Write("t.xml", deep)); }, {"no <boost_serialization>"});
+  deep.resize(deep.size() / 2);
+  ExpectError([&] { ReadTracklets(folder.Write("t.xml", deep)); }, {"the file is cut off"});
+
+  std::string text = Document(Item("&lol2; &amp; co", "1.5", 0, "10"));
+  const std::string doctype = "<!DOCTYPE boost_serialization";
+  text.replace(text.find(doctype), doctype.size(),
+               doctype + " [<!ENTITY lol \"ha\"><!ENTITY lol2 \"&lol;&lol;\">]");
+  const auto tracklets = ReadTracklets(folder.Write("t.xml", text));
+  ASSERT_EQ(tracklets.size(), 1u);
+  EXPECT_EQ(tracklets[0].label, "&lol2; & co") << "entities of the file's own are not expanded";
 }
 
 TEST(Tracklets, ReadsARealDrive) {
