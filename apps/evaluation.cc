@@ -66,10 +66,7 @@ void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
   run.objects = input.map->objects;
   run.frames = *input.detections;
   run.truth = ReadKittiTrackingLabels(input.labels_path);
-  if (input.groundtruth)
-    run.reference = input.groundtruth->poses;
-  else
-    run.reference = ScaledPath(ByFrame(*input.odometry, input.frames), 0.975);
+  run.reference = input.groundtruth->poses;
   const MapMetrics map = ComputeMapMetrics(run);
   metrics.emplace_back("iou_raw", map.iou_raw);
   metrics.emplace_back("iou_raw_same_pairs", map.iou_raw_same_pairs);
@@ -122,10 +119,14 @@ void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
 Metrics Evaluate(const EvaluationInput& input) {
   Metrics metrics;
   if (input.groundtruth) AddTrajectoryErrors(input, metrics);
-  const bool reference = input.groundtruth.has_value() || input.odometry.has_value();
-  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr &&
-      reference)
-    AddMapErrors(input, metrics);
+  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr) {
+    if (input.groundtruth)
+      AddMapErrors(input, metrics);
+    else
+      Log(LogLevel::kWarning, input.labels_path +
+                                  ": no ground-truth poses, so the map is not compared with these "
+                                  "labels (--groundtruth)");
+  }
   if (!input.identities.empty() && input.groundtruth && input.odometry && input.map != nullptr &&
       input.detections != nullptr) {
     if (IsByFrame(*input.groundtruth, *input.detections))

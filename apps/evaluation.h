@@ -28,7 +28,9 @@ struct EvaluationInput {
 };
 
 /// Trajectory error (all alignments), relative error, the map's accuracy and identities where
-/// labels are there, and loops, revisits and identities where true identities are.
+/// labels are there, and loops, revisits and identities where true identities are. All of them
+/// need ground-truth poses: without these there are no metrics, and a warning names labels that
+/// could not be used.
 Metrics Evaluate(const EvaluationInput& input);
 
 }  // namespace sslcd::apps

@@ -203,10 +203,4 @@ MapMetrics ComputeMapMetrics(const MapRun& run, const MapMetricOptions& options)
   return metrics;
 }
 
-std::vector<Pose> ScaledPath(const std::vector<Pose>& T_world_cam, double scale) {
-  std::vector<Pose> scaled;
-  for (const Pose& T : T_world_cam) scaled.emplace_back(T.so3(), scale * T.translation());
-  return scaled;
-}
-
 }  // namespace sslcd

@@ -118,6 +118,21 @@ class CliTest(CliCase):
         os.mkdir(self.data + '/odometry.txt')
         self.refused(self.run_data('--format', 'sequence'), 3, 'odometry.txt')
 
+    def test_a_map_is_judged_by_true_poses_only(self):
+        self.assertEqual(self.run_data().returncode, 0)
+        tracking, label = self.data + '/tracking', self.data + '/tracking/label_02/0007.txt'
+        for name, source in (('calib', self.data + '/calib.txt'), ('detections', self.data + '/detections.txt'),
+                             ('poses', self.out + '/odometry_kitti.txt')):
+            write(f'{tracking}/{name}/0007.txt', read(source))
+        write(label, ''.join(f'{i} 0 Car 0 0 0 0 0 9 9 1.5 1.7 4 2 1.5 10 0\n' for i in range(40)))
+        run = ('run', tracking, '--sequence', '0007', '--detections', 'detections', '--odometry', 'poses', '--out', self.out)
+        result = call(*run)
+        self.assertEqual((result.returncode, json.loads(read(self.out + '/metrics.json'))), (0, {}), result.stderr)
+        self.assertEqual(result.stderr.count(label + ': no ground-truth poses'), 1, result.stderr)
+        result = call(*run, '--groundtruth', 'poses')
+        self.assertEqual((result.returncode, result.stderr), (0, ''))
+        self.assertIn('iou_map', json.loads(read(self.out + '/metrics.json')))
+
     # rows
     def test_bad_detection_rows(self):
         last = len(read(self.data + '/detections.txt').splitlines()[5].split()) - 1

@@ -146,12 +146,5 @@ TEST(MapMetricsTest, BadNumbersAreErrors) {
   EXPECT_THROW(ComputeMapMetrics(negative), Error);
 }
 
-TEST(ScaledPathTest, KeepsTheRotations) {
-  const Pose T(lie::SO3<double>::RotX(0.4), Vec3(2, 4, -8));
-  const Pose scaled = ScaledPath({T}, 0.5).at(0);
-  EXPECT_EQ(scaled.translation(), Vec3(1, 2, -4));
-  EXPECT_EQ(scaled.unit_quaternion().coeffs(), T.unit_quaternion().coeffs());
-}
-
 }  // namespace
 }  // namespace sslcd

@@ -19,8 +19,7 @@ struct MapRun {
   std::vector<MapObject> objects;
   /// the detections as they went in: frame number, boxes, scores and rows are used
   std::vector<Frame> frames;
-  /// true poses, or ScaledPath() of the odometry where there are none
-  std::vector<Pose> reference;
+  std::vector<Pose> reference;        ///< true poses
   std::vector<GroundTruthBox> truth;  ///< annotated boxes of the sequence
 };
 
@@ -59,9 +58,5 @@ struct MapMetrics {
 
 /// Throws Error (kUsage) when two frames carry the same number or an annotated box a negative one.
 MapMetrics ComputeMapMetrics(const MapRun& run, const MapMetricOptions& options = {});
-
-/// The path with its positions multiplied by `scale`, the rotations kept: a stand-in for true poses
-/// where an odometry is known to be too long (KITTI tracking's ORB-SLAM3 poses: 0.975).
-std::vector<Pose> ScaledPath(const std::vector<Pose>& T_world_cam, double scale);
 
 }  // namespace sslcd
