@@ -49,23 +49,29 @@ void ConfigArguments::AddTo(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-Configuration ConfigArguments::Load(const std::function<void(Configuration&)>& adapt) const {
+void ConfigArguments::ApplyTo(Configuration& all) const {
+  if (!file.empty()) {
+    LoadConfigFile(file, Fields(all));
+    ResolvePaths(FolderOf(file), all.vision);
+  }
+  ApplySettings(settings, Fields(all));
+  ResolvePaths(fs::current_path(), all.vision);
+  if (!mode.empty())
+    all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
+}
+
+Configuration ConfigArguments::Load() const {
+  Configuration all{DefaultOptions(Options::Mode::kRobust), VisionOptions()};
+  ApplyTo(all);
   // The mode decides the defaults that the file and the settings then change, wherever it is named.
-  Configuration all;
-  const auto apply = [&] {
-    if (!file.empty()) {
-      LoadConfigFile(file, Fields(all));
-      ResolvePaths(FolderOf(file), all.vision);
-    }
-    ApplySettings(settings, Fields(all));
-    ResolvePaths(fs::current_path(), all.vision);
-    if (!mode.empty())
-      all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
-  };
-  apply();
-  all = {DefaultOptions(all.options.mode), VisionOptions()};
+  return all.options.mode == Options::Mode::kRobust ? all : LoadOver(all.options.mode, {});
+}
+
+Configuration ConfigArguments::LoadOver(Options::Mode defaults,
+                                        const std::function<void(Configuration&)>& adapt) const {
+  Configuration all{DefaultOptions(defaults), VisionOptions()};
   if (adapt) adapt(all);
-  apply();
+  ApplyTo(all);
   return all;
 }
 

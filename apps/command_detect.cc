@@ -5,13 +5,13 @@
 
 #include "commands.h"
 #include "from_images.h"
+#include "image_loader.h"
 #include "overlay.h"
 #include "overwriting.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/io/config.h"
 #include "sslcd/io/sequence_writer.h"
-#include "stereo_files.h"
 #include "threads.h"
 
 namespace sslcd::apps {
@@ -75,7 +75,7 @@ void RefuseInput(const fs::path& out, const Dataset& dataset) {
 }
 
 // All but the frames.
-SequenceFiles FilesOf(const Dataset& dataset) {
+SequenceFiles SequenceFilesOf(const Dataset& dataset) {
   SequenceFiles files;
   if (dataset.camera && dataset.camera_right) files.camera = StereoCameraOf(dataset);
   files.up_axis = dataset.up_axis;
@@ -85,9 +85,10 @@ SequenceFiles FilesOf(const Dataset& dataset) {
 }
 
 int Detect(DetectArguments& a, const Console& console) {
-  const bool has_detector = !a.config.Load().vision.detector.empty();  // wrong ones first
+  a.images.AddTo(a.config);
+  const Configuration given = a.config.Load();  // wrong ones first
   const bool odometry_alone = a.request.odometry == "stereo" && !a.images.detects() &&
-                              a.images.embedder.empty() && !has_detector;
+                              a.images.embedder.empty() && given.vision.detector.empty();
   if (odometry_alone && a.overlays)
     throw Error(ErrorKind::kUsage,
                 "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
@@ -108,7 +109,8 @@ int Detect(DetectArguments& a, const Console& console) {
                     {(out / "detections.txt").string(), (out / "config.yaml").string()});
   PrepareSequenceFolder(out, a.force);
   const bool fresh = fs::is_empty(out);
-  const Configuration configuration = a.images.Load(a.config, dataset, !odometry_alone);
+  const ImageRequest request = a.images.RequestFor(dataset, !odometry_alone, given);
+  const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
   const int total = static_cast<int>(dataset.frames.size());
 
   const Camera camera = dataset.camera.value_or(Camera());
@@ -116,13 +118,14 @@ int Detect(DetectArguments& a, const Console& console) {
   std::function<void(const Frame&, const ImageView&)> watch;
   if (a.overlays)
     watch = [&](const Frame& frame, const ImageView& left) { overlays.Write(frame, left, camera); };
-  ImageFrontend frontend =
-      *a.images.Make(dataset, configuration, !odometry_alone, a.threads, watch);
-  if (dataset.odometry_path.empty())
+  ImageFrontend frontend(MakeImageSequence(request, dataset), configuration.vision,
+                         configuration.options.colour, {LoadImage, watch}, a.threads);
+  frontend.AddLabels(dataset.labels);
+  if (request.odometry)
     console.Say(odometry_alone ? "odometry: made from the images; no detections"
                                : "odometry: made from the images");
 
-  SequenceFiles files = FilesOf(dataset);
+  SequenceFiles files = SequenceFilesOf(dataset);
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
   CatchInterrupt();
   while (!Interrupted()) {
@@ -147,7 +150,7 @@ int Detect(DetectArguments& a, const Console& console) {
   }
   WarnOfMissingColours(files.detections);
   Configuration resolved = configuration;
-  if (a.images.MeasuresByStereo(configuration.vision, dataset, !odometry_alone))
+  if (MeasuresByStereo(request, configuration.vision))
     resolved.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
   files.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
   WriteSequenceFiles(out, files);

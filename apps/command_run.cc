@@ -133,15 +133,26 @@ struct Mapped {
   std::optional<Error> failure;  // what ended it early: the frames before it are not lost
 };
 
-Mapped MapFrames(const RunArguments& a, Dataset& dataset, const Configuration& configuration,
-                 const Console& console) {
+// Makes what the dataset lacks; none: nothing is lacking. Takes the frames out of `dataset` then.
+std::optional<ImageFrontend> MakeFrontend(const ImageRequest& request, Dataset& dataset,
+                                          const Configuration& configuration, int threads) {
+  if (!request.odometry && !request.detections) return std::nullopt;
+  ImageFrontend frontend(MakeImageSequence(request, dataset), configuration.vision,
+                         configuration.options.colour, {LoadImage}, threads);
+  frontend.AddLabels(dataset.labels);
+  return frontend;
+}
+
+Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& dataset,
+                 const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
-  const ViewAligner aligner = a.images.MakeAligner(
-      dataset, configuration, a.threads,
-      [&console](int done, int count) { console.Progress("view", done, count); });
-  std::optional<ImageFrontend> frontend =
-      a.images.Make(dataset, configuration, a.images.detects(), a.threads);
-  if (frontend && dataset.odometry_path.empty()) console.Say("odometry: made from the images");
+  const auto view_progress = [&console](int done, int count) {
+    console.Progress("view", done, count);
+  };
+  const ViewAligner aligner = MakeGroundAligner(
+      request, dataset, configuration.vision, FilesOf(dataset), {false, a.threads, view_progress});
+  std::optional<ImageFrontend> frontend = MakeFrontend(request, dataset, configuration, a.threads);
+  if (request.odometry) console.Say("odometry: made from the images");
   const MapperContext context{
       GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
   RunHooks hooks;
@@ -203,15 +214,17 @@ Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> id
 
 int Run(RunArguments& a, const Console& console) {
   if (a.out.empty()) a.out = "runs/latest";
-  a.config.Load();            // wrong ones first,
-  MakeWritableFolder(a.out);  // and rather now than after the run
+  a.images.AddTo(a.config);
+  const Configuration given = a.config.Load();  // wrong ones first,
+  MakeWritableFolder(a.out);                    // and rather now than after the run
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file},
                     RunFolderPaths(a.out));
   std::vector<int> identities = IdentitiesOf(a, dataset);
-  const Configuration configuration = a.images.Load(a.config, dataset, a.images.detects());
-  const Mapped mapped = MapFrames(a, dataset, configuration, console);
+  const ImageRequest request = a.images.RequestFor(dataset, a.images.detects(), given);
+  const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
+  const Mapped mapped = MapFrames(a, request, dataset, configuration, console);
   RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
   outputs.metrics = Judge(a, dataset, std::move(identities), mapped, outputs);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);

@@ -37,13 +37,19 @@ struct ConfigArguments {
   std::vector<std::string> settings;
 
   void AddTo(CLI::App& command);
-  /// Defaults of the mode, as `adapt` changes them, then the file, then the settings. Paths in the
-  /// file are relative to it, or else to the current folder, as those of settings are; what is
-  /// found becomes absolute, so that it can be written anywhere. Throws Error(kBadConfig).
-  Configuration Load(const std::function<void(Configuration&)>& adapt = {}) const;
+  /// Defaults of the mode, then the file, then the settings. Paths in the file are relative to it,
+  /// or else to the current folder, as those of settings are; what is found becomes absolute, so
+  /// that it can be written anywhere. Throws Error(kBadConfig).
+  Configuration Load() const;
+  /// The same over other defaults: those of `mode`, as `adapt` changes them.
+  Configuration LoadOver(Options::Mode mode,
+                         const std::function<void(Configuration&)>& adapt) const;
   /// Throws Error(kBadInput) with the places looked at where a path of the configuration leads
   /// nowhere.
   void CheckPath(const std::string& path) const;
+
+ private:
+  void ApplyTo(Configuration& configuration) const;
 };
 
 }  // namespace sslcd::apps

@@ -2,15 +2,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
-#include <optional>
 #include <string>
 
 #include "commands.h"
-#include "sslcd/core/error.h"
-#include "sslcd/frontend/image_frontend.h"
+#include "sslcd/frontend/recording.h"
 #include "sslcd/io/dataset.h"
-#include "sslcd/pipeline/view_aligner.h"
 
 namespace sslcd::apps {
 
@@ -21,39 +17,22 @@ struct ImageArguments {
   void AddTo(CLI::App& command);
   bool detects() const { return !detector.empty() || !boxes.empty(); }
 
-  /// The configuration with these in it, from other defaults: cuboids lifted from 2D boxes bring
-  /// their own noise, and a loss that suits the headings which are a quarter turn off; so does
-  /// odometry from images, by how well these are rectified, and it is good enough for
-  /// `loop.odometry` to be `ba.odometry`; and where both come from the same images there is no
-  /// scale to estimate, since a wrong baseline stretches both alike, and aligned images.
-  /// `detections`: they are made, too. Where frames are made from stereo, the right camera of
-  /// `dataset` gets the principal point that CheckRig finds.
-  Configuration Load(ConfigArguments config, Dataset& dataset, bool detections) const;
+  /// The models named on the command line, as settings of the configuration.
+  void AddTo(ConfigArguments& config) const;
 
-  /// Whether odometry or cuboids are measured by disparities, rather than given or found by a 3D
-  /// detector.
-  bool MeasuresByStereo(const VisionOptions& vision, const Dataset& dataset, bool detections) const;
-
-  /// The frontend that makes what `dataset` lacks: odometry where no path was found, detections if
-  /// `detections`. Takes the frames out of `dataset`, and adds labels to it. None: nothing is
-  /// lacking.
-  std::optional<ImageFrontend> Make(
-      Dataset& dataset, const Configuration& configuration, bool detections, int threads,
-      std::function<void(const Frame&, const ImageView&)> watch = {}) const;
-
-  /// Aligns frames by the ground in their stereo images (AlignGround), which are read again. None:
-  /// `dataset` lacks a second camera or the images, or `loop.views` is off. Where nothing else is
-  /// measured by stereo, CheckRig finds the right camera's principal point when the first frames
-  /// are to be aligned. To be called before Make(). Answers nothing more after an interrupt.
-  ViewAligner MakeAligner(const Dataset& dataset, const Configuration& configuration, int threads,
-                          std::function<void(int done, int total)> progress) const;
+  /// Odometry where `dataset` has none; detections if asked for.
+  ImageRequest RequestFor(const Dataset& dataset, bool detections,
+                          const Configuration& given) const;
 };
 
-/// The next frame. Its error is thrown where it is the first one (`done` is 0) or spoils all of
-/// them (kNoSolution), else kept in `failure`, so that the results of the frames before are not
-/// lost: then, as at the end, there is none.
-std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done,
-                               std::optional<Error>& failure);
+/// The dataset's images, read by the tools; nothing more after an interrupt.
+StereoFiles FilesOf(const Dataset& dataset);
+
+/// The configuration with what the images of `dataset` bring under what the user has set
+/// (InspectImages, AdaptTo), and a line that says which keys that are. Throws Error where models
+/// that are needed are not there.
+Configuration AdaptToImages(const ConfigArguments& config, const Configuration& given,
+                            const ImageRequest& request, Dataset& dataset, const Console& console);
 
 /// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is
 /// one.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // AlignGround: how far off, how often. usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...
-// Folders as for odometry_bench. The pairs are those of LoopViewOptions and SpotAhead: every 2 m of
-// path, a frame and the earlier one, so much path before (--path, 30 m at least), that looks at the
-// same ground. The guess is the truth, off by --off (0.2 m) horizontally and 0.5 degrees in heading
-// (standard deviations). The disparity at infinity is the one that CheckRig finds. Prints one row
-// for each folder; errors in the second camera's axes; squared errors by their covariances, median
-// and mean per degree of freedom (.89 and 1 are right).
+// Folders as for odometry_bench. The pairs are those of LoopViewOptions and AlignmentRange: every 2
+// m of path, a frame and the earlier one, so much path before (--path, 30 m at least), that looks
+// at the same ground. The guess is the truth, off by --off (0.2 m) horizontally and 0.5 degrees in
+// heading (standard deviations). The disparity at infinity is the one that CheckRig finds. Prints
+// one row for each folder; errors in the second camera's axes; squared errors by their covariances,
+// median and mean per degree of freedom (.89 and 1 are right).
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -45,7 +45,7 @@ void Measure(const std::string& folder, const std::string& poses, const Setup& s
   LoopViewOptions views;
   const GroundOptions ground;
   const int rows = cv::imread(input.left[0], cv::IMREAD_UNCHANGED).rows;
-  views.ahead_m = SpotAhead(camera.left, rows, ground.height_m).value_or(views.ahead_m);
+  views.ahead_m = AlignmentRange(camera.left, rows, ground.height_m).value_or(views.ahead_m);
   const auto spot = [&](std::size_t i) { return Vec3(input.truth[i] * Vec3(0, 0, views.ahead_m)); };
   std::vector<double> path{0}, right, down, ahead, turn, normalised;
   std::mt19937 random(1);

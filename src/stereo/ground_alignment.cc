@@ -171,7 +171,7 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
                "found only if its place is known this well");
 }
 
-std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m) {
+std::optional<double> AlignmentRange(const Camera& camera, int rows, double height_m) {
   constexpr double kCommon = 7, kFarthest = 12;  // [m] of ground, seen by both
   const double below = (rows - camera.cy) / camera.fy, nearest = height_m / below;
   if (!(below > 0) || nearest > kFarthest) return std::nullopt;

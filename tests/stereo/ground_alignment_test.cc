@@ -58,15 +58,15 @@ TEST_P(AlignGroundFrom, FindsItFromAGuessToTheCentimetre) {
   EXPECT_LT((views.T_a_b.inverse() * found->T_a_b).Log().norm(), 0.02);
 }
 
-TEST(SpotAhead, IsWhereBothCamerasSeeEnough) {
+TEST(AlignmentRange, IsWhereBothCamerasSeeEnough) {
   Camera camera{500, 500, 320, 240, {}, 0, 0};
   const double nearest = 1.5 * 500 / 240;
-  const double spot = SpotAhead(camera, 480, 1.5).value();
+  const double spot = AlignmentRange(camera, 480, 1.5).value();
   EXPECT_GT(spot, nearest + 2) << "that of the one 2 m nearer, that of the other beyond";
   EXPECT_LT(spot, nearest + 5);
-  EXPECT_GT(SpotAhead(camera, 400, 1.5).value(), spot) << "sees less of what is near";
-  EXPECT_FALSE(SpotAhead(camera, 240, 1.5)) << "only sky";
-  EXPECT_FALSE(SpotAhead(camera, 480, 10)) << "on a roof";
+  EXPECT_GT(AlignmentRange(camera, 400, 1.5).value(), spot) << "sees less of what is near";
+  EXPECT_FALSE(AlignmentRange(camera, 240, 1.5)) << "only sky";
+  EXPECT_FALSE(AlignmentRange(camera, 480, 10)) << "on a roof";
 }
 
 TEST(AlignGround, ThroughACarInTheWayAndAnotherLight) {

@@ -28,7 +28,7 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options);
 /// looks at. It is measured the better the nearer it is, but both must see some metres of it. [m]
 /// `rows`: of the image; `height_m`: of the camera over the ground. None: the camera sees no level
 /// ground within 12 m. It is for LoopViewOptions::ahead_m.
-std::optional<double> SpotAhead(const Camera& camera, int rows, double height_m);
+std::optional<double> AlignmentRange(const Camera& camera, int rows, double height_m);
 
 /// Where the second stereo camera stands in the first one's frame (reference cameras, see
 /// Camera::offset), by the ground that both see, from whichever sides: cracks, stains and markings

@@ -11,7 +11,10 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/detectors/detector_2d.h"
+#include "sslcd/frontend/adapt.h"
 #include "sslcd/frontend/image_frontend.h"
+#include "sslcd/pipeline/mapper.h"
+#include "sslcd/stereo/ground_alignment.h"
 
 namespace {
 
@@ -71,6 +74,31 @@ bool Refuses(const char* text, const Load& load) {
   return false;
 }
 
+// As docs/vins_fusion.md has it.
+sslcd::Mapper MakeMapper(const sslcd::StereoCamera& camera, double camera_height_m) {
+  sslcd::ImageSource source;
+  source.lifted_boxes = true;      // the cuboids of Detect()
+  source.stereo_odometry = false;  // true: poses of sslcd::StereoOdometry, not of VINS
+  source.alignment_range_m =
+      sslcd::AlignmentRange(camera.left, camera.left.height, camera_height_m);
+  sslcd::Options options = sslcd::DefaultOptions(sslcd::Options::Mode::kRobust);
+  sslcd::AdaptTo(source, options);
+  sslcd::MapperContext context;
+  context.gravity = sslcd::GravityFrame::FromUp({0, 0, 1});
+  context.camera = camera.left;
+  context.labels.Set("Car", {sslcd::Symmetry::kPi});
+  return sslcd::Mapper(options, context);
+}
+
+bool MapsAFrame() {
+  sslcd::StereoCamera camera;
+  camera.left = {200, 200, kWidth / 2., kHeight / 2., {0, 0, 0}, kWidth, kHeight};
+  camera.baseline_m = 0.5;
+  sslcd::Mapper mapper = MakeMapper(camera, 1.5);
+  mapper.AddFrame({});
+  return mapper.Objects().empty();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,5 +109,5 @@ int main(int argc, char** argv) {
   const bool refuses = Refuses("model", [&] { sslcd::Detector2d::Load(description); }) &&
                        Refuses("missing.yaml", [] { sslcd::Detector2d::Load("missing.yaml"); }) &&
                        Refuses("ONNX Runtime", [&] { sslcd::Session(description, nowhere); });
-  return refuses && FramesFromImages() ? 0 : 1;
+  return refuses && FramesFromImages() && MapsAFrame() ? 0 : 1;
 }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/frontend/adapt.h"
+
+#include "sslcd/stereo/odometry.h"
+
+namespace sslcd {
+
+std::vector<std::string> AdaptTo(const ImageSource& source, Options& options,
+                                 const ImageModels& models) {
+  std::vector<std::string> keys;
+  if (source.alignment_range_m) {
+    options.loop.views.ahead_m = *source.alignment_range_m;
+    keys.push_back("loop.views.ahead_m");
+  }
+  if (source.lifted_boxes) {
+    options.noise = models.lifted_noise;
+    options.ba.loss_scale = models.lifted_loss_scale;
+    options.ba.correlation = models.lifted_correlation;
+    keys.insert(keys.end(), {"noise", "ba.loss_scale", "ba.correlation"});
+  }
+  if (source.stereo_odometry) {
+    OdometryNoise noise = StereoOdometryNoise(source.row_error_rad);
+    if (source.lifted_boxes || !source.has_detections)
+      noise.scale_prior = models.shared_scale_prior;
+    // What loops reveal over kilometres is what the window has to expect over metres.
+    options.ba.odometry = noise;
+    options.loop.odometry = noise;
+    keys.insert(keys.end(), {"ba.odometry", "loop.odometry"});
+  }
+  return keys;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/frontend/stereo_files.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sslcd/core/log.h"
+#include "sslcd/stereo/ground_alignment.h"
+
+namespace sslcd {
+namespace {
+
+std::string Pixels(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3f px", value);
+  return text;
+}
+
+void LogRig(const RigCheck& check, const StereoCamera& camera) {
+  const std::string rows =
+      "rows of left and right images differ by " + Pixels(check.row_error.value());
+  if (check.disparity_at_infinity != camera.disparity_at_infinity) {
+    Log(LogLevel::kWarning,
+        "calibration is off: " + rows + ". As points move, the disparity at infinity is " +
+            Pixels(check.disparity_at_infinity) + ", which is used instead of " +
+            Pixels(camera.disparity_at_infinity) + "; vision.odometry.calibrate: false leaves it");
+  } else if (check.unsure) {
+    Log(LogLevel::kWarning,
+        "calibration is off: " + rows +
+            ", and no frames tell by how much columns do, so distances may be some per cent off");
+  } else {
+    Log(LogLevel::kInfo, rows);
+  }
+}
+
+}  // namespace
+
+bool StereoFiles::HasPairs() const {
+  return std::any_of(paths.begin(), paths.end(),
+                     [](const auto& pair) { return !pair.first.empty() && !pair.second.empty(); });
+}
+
+StereoFiles StereoFilesOf(const std::vector<Frame>& frames,
+                          std::function<Image(const std::string&)> load,
+                          std::function<bool()> stop) {
+  StereoFiles files{{}, std::move(load), std::move(stop)};
+  for (const Frame& frame : frames) files.paths.emplace_back(frame.image_left, frame.image_right);
+  return files;
+}
+
+RigCheck CheckRig(const StereoFiles& files, const StereoCamera& camera,
+                  const StereoOdometryOptions& options) {
+  std::pair<int, int> size(0, 0);  // of the first pair
+  const auto load = [&](std::size_t i) -> std::optional<std::pair<Image, Image>> {
+    const auto& [left_path, right_path] = files.paths[i];
+    if (files.stopped() || left_path.empty() || right_path.empty()) return std::nullopt;
+    std::pair<Image, Image> pair{files.load(left_path), files.load(right_path)};
+    const auto& [left, right] = pair;
+    if (left.empty() || left.width != right.width || left.height != right.height)
+      return std::nullopt;
+    if (size.first == 0) size = {left.width, left.height};
+    if (size != std::pair(left.width, left.height)) return std::nullopt;
+    return pair;
+  };
+  const RigCheck check = CheckRig(camera, files.paths.size(), load, options);
+  if (check.row_error && !files.stopped()) LogRig(check, camera);
+  return check;
+}
+
+std::optional<double> AlignmentRange(const StereoFiles& files, const Camera& left,
+                                     double height_m) {
+  for (const auto& pair : files.paths) {
+    if (pair.first.empty()) continue;
+    const Image image = files.load(pair.first);
+    if (!image.empty()) return AlignmentRange(left, image.height, height_m);
+  }
+  return std::nullopt;
+}
+
+}  // namespace sslcd
