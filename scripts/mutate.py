@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mutation test: do the unit tests notice a small wrong edit of the code that decides?
+
+  scripts/mutate.py                     all mutants of all subjects below (an hour or two)
+  scripts/mutate.py --sample 6 drift    six of each file of the subject `drift`
+  scripts/mutate.py --list motion       the edits; nothing is built
+  scripts/mutate.py --source src/a.cc --target sslcd_a_tests --filter 'A.*'
+
+A mutant is one edit of one source file: a comparison, an arithmetic or logical operator, a
+constant, a sign, a dropped `!`, min for max, true for false. It is written to a temporary folder,
+compiled there without optimisation with the flags that the build folder has for the file, and
+linked before the library into a copy of the test binary. The source tree and the build folder stay
+as they are. Killed: a test fails, crashes or takes ten times as long. The same seed picks the same
+sample. Exit status 1 if less than --min-killed percent of the mutants that compile are killed.
+"""
+import argparse
+import hashlib
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# The code that decides: subject -> source, target and gtest filter of the tests that should notice.
+SUBJECTS = {
+    "decision": [("src/loop/decision.cc", "sslcd_loop_tests", "MatchLayouts*")],
+    "likelihood": [("src/loop/layout_likelihood.cc", "sslcd_loop_tests",
+                    "LayoutLikelihood*:AlignPoints*")],
+    "tracks": [("src/loop/pose_tracks.cc", "sslcd_loop_tests", "PoseTracks*")],
+    "drift": [("src/optim/drift.cc", "sslcd_optim_tests", "Drift.*:FindStart.*"),
+              ("src/optim/drift_problem.cc", "sslcd_optim_tests", "Drift*:FindStart.*")],
+    "robust": [("src/optim/pose_graph_robust.cc", "sslcd_optim_tests", "*RobustPoseGraph*:Chi2*")],
+    "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],
+    "motion": [("src/map/motion_test.cc", "sslcd_map_tests", "MotionTest*")],
+    "fusion": [("src/pipeline/fuse.cc", "sslcd_pipeline_tests", "Fuse*:SeenTogether*:Stretches*")],
+}
+
+SWAPS = {  # binary operators; the house format puts a blank on both sides of them and of no others
+    "<": [("boundary", "<="), ("comparison", ">=")], "<=": [("boundary", "<"), ("comparison", ">")],
+    ">": [("boundary", ">="), ("comparison", "<=")], ">=": [("boundary", ">"), ("comparison", "<")],
+    "==": [("comparison", "!=")], "!=": [("comparison", "==")],
+    "&&": [("logic", "||")], "||": [("logic", "&&")],
+    "+": [("arithmetic", "-")], "-": [("arithmetic", "+")],
+    "*": [("arithmetic", "/")], "/": [("arithmetic", "*")],
+    "+=": [("arithmetic", "-=")], "-=": [("arithmetic", "+=")],
+    "*=": [("arithmetic", "/=")], "/=": [("arithmetic", "*=")],
+}
+WORDS = {"std::min": "std::max", "std::max": "std::min", "minCoeff": "maxCoeff",
+         "maxCoeff": "minCoeff", "true": "false", "false": "true", "any_of": "all_of",
+         "all_of": "any_of"}
+GUARD = 1e-6  # constants this small guard against rounding: no edit of them can be noticed
+
+
+def blank(text, spans):
+    """The text with the spans blanked; lines and columns stay where they are."""
+    chars = list(text)
+    for begin, end in spans:
+        for i in range(begin, end):
+            if chars[i] != "\n":
+                chars[i] = " "
+    return "".join(chars)
+
+
+def deciding_code(text):
+    """Without comments, includes, strings and the messages they are part of, option tables,
+    headers of counting loops, template arguments and indices."""
+    tokens = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|'
+                        r'^[ \t]*#(?:[^\n\\]|\\.)*', re.S | re.M)
+    found = [m.span() for m in tokens.finditer(text)]
+    strings = [(b, e) for b, e in found if text[b] == '"' and not text.startswith("#", b)]
+    code = blank(text, found)
+    messages = []
+    for begin, end in strings:
+        left = max(code.rfind(c, 0, begin) for c in ";{}") + 1
+        for m in re.finditer(r"(?<![=!<>])=(?!=)|\breturn\b|[?:]", code[:begin]):
+            left = max(left, m.end())
+        right = code.find(";", end)
+        messages.append((left, right if right >= 0 else end))
+    code = blank(code, messages)
+    for pattern in (r"^void DescribeFields\(.*?^}",
+                    r"\bfor \([^;()]*= \d+; \w+ <=? [^;]*;",  # a read past the end is undefined
+                    r"\[[\w.]*\]", *3 * [r"(?<=\w)<[^<>;(){}]*>"]):  # template arguments: nested
+        code = blank(code, [m.span() for m in re.finditer(pattern, code, re.S | re.M)])
+    return code
+
+
+def constants(number):
+    """Edits of a numeric literal."""
+    if re.fullmatch(r"\d+", number):
+        return [str(int(number) + 1)]
+    value = float(number.rstrip("fF"))
+    if value == 0:
+        return ["1."]
+    return [] if abs(value) <= GUARD or abs(value) >= 1 / GUARD else [repr(2 * value)]
+
+
+def mutants(text):
+    """All (offset, length, replacement, kind) of a source text, in order."""
+    code = deciding_code(text)
+    found = []
+    for m in re.finditer(r"(?<=\s)([<>=!]=|[-+*/]=|&&|\|\||[-<>+*/])(?=\s)", code):
+        if m.group(1)[0] in "*/" and re.match(r" -?1\b(?!\.\d)", code[m.end():]):
+            continue  # the same times one as by one
+        for kind, swapped in SWAPS.get(m.group(1), []):
+            found.append((m.start(), len(m.group(1)), swapped, kind))
+    for m in re.finditer(r"(?:(?<=[(\[{!])|(?<=[=,?:*/+<>&|-] )|(?<=return ))-(?=[\w(])", code):
+        found.append((m.start(), 1, "", "sign"))
+    for m in re.finditer(r"!(?=[\w(])", code):
+        found.append((m.start(), 1, "", "not"))
+    for m in re.finditer(r"(?<![\w.])(\d+\.?\d*(?:[eE][-+]?\d+)?[fF]?|\.\d+)(?![\w.])", code):
+        for edit in constants(m.group(1)):
+            found.append((m.start(), len(m.group(1)), edit, "constant"))
+    for m in re.finditer(r"std::(?:min|max)(?=[(<])|\b(?:%s)\b" % "|".join(
+            w for w in WORDS if ":" not in w), code):
+        found.append((m.start(), len(m.group(0)), WORDS[m.group(0)], "word"))
+    return sorted(found)
+
+
+def sample(found, count, seed):
+    """`count` of them, or all if None; the same ones wherever and whenever it runs."""
+    def rank(mutant):
+        return hashlib.sha256(f"{seed} {mutant}".encode()).hexdigest()
+    return found if count is None else sorted(sorted(found, key=rank)[:count])
+
+
+class Bench:
+    """Builds one source file anew, in a folder of its own, and runs the tests on it."""
+
+    def __init__(self, root, build, source, target, gtest_filter, folder):
+        self.build, self.filter, self.folder = build, gtest_filter, Path(folder)
+        self.copy = self.folder / Path(source).name
+        self.binary, self.limit_s = self.folder / target, None
+        commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+        source = (root / source).resolve()
+        entry = next(c for c in commands if Path(c["directory"], c["file"]).resolve() == source)
+        flags = shlex.split(entry["command"].split(" -o ")[0])  # -o OBJECT -c SOURCE come last
+        self.compile = [*flags, "-O0", "-w", "-iquote", str(source.parent), "-o", f"{self.copy}.o",
+                        "-c", str(self.copy)]
+        lines = subprocess.run(["ninja", "-C", str(build), "-t", "commands", target], check=True,
+                               capture_output=True, text=True).stdout.splitlines()
+        link = re.search(r"(?:^: && |^)(\S*(?:\+\+|cc)\S* .*?)(?: && .*)?$", lines[-1]).group(1)
+        self.link = shlex.split(link)
+        output = self.link.index("-o") + 1
+        self.link[output:output + 1] = [str(self.binary), f"{self.copy}.o"]
+
+    def verdict(self, text):
+        """(killed, survived or did not compile; what the tests or the compiler said)"""
+        self.copy.write_text(text, encoding="utf-8")
+        for command in (self.compile, self.link):
+            done = subprocess.run(command, cwd=self.build, capture_output=True, text=True)
+            if done.returncode != 0:
+                return "did not compile", done.stderr
+        command = [str(self.binary), f"--gtest_filter={self.filter}", "--gtest_fail_fast"]
+        environment = {**os.environ, "SSLCD_DATA_DIR": "/nonexistent"}  # unit tests need no data
+        start = time.monotonic()
+        try:
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True,
+                                  errors="replace", timeout=self.limit_s, env=environment)
+        except subprocess.TimeoutExpired:
+            return "killed", "too slow"
+        if self.limit_s is None:
+            self.limit_s = 10 * (time.monotonic() - start) + 5
+        return ("survived" if done.returncode == 0 else "killed"), done.stdout
+
+
+def run_subject(root, build, subject, options, rows):
+    """One source file; appends (verdict, place, kind, before, after) to rows."""
+    source, target, gtest_filter = subject
+    text = (root / source).read_text(encoding="utf-8")
+    chosen = sample(mutants(text), options.sample, options.seed)
+    with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
+        bench = None
+        if not options.list:
+            bench = Bench(root, build, source, target, gtest_filter, folder)
+            verdict, said = bench.verdict(text)
+            if verdict != "survived" or "[  PASSED  ] 0 tests" in said:
+                sys.exit(f"error: {source} as it is: {verdict}, {target} {gtest_filter}\n{said}")
+        for offset, length, edit, kind in chosen:
+            begin = text.rfind("\n", 0, offset) + 1
+            end = text.find("\n", offset)
+            after = text[begin:offset] + edit + text[offset + length:end]
+            verdict = "listed"
+            if bench is not None:
+                verdict = bench.verdict(text[:offset] + edit + text[offset + length:])[0]
+            place = f"{source}:{text.count(chr(10), 0, offset) + 1}"
+            rows.append((verdict, place, kind, text[begin:end].strip(), after.strip()))
+            print("\t".join(rows[-1]), flush=True)
+
+
+def summary(rows):
+    """Lines of text, one per source, kind of edit and for all; and the share killed, in percent."""
+    lines = []
+    for name in [*sorted({r[1].split(":")[0] for r in rows}), *sorted({r[2] for r in rows}), "all"]:
+        some = [r[0] for r in rows if name in ("all", r[1].split(":")[0], r[2])]
+        killed, survived = some.count("killed"), some.count("survived")
+        percent = 100 * killed / max(1, killed + survived)
+        lines.append(f"{name}: {percent:.0f} % killed; {killed} killed, {survived} survived, "
+                     f"{len(some) - killed - survived} did not compile")
+    return lines, percent
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("subjects", nargs="*", help=f"of {', '.join(SUBJECTS)}; none: all")
+    parser.add_argument("--build", type=Path, default=ROOT / "build/release",
+                        help="build folder made by Ninja (default: build/release)")
+    parser.add_argument("--root", type=Path, default=ROOT, help=argparse.SUPPRESS)
+    parser.add_argument("--sample", type=int, metavar="N", help="N mutants of each file")
+    parser.add_argument("--seed", type=int, default=1, help="of the sample (default: 1)")
+    parser.add_argument("--list", action="store_true", help="list the mutants, build nothing")
+    parser.add_argument("--out", type=Path, help="write the table there as well")
+    parser.add_argument("--min-killed", type=float, default=85, metavar="PERCENT")
+    for name in ("source", "target", "filter"):
+        parser.add_argument(f"--{name}", help="a subject that is not among those")
+    options = parser.parse_args()
+    for name in set(options.subjects) - set(SUBJECTS):
+        parser.error(f"no subject '{name}': {', '.join(SUBJECTS)}")
+    chosen = [s for name in options.subjects or SUBJECTS for s in SUBJECTS[name]]
+    if options.source:
+        chosen = [(options.source, options.target, options.filter or "*")]
+    build, rows, start = options.build.resolve(), [], time.monotonic()
+    if not options.list:
+        targets = {target for _, target, _ in chosen}
+        subprocess.run(["ninja", "-C", build, *targets], check=True, stdout=subprocess.DEVNULL)
+    os.nice(10)
+    try:
+        for subject in chosen:
+            run_subject(options.root, build, subject, options, rows)
+    except KeyboardInterrupt:
+        print("interrupted")
+    if options.list:
+        return 0
+    lines, percent = summary(rows)
+    lines.append(f"{(time.monotonic() - start) / max(1, len(rows)):.1f} s for each")
+    print("\n".join(lines))
+    if options.out:
+        table = "\n".join("\t".join(row) for row in rows)
+        options.out.write_text(table + "\n\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return 0 if percent >= options.min_killed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
