@@ -36,7 +36,7 @@ std::map<std::string, std::optional<double>> RunOne(const std::string& folder,
                                                     const Options& options) {
   DatasetRequest request;
   request.path = folder;
-  request.format = DatasetFormat::kKittiTracking;
+  request.format = "kitti-tracking";
   request.sequence = sequence;
   request.detections = detections;
   request.odometry = "orbslam3_poses";

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 struct DetectArguments {
   DatasetRequest request;
-  std::string format = "auto", out;
+  std::string out;
   ConfigArguments config;
   ImageArguments images;
   bool force = false, overlays = false;
@@ -33,8 +33,8 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
       .add_option("DATASET", a.request.path,
                   "folder with image_2, image_3 (or image_0, image_1) and calib.txt")
       ->required();
-  command.add_option("--format", a.format, "layout of the folder; guessed where not given")
-      ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
+  command.add_option("--format", a.request.format, "layout of the folder; guessed where not given")
+      ->check(CLI::IsMember(DatasetFormatNames()));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
   command.add_option(
       "--odometry", a.request.odometry,
@@ -93,7 +93,6 @@ int Detect(DetectArguments& a, const Console& console) {
     throw Error(ErrorKind::kUsage,
                 "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
                 "leave it out");
-  a.request.format = *ParseDatasetFormat(a.format);
   a.request.detections_policy = PartPolicy::kIgnored;
   ChooseOdometry(a.request);
   Dataset dataset = LoadDataset(a.request);

@@ -24,7 +24,7 @@ namespace {
 
 struct RunArguments {
   DatasetRequest request;
-  std::string format = "auto", score = "auto", out;
+  std::string score = "auto", out;
   ConfigArguments config;
   ImageArguments images;
   bool json = false;
@@ -33,8 +33,8 @@ struct RunArguments {
 
 void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_option("DATASET", a.request.path, "dataset folder")->required();
-  command.add_option("--format", a.format, "layout of the folder; guessed where not given")
-      ->check(CLI::IsMember({"auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence"}));
+  command.add_option("--format", a.request.format, "layout of the folder; guessed where not given")
+      ->check(CLI::IsMember(DatasetFormatNames()));
   command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
   command.add_option("--detections", a.request.detections,
                      "file or folder, relative to DATASET or the current folder");
@@ -63,14 +63,13 @@ Dataset Load(RunArguments& a, const Console& console) {
     throw Error(ErrorKind::kUsage,
                 "--detections names detections, --detector and --boxes make others: choose one");
   if (a.images.detects()) a.request.detections_policy = PartPolicy::kIgnored;
-  a.request.format = *ParseDatasetFormat(a.format);
   a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
                                       : a.score == "probability" ? ScoreKind::kProbability
                                                                  : ScoreKind::kLogit;
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  std::string line = dataset.name + ": " + ToString(dataset.format) +
-                     (a.format == "auto" ? " (guessed), " : ", ") +
+  std::string line = dataset.name + ": " + dataset.format +
+                     (a.request.format == "auto" ? " (guessed), " : ", ") +
                      std::to_string(dataset.frames.size()) + " frames, " +
                      std::to_string(dataset.rows_read) + " detections";
   if (dataset.rows_dropped > 0)
@@ -86,7 +85,7 @@ Dataset Load(RunArguments& a, const Console& console) {
 std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path path =
       std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
-  const bool tracking = dataset.format == DatasetFormat::kKittiTracking;
+  const bool tracking = dataset.format == "kitti-tracking";
   return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
 }
 

@@ -44,7 +44,7 @@ class Recogniser {
   static Dataset Load(const std::string& folder) {
     DatasetRequest request;
     request.path = folder;
-    request.format = DatasetFormat::kSequence;
+    request.format = "sequence";
     Dataset dataset = LoadDataset(request);
     if (!dataset.camera || !dataset.camera_right)
       throw Error(ErrorKind::kBadInput, {folder},

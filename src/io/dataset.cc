@@ -2,7 +2,6 @@
 #include "sslcd/io/dataset.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -22,8 +21,6 @@ namespace sslcd {
 namespace {
 
 constexpr double kKittiFrameStep = 0.1;  // [s]
-constexpr std::array<const char*, 5> kFormatNames = {"auto", "kitti-odometry", "kitti-tracking",
-                                                     "kitti-raw", "sequence"};
 
 bool IsOxts(const std::string& path) {
   if (IsFolder(path)) return true;
@@ -54,11 +51,7 @@ class Loader {
     out_.name = layout_.name;
     if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
     out_.labels = info_.labels;
-    if (!layout_.calib.empty()) {
-      const bool is_raw = layout_.format == DatasetFormat::kKittiRaw;
-      calibration_ = is_raw ? ReadRawCalibration(layout_.calib)
-                            : ReadCalibration(layout_.calib, layout_.cameras);
-    }
+    if (!layout_.calib.empty()) calibration_ = layout_.read_calibration(layout_.calib);
     layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
     out_.camera = calibration_.left;
     out_.camera_right = calibration_.right;
@@ -106,8 +99,7 @@ void Loader::AddFrames() {
   std::vector<double> stamps = odometry.trajectory.stamps;
   std::vector<Pose> poses = odometry.trajectory.poses;
   if (!layout_.times.empty()) {
-    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times)
-                                                        : ReadTimes(layout_.times);
+    stamps = layout_.read_times(layout_.times);
     if (stamps.empty())
       throw Error(ErrorKind::kBadInput, {layout_.times},
                   "holds no stamps: fill or remove the file");
@@ -128,8 +120,8 @@ void Loader::AddFrames() {
     for (double& stamp : stamps) stamp *= kKittiFrameStep;
   }
   if (const auto warning = GapWarning(stamps)) Warn(*warning);
-  if (layout_.format == DatasetFormat::kKittiRaw && request_.odometry.empty()) {
-    Warn("no odometry named: the drive's GPS/IMU poses (" + layout_.odometry + ") stand in for it");
+  if (layout_.odometry_is_truth) {
+    Warn("no odometry named: the ground truth (" + layout_.odometry + ") is used as odometry");
   }
 
   frames_in_file_ = poses.size();
@@ -148,8 +140,7 @@ void Loader::AddFramesWithoutPoses() {
   out_.up_axis = Vec3(0, -1, 0);
   std::vector<double> stamps;
   if (!layout_.times.empty()) {
-    stamps = layout_.format == DatasetFormat::kKittiRaw ? ReadTimestamps(layout_.times)
-                                                        : ReadTimes(layout_.times);
+    stamps = layout_.read_times(layout_.times);
   } else if (!layout_.images.empty()) {
     for (int i = 0; i < FramesOfImages(layout_.images); ++i) stamps.push_back(kKittiFrameStep * i);
   }
@@ -294,17 +285,6 @@ void Loader::AddGroundtruth() {
 }
 
 }  // namespace
-
-const char* ToString(DatasetFormat format) {
-  return kFormatNames[static_cast<std::size_t>(format)];
-}
-
-std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text) {
-  for (std::size_t i = 0; i < kFormatNames.size(); ++i) {
-    if (text == kFormatNames[i]) return static_cast<DatasetFormat>(i);
-  }
-  return std::nullopt;
-}
 
 Dataset LoadDataset(const DatasetRequest& request) { return Loader(request).Load(); }
 

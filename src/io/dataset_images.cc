@@ -2,6 +2,7 @@
 #include "io/dataset_images.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <vector>
 
@@ -12,9 +13,9 @@
 namespace sslcd {
 namespace {
 
-constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
+namespace fs = std::filesystem;
 
-constexpr ImageSize kKittiTracking = {1242, 375};  // a few sequences are some pixels off
+constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
 
 std::string Text(const ImageSize& size) {
   return std::to_string(size[0]) + "x" + std::to_string(size[1]);
@@ -38,17 +39,19 @@ ImageSize SizeOfImages(const std::vector<Frame>& frames) {
   return best;
 }
 
-/// The image of a frame; empty: there is none.
-std::string ImageOf(const std::string& folder, int digits, int frame) {
-  if (folder.empty()) return "";
-  std::string number = std::to_string(frame);
-  number.insert(0, std::max<std::size_t>(number.size(), digits) - number.size(), '0');
-  for (const char* ending : {".png", ".jpg"})
-    if (IsFile(folder + "/" + number + ending)) return folder + "/" + number + ending;
-  return "";
-}
-
 }  // namespace
+
+ImageFinder NumberedImages(int digits) {
+  return [digits](const std::string& folder, int frame) {
+    std::string number = std::to_string(frame);
+    number.insert(0, std::max<std::size_t>(number.size(), digits) - number.size(), '0');
+    for (const char* ending : {".png", ".jpg"}) {
+      const std::string image = IfFile(fs::path(folder) / (number + ending));
+      if (!image.empty()) return image;
+    }
+    return std::string();
+  };
+}
 
 int FramesOfImages(const std::string& folder) {
   int count = 0;
@@ -65,15 +68,16 @@ int FramesOfImages(const std::string& folder) {
 
 int ImagesAfter(const DatasetLayout& layout, std::size_t frames) {
   int count = 0;
-  while (!ImageOf(layout.images, layout.image_digits, static_cast<int>(frames) + count).empty())
-    ++count;
+  if (layout.images.empty()) return 0;
+  while (!layout.find_image(layout.images, static_cast<int>(frames) + count).empty()) ++count;
   return count;
 }
 
 void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset) {
   for (Frame& frame : dataset.frames) {
-    frame.image_left = ImageOf(layout.images, layout.image_digits, frame.index);
-    frame.image_right = ImageOf(layout.images_right, layout.image_digits, frame.index);
+    if (!layout.images.empty()) frame.image_left = layout.find_image(layout.images, frame.index);
+    if (!layout.images_right.empty())
+      frame.image_right = layout.find_image(layout.images_right, frame.index);
   }
   const ImageSize given = {info.image_width, info.image_height};
   ImageSize size = SizeOfImages(dataset.frames);
@@ -82,7 +86,7 @@ void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& d
                 "image_size_px is " + Text(given) + ", but the images in " + layout.images +
                     " are " + Text(size) + ": take it out if calib.txt is theirs");
   if (size[0] == 0) size = given;
-  if (size[0] == 0 && layout.format == DatasetFormat::kKittiTracking) size = kKittiTracking;
+  if (size[0] == 0) size = layout.image_size;
   if (layout.odometry.empty()) {  // a stamp is no frame
     const auto last = std::find_if(
         dataset.frames.rbegin(), dataset.frames.rend(),
@@ -96,7 +100,9 @@ void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& d
     }
   }
   for (std::optional<Camera>* camera : {&dataset.camera, &dataset.camera_right}) {
-    if (*camera && (*camera)->width == 0) (*camera)->width = size[0], (*camera)->height = size[1];
+    if (!*camera || (*camera)->width != 0) continue;
+    (*camera)->width = size[0];
+    (*camera)->height = size[1];
   }
 }
 

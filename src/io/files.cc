@@ -55,6 +55,14 @@ bool IsFolder(const std::string& path) {
   return fs::is_directory(path, error);
 }
 
+std::string IfFile(const std::string& path) { return IsFile(path) ? path : ""; }
+std::string IfFolder(const std::string& path) { return IsFolder(path) ? path : ""; }
+
+std::string LastName(const std::string& folder) {
+  const auto path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 std::string Join(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;

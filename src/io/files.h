@@ -21,6 +21,13 @@ std::vector<std::string> FileNames(const std::string& folder);
 bool IsFile(const std::string& path);
 bool IsFolder(const std::string& path);
 
+/// The path, or nothing where there is no such file, or folder.
+std::string IfFile(const std::string& path);
+std::string IfFolder(const std::string& path);
+
+/// The last name of a path, also of ".", "a/.." and "a/".
+std::string LastName(const std::string& folder);
+
 /// "a, b, c", or "nothing".
 std::string Join(const std::vector<std::string>& names);
 

@@ -41,7 +41,7 @@ class Images : public testing::Test {
 
 TEST_F(Images, AreEnough) {
   const Dataset dataset = Load();
-  EXPECT_EQ(dataset.format, DatasetFormat::kSequence);
+  EXPECT_EQ(dataset.format, "sequence");
   EXPECT_THAT(dataset.warnings, IsEmpty());
   EXPECT_EQ(dataset.odometry_path, "");
   EXPECT_EQ(dataset.detections_path, "");
@@ -187,7 +187,7 @@ TEST(ImagesOf, KittiOdometry) {
   folder.Write("sequences/00/image_2/000000.png", "");
   folder.Write("sequences/00/image_3/000000.png", "");
   const Dataset dataset = LoadFromImages(folder);
-  EXPECT_EQ(dataset.format, DatasetFormat::kKittiOdometry);
+  EXPECT_EQ(dataset.format, "kitti-odometry");
   ASSERT_EQ(dataset.frames.size(), 1u);
   EXPECT_THAT(dataset.frames[0].image_left, EndsWith("sequences/00/image_2/000000.png"));
   EXPECT_THAT(dataset.frames[0].image_right, EndsWith("sequences/00/image_3/000000.png"));
@@ -199,7 +199,7 @@ TEST(ImagesOf, KittiTracking) {
   folder.Write("image_02/0003/000000.jpg", "");
   folder.Write("image_03/0003/000000.jpg", "");
   const Dataset dataset = LoadFromImages(folder);
-  EXPECT_EQ(dataset.format, DatasetFormat::kKittiTracking);
+  EXPECT_EQ(dataset.format, "kitti-tracking");
   ASSERT_EQ(dataset.frames.size(), 1u);
   EXPECT_THAT(dataset.frames[0].image_left, EndsWith("image_02/0003/000000.jpg"));
   EXPECT_THAT(dataset.frames[0].image_right, EndsWith("image_03/0003/000000.jpg"));
@@ -216,7 +216,7 @@ TEST(ImagesOf, KittiRaw) {
   request.path = folder.path();
   request.odometry_policy = request.detections_policy = PartPolicy::kIgnored;
   const Dataset dataset = LoadDataset(request);
-  EXPECT_EQ(dataset.format, DatasetFormat::kKittiRaw);
+  EXPECT_EQ(dataset.format, "kitti-raw");
   ASSERT_EQ(dataset.frames.size(), 2u);
   EXPECT_NEAR(dataset.frames[1].stamp - dataset.frames[0].stamp, 0.25, 1e-9);
   EXPECT_THAT(dataset.frames[0].image_left, IsEmpty());

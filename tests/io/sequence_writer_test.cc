@@ -53,7 +53,7 @@ class SequenceWriter : public testing::Test {
 
 TEST_F(SequenceWriter, WhatIsWrittenIsRead) {
   const Dataset dataset = WriteAndLoad();
-  EXPECT_EQ(dataset.format, DatasetFormat::kSequence);
+  EXPECT_EQ(dataset.format, "sequence");
   EXPECT_THAT(dataset.warnings, IsEmpty());
   EXPECT_LT((dataset.up_axis - files_.up_axis).norm(), 1e-9);
   EXPECT_EQ(dataset.labels["Car"].symmetry, Symmetry::kPi);

@@ -35,7 +35,7 @@ TEST_P(KittiTracking, KeepsItsFigures) {
 
   DatasetRequest request;
   request.path = data;
-  request.format = DatasetFormat::kKittiTracking;
+  request.format = "kitti-tracking";
   request.sequence = sequence.number;
   request.detections = sequence.detections;
   request.odometry = "orbslam3_poses";

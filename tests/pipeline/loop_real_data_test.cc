@@ -35,7 +35,7 @@ TEST_P(RealLoops, KeepTheirFigures) {
 
   DatasetRequest request;
   request.path = data;
-  request.format = DatasetFormat::kSequence;
+  request.format = "sequence";
   request.groundtruth = sequence.groundtruth;
   const Dataset dataset = LoadDataset(request);
   const RunResult result = RunSequence(

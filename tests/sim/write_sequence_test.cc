@@ -76,7 +76,7 @@ TEST_F(WriteSequenceTest, TheReaderGetsItAllBack) {
   request.path = folder_.string();
   const Dataset dataset = LoadDataset(request);
 
-  EXPECT_EQ(dataset.format, DatasetFormat::kSequence);
+  EXPECT_EQ(dataset.format, "sequence");
   EXPECT_TRUE(dataset.warnings.empty()) << dataset.warnings.front();
   EXPECT_EQ(dataset.up_axis, world_.gravity.up);
   EXPECT_EQ(dataset.labels["Pole"].symmetry, Symmetry::kFull);

@@ -14,20 +14,10 @@
 
 namespace sslcd {
 
-/// Kinds of dataset folders; `sequence` names one of several sequences in there.
-enum class DatasetFormat {
-  kAuto,           ///< told by what lies in the folder
-  kKittiOdometry,  ///< sequences/NN/{calib.txt times.txt image_2 (or image_0)}, poses/NN.txt
-  kKittiTracking,  ///< calib/NNNN.txt label_02 oxts image_02
-  kKittiRaw,       ///< one drive: oxts/{data,timestamps.txt} tracklet_labels.xml image_02/data,
-                   ///< calib_*.txt there or above
-  kSequence,  ///< times.txt odometry.txt detections.txt [calib.txt groundtruth.txt embeddings.npy
-              ///< colours.npy sequence.yaml image_2 (or image_0, image_l)]
-};
-
-/// "auto", "kitti-odometry", "kitti-tracking", "kitti-raw", "sequence".
-const char* ToString(DatasetFormat format);
-std::optional<DatasetFormat> ParseDatasetFormat(const std::string& text);
+/// "auto", which means told by what is in the folder, then the dataset formats in the order in
+/// which a folder is compared with them: "sequence", "kitti-odometry", "kitti-raw",
+/// "kitti-tracking" (docs/formats.md).
+std::vector<std::string> DatasetFormatNames();
 
 /// How much a part is wanted that can be made from images, too. Where there is no odometry, the
 /// frames' poses are the identity, and there are as many as stamps, else as the last left image's
@@ -43,10 +33,10 @@ enum class PartPolicy {
 /// file is meant.
 struct DatasetRequest {
   std::string path;
-  DatasetFormat format = DatasetFormat::kAuto;
-  std::string sequence;    ///< "0007"; may be empty where there is only one
-  std::string detections;  ///< required for KITTI tracking, which brings none
-  std::string odometry;    ///< likewise
+  std::string format = "auto";  ///< one of DatasetFormatNames()
+  std::string sequence;         ///< "0007"; may be empty where there is only one
+  std::string detections;       ///< required for KITTI tracking, which brings none
+  std::string odometry;         ///< likewise
   std::string groundtruth;
   DetectionReadOptions detection_options;
   int max_frames = 0;  ///< only the first so many; 0: all
@@ -57,7 +47,7 @@ struct DatasetRequest {
 /// named exception: a KITTI raw drive without `odometry` uses its GPS/IMU poses (then there is no
 /// ground truth, and a warning says so).
 struct Dataset {
-  DatasetFormat format = DatasetFormat::kAuto;
+  std::string format;  ///< as found, never "auto"
   std::string name;
   std::vector<Frame> frames;  ///< one per pose; frames[i].index == i, stamps increase
   /// P2, of grey images P0; none: no calibration, nothing can be projected
