@@ -6,14 +6,14 @@
 #     vision  and ONNX Runtime, to run models (docs/models.md); where that cannot be had all else is installed
 #     test    and what the tests need, clang-format among it (default), and Embree for sslcd_sim --render (the demo needs
 #             it not)
-#     dev     and clang-tidy, Google Benchmark, NumPy and Shapely
+#     dev     and clang-tidy, Doxygen, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
        libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev
        libopencv-imgproc-dev libopencv-video-dev libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev libpugixml-dev)
 test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libembree-dev)
-dev=(clang-tidy-14 libbenchmark-dev python3-numpy python3-shapely git)
+dev=(clang-tidy-14 doxygen libbenchmark-dev python3-numpy python3-shapely git)
 
 what=${1:-test}
 case "$what" in

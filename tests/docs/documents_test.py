@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Links of the documents lead somewhere, and the pages that are read first stay short."""
+import glob
+import os
+import re
+import unittest
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
+LINK = re.compile(r'\]\(([^)\s]+)\)')
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding='utf-8') as file:
+        return file.read()
+
+
+def anchors(text):
+    """The anchors of a page's headings, as GitHub names them."""
+    headings = re.findall(r'^#+ (.*)$', text, re.MULTILINE)
+    plain = [re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', heading).lower() for heading in headings]
+    return {re.sub(r'[^\w\- ]', '', heading).replace(' ', '-') for heading in plain}
+
+
+def broken_links(page, text):
+    broken = []
+    for link in LINK.findall(text):
+        if re.match(r'https?://', link):
+            continue
+        path, _, anchor = link.partition('#')
+        target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+        if path and not os.path.exists(os.path.join(ROOT, target)):
+            broken.append(link)
+        elif anchor and target.endswith('.md'):
+            if anchor not in anchors(text if target == page else read(target)):
+                broken.append(link)
+    return broken
+
+
+class Documents(unittest.TestCase):
+    def test_broken_links_are_seen(self):
+        text = '# A `b` c\n[1](#a-b-c) [2](#other) [3](none.md) [4](https://x.y/z)\n'
+        self.assertEqual(broken_links('docs/made_up.md', text), ['#other', 'none.md'])
+
+    def test_links_lead_somewhere(self):
+        pages = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md']
+        pages += [os.path.relpath(p, ROOT)
+                  for p in glob.glob(os.path.join(ROOT, 'docs/**/*.md'), recursive=True)]
+        self.assertGreater(len(pages), 10)
+        broken = {page: broken_links(page, read(page)) for page in pages}
+        self.assertEqual({page: links for page, links in broken.items() if links}, {})
+
+    def test_pages_that_are_read_first_are_short(self):
+        lines = read('README.md').split('\n')
+        self.assertLessEqual(len(lines), 121)
+        self.assertLess(lines.index('## Quick start'), 25)
+        self.assertLessEqual(read('docs/results.md').count('\n'), 400)
+
+
+if __name__ == '__main__':
+    unittest.main()
