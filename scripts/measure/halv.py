@@ -14,7 +14,7 @@ CASES = range(1, 5)
 TRUE_LOOP_M = 5.  # the paper's tau_L
 NEAR_M = 5.       # of path between a keyframe and a loop that recognises it
 BINS = [(0, 45), (45, 90), (90, 135), (135, 180)]  # change of viewpoint [degrees]
-FOLDER = 'runs/measure_halv'
+FOLDER = 'runs/measure'  # of the benchmark, for each commit
 
 
 def mean(values):

@@ -5,13 +5,15 @@ import argparse
 import datetime
 import os
 
+from bench import bench_sets
 from halv import halv_sets
 from pairs import pair_sets
 from program import Program, processor
 from runs import kitti_sets, loop_sets
 from store import Store, last_code_commit, same_code
 
-PARTS = {'loops': loop_sets, 'kitti': kitti_sets, 'pairs': pair_sets, 'halv': halv_sets}
+PARTS = {'loops': loop_sets, 'kitti': kitti_sets, 'pairs': pair_sets, 'halv': halv_sets,
+         'bench': bench_sets}
 USUAL = ['loops', 'kitti', 'pairs']  # what takes seconds a set
 
 

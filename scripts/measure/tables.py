@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of the documents, as Markdown, from the sets of docs/figures.json."""
+import functools
 import math
 
 LOOPS = {'loops/victoria-park': 'Victoria Park', 'loops/kitti-odometry-poles/00': 'poles 00',
@@ -11,6 +12,8 @@ CASES = [1, 2, 3, 4]
 BINS = ['0-45', '45-90', '90-135', '135-180']
 PAPER_ATE = {'case 1': 0.501, 'case 2': 0.550, 'case 3': 0.368, 'case 4': 0.161}  # its Table II
 KNOWN, FRESH = 'halv/seeds 1-10', 'halv/seeds 11-20'
+BENCH = {'bench/all': 'sslcd_run bench all',
+         'bench/images': 'sslcd_run bench viewpoint --images IMAGES'}
 
 
 def table(header, rows):
@@ -35,10 +38,10 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def note(entries):
+def note(entries, command='scripts/measure.sh'):
     """On which code and when the figures of a table were measured."""
     commits = sorted({f'{entry["commit"]}, {entry["date"]}' for entry in entries})
-    return '\nCommit ' + '; '.join(commits) + ': `scripts/measure.sh`.\n'
+    return '\nCommit ' + '; '.join(commits) + f': `{command}`.\n'
 
 
 def role(entry):
@@ -226,5 +229,18 @@ def summary(sets):
     return table(['', 'data that options were chosen on', 'held-out data'], rows)
 
 
+def bench(set_name, key, sets):
+    """A table as `sslcd_run bench` has written it."""
+    entry = sets[set_name]
+    written = entry['figures'][key]
+    rows = [[cell or '-' for cell in row] for row in written['rows']]
+    text = f'**{written["title"]}**\n\n' + table(written['header'], rows)
+    return text + note([entry], BENCH[set_name])
+
+
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs,
                                   halv_ate, halv_viewpoints)}
+for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
+                  'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):
+    TABLES['bench_' + bench_key] = functools.partial(bench, 'bench/all', bench_key)
+TABLES['bench_viewpoint_images'] = functools.partial(bench, 'bench/images', 'viewpoint_images')

@@ -9,12 +9,14 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, '../../scripts/measure'))
+import bench  # noqa: E402
 import documents  # noqa: E402
 import halv  # noqa: E402
 import measure  # noqa: E402
 import pairs  # noqa: E402
 import runs  # noqa: E402
 import store  # noqa: E402
+import tables  # noqa: E402
 
 PAIRS = '''# comment
 PAIR 0 street/n0.1 2 2 0.5 10 20 0
@@ -90,6 +92,25 @@ class HalvTrials(unittest.TestCase):
         self.assertEqual(self.figures([], degrees=135.1)['keyframes'], 1)
         self.assertTrue(halv.in_bin(math.pi, (135, 180)))
         self.assertFalse(halv.in_bin(math.radians(45.), (0, 45)))
+
+
+class BenchTables(unittest.TestCase):
+    def test_a_table_goes_through_the_json_as_it_was_printed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (('pr.md', '**Title, 1**\n\n| a | b |\n'),
+                               ('pr.csv', 'a,b\n0.500,"1, 2"\n,x\n')):
+                with open(os.path.join(folder, name), 'w', encoding='utf-8') as file:
+                    file.write(text)
+            figures = {'pr': bench.read_table(folder, 'pr')}
+        sets = {'bench/all': {'figures': figures, 'commit': 'abc', 'date': 'today'}}
+        self.assertEqual(tables.TABLES['bench_pr'](sets),
+                         '**Title, 1**\n\n| a | b |\n| --- | --- |\n| 0.500 | 1, 2 |\n| - | x |\n'
+                         '\nCommit abc, today: `sslcd_run bench all`.\n')
+
+    def test_images_that_are_not_there_are_missing(self):
+        everything, images = bench.bench_sets('/nowhere')
+        self.assertTrue(everything.missing.startswith('/nowhere/'))
+        self.assertIn('SSLCD_BENCH_IMAGES', images.missing)
 
 
 class FakeSet:
