@@ -30,7 +30,8 @@ void Resolve(const fs::path& folder, std::string& path) {
 }
 
 void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
-  for (std::string* path : {&vision.detector, &vision.embedder, &vision.inference.library})
+  for (std::string* path :
+       {&vision.detector, &vision.embedder, &vision.classes, &vision.inference.library})
     Resolve(folder, *path);
 }
 

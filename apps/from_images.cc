@@ -56,6 +56,7 @@ Configuration AdaptToImages(const ConfigArguments& config, const Configuration& 
   // what it has made.
   if (request.detections && request.boxes.empty()) config.CheckPath(given.vision.detector);
   if (request.detections) config.CheckPath(given.vision.embedder);
+  if (LiftsBoxes(request, given.vision)) config.CheckPath(given.vision.classes);
   const ImageSource source = InspectImages(request, given.vision, FilesOf(dataset), dataset);
   std::vector<std::string> keys;
   const Configuration adapted = config.LoadOver(
@@ -78,9 +79,9 @@ std::string FrontendTable(const FrontendReport& report) {
   std::string unknown;
   for (const std::string& label : report.unknown) unknown += " " + label;
   if (!unknown.empty())
-    Log(LogLevel::kWarning,
-        "boxes that no sizes are known for are not lifted:" + unknown +
-            "; map them to known labels (docs/models.md), which vision.lift.classes lists");
+    Log(LogLevel::kWarning, "boxes that no sizes are known for are not lifted:" + unknown +
+                                "; map them to known labels, or add sizes to a file of classes "
+                                "(vision.lift.classes; docs/models.md)");
   WarnOfGround(report.ground);
   std::vector<std::vector<std::string>> rows = {
       {"frames read", std::to_string(report.frames)},

@@ -23,6 +23,7 @@ if(TARGET sslcd_vision)  # in a file of its own: what it links is looked for onl
   install(EXPORT sslcdVisionTargets NAMESPACE sslcd:: DESTINATION ${SSLCD_CONFIG_DIR})
   install(FILES cmake/SslcdOpenCV.cmake DESTINATION ${SSLCD_CONFIG_DIR})
   install(DIRECTORY config/models DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd FILES_MATCHING PATTERN *.yaml)
+  install(FILES config/classes.yaml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
 endif()
 if(TARGET sslcd_run)  # finds a shared sslcd wherever the installed tree is moved to
   set_target_properties(sslcd_run PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")

@@ -22,7 +22,7 @@ config/mine.yaml:7:12: 'caution' is 1000, must be in [1, 100]
 folder holds its own as `config.yaml`. `config/default.yaml` holds all defaults, `config/paper.yaml` what `mode: paper`
 changes. Units are the suffix of a key (`_m`, `_s`, `_rad`, `_px`, `_mps`).
 
-Paths in a file (`vision.detector`, `vision.embedder`, `vision.inference.library`) are relative to that file, or else to the current folder; on the command
+Paths in a file (`vision.detector`, `vision.embedder`, `vision.lift.classes`, `vision.inference.library`) are relative to that file, or else to the current folder; on the command
 line they are relative to the current folder. The `config.yaml` of a run names what was found by its absolute path.
 
 This page is written by `scripts/update_docs.sh` from the same field tables that load the files.

@@ -67,7 +67,7 @@ Model::Model(const std::string& yaml_path, ModelTask task, const InferenceOption
       session_(description_.file, options) {
   ReadInputs();
   ReadOutputs();
-  if (!options.warm_up) return;
+  // Once on an empty image, so that the first frame is no slower than the others.
   Tensor empty = EmptyInput(1);
   Run(empty, takes_two_images() ? std::optional<Tensor>(empty) : std::nullopt);
 }

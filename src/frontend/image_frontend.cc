@@ -9,11 +9,14 @@
 #include "frontend/object_finder.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
+#include "sslcd/frontend/class_file.h"
 
 namespace sslcd {
 namespace {
 
 constexpr int kGroundEvery = 10;  // frames
+// Frames that wait between two stages: evens out frames that take longer; each holds two images.
+constexpr std::size_t kAhead = 4;
 
 /// A frame on its way through the stages.
 struct Item {
@@ -122,8 +125,7 @@ struct ImageFrontend::Impl {
 
   // Puts what has been built so far on a thread of its own.
   void InBackground() {
-    running.push_back(std::make_unique<Background<Item>>(std::move(stages),
-                                                         static_cast<std::size_t>(options.ahead)));
+    running.push_back(std::make_unique<Background<Item>>(std::move(stages), kAhead));
     stages = [stage = running.back().get()] { return stage->Next(); };
   }
 };
@@ -140,10 +142,12 @@ ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& option
                 "grey: image_0, image_1)");
   m.sequence = std::move(sequence);
   m.options = options;
+  if (m.sequence.detections && !options.classes.empty())
+    m.options.lift.classes = LoadClasses(options.classes);
   m.hooks = std::move(hooks);
   if (m.sequence.odometry) m.odometry.emplace(m.sequence.camera, options.odometry);
   if (m.sequence.detections)
-    m.finder.emplace(m.sequence.camera, options, colour, std::move(m.sequence.boxes));
+    m.finder.emplace(m.sequence.camera, m.options, colour, std::move(m.sequence.boxes));
 
   const bool parallel = threads > 1;
   m.stages = [&m] { return m.Load(); };

@@ -46,6 +46,6 @@ struct CuboidFit {
 /// covariance is that of all headings that explain what is seen, each with its likelihood. None
 /// where no start converges.
 std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& camera,
-                                   const GroundFrame& ground, const LiftOptions& options);
+                                   const GroundFrame& ground);
 
 }  // namespace sslcd

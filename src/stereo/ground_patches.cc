@@ -29,6 +29,10 @@ void ForEachPatch(const TopView& from, const TopView& to, int half, int search, 
   }
 }
 
+// The ground that is compared, from the first camera on [m]. Nearer than 2.5 m few cameras see it;
+// beyond 14 m, 3 cm ahead are a seventh of a row (700 px focal length, 1.2 m high). Not tuned.
+constexpr double kNear = 2.5, kLength = 11.5, kHalfWidth = 8;
+
 /// Where the parabola through three values has its top, from the middle one.
 double Top(double before, double here, double after) {
   return 0.5 * (before - after) / (before - 2 * here + after);
@@ -42,20 +46,22 @@ Pose OnGround(const Pose& T) {
          Pose::RotY(std::atan2(ahead.x(), ahead.z()));
 }
 
-GroundGrid GridOf(const GroundAlignmentOptions& options, double cell) {
-  return {-options.half_width_m, options.near_m, cell,
-          static_cast<int>(2 * options.half_width_m / cell),
-          static_cast<int>(options.length_m / cell)};
+GroundGrid GridOf(double cell) {
+  return {-kHalfWidth, kNear, cell, static_cast<int>(2 * kHalfWidth / cell),
+          static_cast<int>(kLength / cell)};
 }
 
 std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
-                               const Pose& guess, const GroundAlignmentOptions& options) {
-  constexpr double kCell = 0.06, kTurn = 0.01;
+                               const Pose& guess, double search_m) {
+  constexpr double kCell = 0.06, kTurn = 0.01;  // [m], [rad]
+  // [rad] What loops of objects leave of the heading (docs/architecture.md, "How images of two
+  // passes are aligned").
+  constexpr double kSearchTurn = 0.03;
   constexpr int kHalf = 7, kFewest = 5;
-  const GroundGrid grid = GridOf(options, kCell);
-  const int search = static_cast<int>(std::ceil(options.search_m / kCell));
-  const int turns = static_cast<int>(std::ceil(options.search_rad / kTurn));
-  const Pose to_middle = Pose::Trans(0, 0, options.near_m + 0.5 * options.length_m);
+  const GroundGrid grid = GridOf(kCell);
+  const int search = static_cast<int>(std::ceil(search_m / kCell));
+  const int turns = static_cast<int>(std::ceil(kSearchTurn / kTurn));
+  const Pose to_middle = Pose::Trans(0, 0, kNear + 0.5 * kLength);
   const TopView from = SeeFromAbove(a.grey, camera.left, a.T_cam_ground, grid);
   std::optional<Pose> best;
   double highest = 0;

@@ -22,13 +22,13 @@ struct GroundView {
 /// heading.
 Pose OnGround(const Pose& T);
 
-/// What `options` has us look at, in the first view's ground frame.
-GroundGrid GridOf(const GroundAlignmentOptions& options, double cell);
+/// The ground that is compared, in the first view's ground frame, in cells of `cell` metres.
+GroundGrid GridOf(double cell);
 
 /// The motion T_a_b, near `guess`, at which all patches together fit best: to a cell. A coarse
-/// view: what is looked for is large.
+/// view: what is looked for is large. `search_m`: how far off the guess may be in each direction.
 std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
-                               const Pose& guess, const GroundAlignmentOptions& options);
+                               const Pose& guess, double search_m);
 
 /// A place on the ground as the first view has it, and where the second one shows the same. [m]
 struct GroundPair {

@@ -23,6 +23,12 @@ struct Sample {
 };
 
 constexpr double kGate = 3;  // standard deviations
+// Of the disparity of a ground pixel [px]: semi-global matching pulls disparities to whole pixels,
+// by a third of a pixel on slopes (docs/notes, "Cuboids from stereo images").
+constexpr double kDisparitySigma = 0.5;
+constexpr std::size_t kSamples = 20000;  // pixels that are weighed, at most: bounds the time
+constexpr int kTrials = 200;             // of RANSAC; three pixels each, most of which are ground
+constexpr unsigned kSeed = 1;            // of RANSAC
 
 bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Box2d& box) {
@@ -55,7 +61,7 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
           {-bf * Vec3((u - left.cx) / left.fx, (v - left.cy) / left.fy, 1), disparity, u, v});
     }
   }
-  const std::size_t every = 1 + samples.size() / static_cast<std::size_t>(options.samples);
+  const std::size_t every = 1 + samples.size() / kSamples;
   for (std::size_t i = 0; every * i < samples.size(); ++i) samples[i] = samples[every * i];
   samples.resize((samples.size() + every - 1) / every);
   return samples;
@@ -69,22 +75,22 @@ bool IsPlausible(const Vec3& q, const GroundOptions& options) {
          std::hypot(up.x(), up.z()) <= kGate * options.tilt_sigma_rad && up.y() < 0;
 }
 
-bool IsOn(const Vec3& q, const Sample& sample, const GroundOptions& options) {
-  return std::abs(sample.row.dot(q) - sample.disparity) < kGate * options.disparity_sigma_px;
+bool IsOn(const Vec3& q, const Sample& sample) {
+  return std::abs(sample.row.dot(q) - sample.disparity) < kGate * kDisparitySigma;
 }
 
 Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior,
                   const GroundOptions& options) {
-  std::mt19937 random(static_cast<unsigned>(options.seed));
+  std::mt19937 random(kSeed);
   constexpr std::size_t kEvery = 10;
   const auto support = [&](const Vec3& q) {
     int count = 0;
-    for (std::size_t i = 0; i < samples.size(); i += kEvery) count += IsOn(q, samples[i], options);
+    for (std::size_t i = 0; i < samples.size(); i += kEvery) count += IsOn(q, samples[i]);
     return count;
   };
   Vec3 best = prior;
   int most = support(prior);
-  for (int trial = 0; trial < options.trials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     Eigen::Matrix3d rows;
     Vec3 disparities;
     for (int i = 0; i < 3; ++i) {
@@ -125,9 +131,8 @@ Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOption
   for (int round = 0; round < 3; ++round) {
     Equations equations(options);
     for (const Sample& sample : samples) {
-      if (IsOn(q, sample, options))
-        equations.Add(sample.row, sample.disparity,
-                      1 / (options.disparity_sigma_px * options.disparity_sigma_px));
+      if (IsOn(q, sample))
+        equations.Add(sample.row, sample.disparity, 1 / (kDisparitySigma * kDisparitySigma));
     }
     q = equations.Solution();
   }
@@ -166,7 +171,7 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
   std::vector<Sample> ground;
   double nearest = 0;
   for (const Sample& sample : samples) {
-    if (!IsOn(q, sample, options)) continue;
+    if (!IsOn(q, sample)) continue;
     ground.push_back(sample);
     nearest = std::max(nearest, sample.row.dot(q));
   }
@@ -210,14 +215,10 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
   visitor.Real("height_m", options.height_m, 0.05, 20,
                "height of the camera above the ground, as far as known");
-  visitor.Real("height_sigma_m", options.height_sigma_m, 1e-3, 10, "its standard deviation");
+  visitor.Real("height_sigma_m", options.height_sigma_m, 1e-3, 10,
+               "standard deviation of the height of the camera, as far as known");
   visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-4, 0.5,
                "standard deviation of the camera's roll and pitch against the ground");
-  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.05, 10,
-               "standard deviation of the disparity of a pixel on the ground");
-  visitor.Integer("samples", options.samples, 10, 1000000, "pixels that are weighed, at most");
-  visitor.Integer("trials", options.trials, 1, 100000, "trials of RANSAC");
-  visitor.Integer("seed", options.seed, 0, 2147483647, "seed of RANSAC");
 }
 
 GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
@@ -232,7 +233,7 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
     if (IsPlausible(found, options)) {
       const Vec3 aligned = Align(grey, samples, found, options);
       q = IsPlausible(aligned, options) ? aligned : found;
-      const auto on = [&](const Sample& sample) { return IsOn(q, sample, options); };
+      const auto on = [&](const Sample& sample) { return IsOn(q, sample); };
       plane.support = static_cast<double>(std::count_if(samples.begin(), samples.end(), on)) /
                       static_cast<double>(samples.size());
     }

@@ -3,7 +3,7 @@
 
 namespace sslcd {
 
-std::map<std::string, ClassPrior> LiftOptions::DefaultClasses() {
+std::map<std::string, ClassPrior> UsualClasses() {
   // Usual sizes on European roads; a car is what the 307 of KITTI tracking are labelled as.
   return {{"Car", {3.93, 1.63, 1.53, 0.44, 0.11, 0.13, 0.18, 0.5}},
           {"Van", {5.1, 1.95, 2.1, 0.6, 0.12, 0.25, 0.16, 0.8}},
@@ -46,32 +46,16 @@ void DescribeFields(FieldVisitor& visitor, ClassPrior& prior) {
 }
 
 void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
-  visitor.Section("classes", "what is usual, by label; boxes of other labels are not lifted",
-                  [&](FieldVisitor& inner) {
-                    for (auto& [label, prior] : options.classes)
-                      inner.Nested(label.c_str(), prior, "size and outline");
-                  });
   visitor.Nested("ground", options.ground, "the plane that objects stand on");
-  visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nothing is nearer than this");
-  visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "objects beyond are not lifted");
+  visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nearer objects are not lifted");
+  visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "farther objects are not lifted");
   visitor.Real("min_height_px", options.min_height_px, 1, 10000,
                "boxes that are less high are not lifted");
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
-               "boxes whose heading stays less certain than this are not lifted");
-  visitor.Real("box_sigma_px", options.box_sigma_px, 0.1, 100,
-               "standard deviation of each side of a box");
-  visitor.Real(
-      "box_sigma_share", options.box_sigma_share, 0, 1,
-      "... of a coarse detector: share of the box's width or height; its description may say more");
-  visitor.Real("shape_sigma_m", options.shape_sigma_m, 0, 10,
-               "what the object's own shape adds to it");
-  visitor.Real("disparity_sigma_px", options.disparity_sigma_px, 0.01, 10,
-               "of the disparity of a column of pixels");
-  visitor.Real("disparity_bias_px", options.disparity_bias_px, 0.001, 10,
-               "what all columns of an object share");
-  visitor.Real("ground_sigma_m", options.ground_sigma_m, 1e-4, 10,
-               "of the ground under an object against the plane");
-  visitor.Real("ground_sigma_rad", options.ground_sigma_rad, 0, 1, "of the plane's slope");
+               "boxes whose yaw has a larger standard deviation are rejected");
+  visitor.Real("box_sigma_share", options.box_sigma_share, 0, 1,
+               "standard deviation of a box's sides, share of its width or height, on top of 2 px; "
+               "the detector's description may say more");
 }
 
 const char* ToString(LiftStatus status) {

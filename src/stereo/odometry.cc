@@ -22,6 +22,12 @@ namespace {
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
+// A keyframe is due when its points have moved this far (median, [px]), or fewer than this share
+// of them are still followed. Not tuned.
+constexpr double kKeyframePx = 8, kKeyframeShare = 0.8;
+// Frames in a row that may be lost before the odometry starts again at its last guess: one or two
+// black images, or a wiper. Not tuned.
+constexpr int kPatience = 2;
 constexpr double kLossPx = 0.15;  // best of .08 to 1, on rendered and on real images
 
 const char* const kNoCorners = "nothing to follow: too few corners in the images";
@@ -69,12 +75,12 @@ class StereoOdometry::Impl {
                       std::to_string(size.height) + ", those of the first frame were " +
                       std::to_string(size_.width) + "x" + std::to_string(size_.height));
     size_ = size;
-    const StereoPyramids current = BuildPyramids(images, options_);
+    const StereoPyramids current = BuildPyramids(images, kPatchPx);
     if (keyframes_.empty()) return Start(current);
     reason_ = "";
     if (std::optional<StereoFrame> frame = Track(current)) return Accept(*frame, current);
     OdometryStep step = Bridge(reason_);
-    if (lost_ > options_.patience) StartAnew(current);
+    if (lost_ > kPatience) StartAnew(current);
     return step;
   }
 
@@ -110,8 +116,8 @@ class StereoOdometry::Impl {
     points_.clear();
     StereoFrame frame{last_.T_odom_left, {}};
     const int corners = TakeUpPoints(current, frame);
-    if (static_cast<int>(frame.sightings.size()) < options_.min_tracked) {
-      reason_ = corners < options_.min_tracked ? kNoCorners : kNoPairs;
+    if (static_cast<int>(frame.sightings.size()) < kMinTracked) {
+      reason_ = corners < kMinTracked ? kNoCorners : kNoPairs;
       return;
     }
     keyframes_.push_back(frame);
@@ -170,12 +176,12 @@ class StereoOdometry::Impl {
     std::optional<StereoFrame> frame = Track(reference_images_.left, current.left, current);
     if (frame) return frame;
     // Perhaps it is the light that has changed.
-    return Track(Evened(reference_images_.left, options_), Evened(current.left, options_), current);
+    return Track(Evened(reference_images_.left, kPatchPx), Evened(current.left, kPatchPx), current);
   }
 
   std::optional<StereoFrame> Track(const ImagePyramid& reference, const ImagePyramid& left,
                                    const StereoPyramids& current) {
-    const Following following{camera_, options_, keyframes_.back(), points_};
+    const Following following{camera_, keyframes_.back(), points_};
     const Pose T_expected = last_.T_odom_left * velocity_;
     const auto find = [&](const Pose& T_guess) {
       return FindPose(following, reference, left, T_guess, reason_);
@@ -191,15 +197,14 @@ class StereoOdometry::Impl {
     StereoFrame frame = FindAll(following, reference, left, current, *pose);
     RefinePose(camera_, points_, kLossPx, frame);
     DropMisfits(frame);
-    if (static_cast<int>(frame.sightings.size()) >= options_.min_tracked) return frame;
+    if (static_cast<int>(frame.sightings.size()) >= kMinTracked) return frame;
     reason_ = kTooFewFound;
     return std::nullopt;
   }
 
   void DropMisfits(StereoFrame& frame) const {
     const auto misfit = [&](const StereoSighting& sighting) {
-      return !(StereoError(camera_, frame, sighting, points_.at(sighting.point)) <=
-               options_.ransac_px);
+      return !(StereoError(camera_, frame, sighting, points_.at(sighting.point)) <= kFitsWithinPx);
     };
     auto& sightings = frame.sightings;
     sightings.erase(std::remove_if(sightings.begin(), sightings.end(), misfit), sightings.end());
@@ -207,7 +212,7 @@ class StereoOdometry::Impl {
 
   bool KeyframeIsDue(const StereoFrame& frame) const {
     const StereoFrame& reference = keyframes_.back();
-    if (frame.sightings.size() < options_.keyframe_share * reference.sightings.size()) return true;
+    if (frame.sightings.size() < kKeyframeShare * reference.sightings.size()) return true;
     std::map<int, StereoPixel> then;
     for (const StereoSighting& sighting : reference.sightings)
       then[sighting.point] = sighting.pixel;
@@ -216,7 +221,7 @@ class StereoOdometry::Impl {
       const StereoPixel& was = then.at(sighting.point);
       ways.push_back(std::hypot(sighting.pixel.left - was.left, sighting.pixel.row - was.row));
     }
-    return !ways.empty() && Median(ways) > options_.keyframe_px;
+    return !ways.empty() && Median(ways) > kKeyframePx;
   }
 
   void AddKeyframe(StereoFrame& frame, const StereoPyramids& current) {
@@ -237,13 +242,14 @@ class StereoOdometry::Impl {
     std::vector<cv::Point2f> taken;
     for (const StereoSighting& sighting : frame.sightings)
       taken.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
-    const std::vector<cv::Point2f> corners = SpreadCorners(current, taken, options_);
+    const std::vector<cv::Point2f> corners =
+        SpreadCorners(current, taken, options_.points, kPatchPx);
     const Followed right =
-        FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, options_);
+        FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, kPatchPx);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!right.found[i]) continue;
       const std::optional<StereoPixel> pixel =
-          MeasurePair(camera_, current, corners[i], right.at[i], options_);
+          MeasurePair(camera_, current, corners[i], right.at[i]);
       if (!pixel) continue;
       points_[next_point_] = frame.T_odom_left * Triangulate(camera_, *pixel);
       frame.sightings.push_back({next_point_++, *pixel});

@@ -11,7 +11,9 @@
 namespace sslcd {
 namespace {
 
-constexpr int kCoarsePoints = 120;   // enough to find out roughly where the camera is
+constexpr int kCoarsePoints = 120;  // enough to find out roughly where the camera is
+// Draws of four points; where 0.4 of the points fit, one of them is good with 99.4 %.
+constexpr int kRansacTrials = 200;
 constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
 
 const char* const kNoAgreement = "the points found again do not agree on a pose";
@@ -50,7 +52,7 @@ Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_lef
 std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
                              const Pose& T_guess, const char*& reason) {
   const Expected expected = Expect(f, to[0].size(), T_guess, kCoarsePoints);
-  const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, f.options);
+  const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, kPatchPx);
   const StereoFrame& reference = f.keyframe;
   const Pose T_reference_odom = reference.T_odom_left.inverse();
   std::vector<cv::Point3d> places;
@@ -62,7 +64,7 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
     pixels.emplace_back(followed.at[i]);
   }
   reason = kTooFewFound;
-  if (static_cast<int>(places.size()) < f.options.min_tracked) return std::nullopt;
+  if (static_cast<int>(places.size()) < kMinTracked) return std::nullopt;
 
   const Camera& left = f.camera.left;
   const cv::Matx33d K(left.fx, 0, left.cx, 0, left.fy, left.cy, 0, 0, 1);
@@ -70,10 +72,10 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   std::vector<int> inliers;
   reason = kNoAgreement;
   // It draws from a generator of its own, always the same; OpenCV's global one is the host's.
-  const bool found = cv::solvePnPRansac(
-      places, pixels, K, cv::noArray(), rotation, translation, false, f.options.ransac_iterations,
-      static_cast<float>(f.options.ransac_px), 0.999, inliers, cv::SOLVEPNP_AP3P);
-  const double needed = std::max<double>(f.options.min_tracked, kMinInliers * places.size());
+  const bool found = cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation,
+                                        false, kRansacTrials, static_cast<float>(kFitsWithinPx),
+                                        0.999, inliers, cv::SOLVEPNP_AP3P);
+  const double needed = std::max<double>(kMinTracked, kMinInliers * places.size());
   if (!found || inliers.size() < needed) return std::nullopt;
   const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),
                               Vec3(translation[0], translation[1], translation[2]));
@@ -83,13 +85,13 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
 StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
                     const StereoPyramids& current, const Pose& T_odom_left) {
   const Expected expected = Expect(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
-  Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, f.options);
+  Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, kPatchPx);
   const Pose T_keyframe_odom = f.keyframe.T_odom_left.inverse();
   const Pose T_left_keyframe = T_odom_left.inverse() * f.keyframe.T_odom_left;
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
     const Vec3 point = T_keyframe_odom * f.points.at(expected.points[i]);
-    const Patch patch{from[0], expected.from[i], point, f.options.patch_px / 2};
+    const Patch patch{from[0], expected.from[i], point, kPatchPx / 2};
     const std::optional<cv::Point2f> at =
         FindPatch(patch, f.camera.left, T_left_keyframe, to[0], left.at[i]);
     left.found[i] = at.has_value();
@@ -98,12 +100,12 @@ StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyr
   std::vector<cv::Point2f> guess = left.at;
   for (std::size_t i = 0; i < guess.size(); ++i)
     guess[i].x -= static_cast<float>(expected.disparities[i]);
-  const Followed right = Follow(current.left, current.right, left.at, guess, kFine, f.options);
+  const Followed right = Follow(current.left, current.right, left.at, guess, kFine, kPatchPx);
   StereoFrame frame{T_odom_left, {}};
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
     std::optional<StereoPixel> pair;
-    if (right.found[i]) pair = MeasurePair(f.camera, current, left.at[i], right.at[i], f.options);
+    if (right.found[i]) pair = MeasurePair(f.camera, current, left.at[i], right.at[i]);
     frame.sightings.push_back(
         {expected.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
   }
@@ -111,22 +113,26 @@ StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyr
 }
 
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
-                                       const cv::Point2f& left, const cv::Point2f& right,
-                                       const StereoOdometryOptions& options) {
-  if (!IsPair(camera, left, right, options)) return std::nullopt;
+                                       const cv::Point2f& left, const cv::Point2f& right) {
+  if (!IsPair(camera, left, right)) return std::nullopt;
   const Patch patch{images.left[0], left, Triangulate(camera, {left.x, left.y, right.x}),
-                    options.patch_px / 2};
+                    kPatchPx / 2};
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
   const std::optional<cv::Point2f> at =
       FindPatch(patch, camera.left, T_right_left, images.right[0], right);
-  if (!at || !IsPair(camera, left, *at, options)) return std::nullopt;
+  if (!at || !IsPair(camera, left, *at)) return std::nullopt;
   return StereoPixel{left.x, left.y, at->x};
 }
 
-bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right,
-            const StereoOdometryOptions& options) {
-  return std::abs(left.y - right.y) <= options.max_row_error_px &&
-         left.x - right.x - camera.disparity_at_infinity >= options.min_disparity_px;
+bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right) {
+  // [px] Rows of KITTI's images differ by up to 1.2 (docs/notes, "Calibration"); more is
+  // another point, or images that are not rectified.
+  constexpr double kMaxRowError = 1.5;
+  // [px] Points farther away tell hardly anything of their distance: it is off by a fifth where
+  // disparities are off by 0.1.
+  constexpr double kMinDisparity = 0.5;
+  return std::abs(left.y - right.y) <= kMaxRowError &&
+         left.x - right.x - camera.disparity_at_infinity >= kMinDisparity;
 }
 
 }  // namespace sslcd

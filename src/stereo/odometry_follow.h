@@ -10,6 +10,15 @@ namespace sslcd {
 
 /// Levels to look through: for anything, for what is nearly known.
 inline constexpr int kCoarse = 4, kFine = 1;
+/// Side of the patches that the odometry follows [px]; 13 were no better on rendered images and on
+/// KITTI (docs/notes, "Stereo odometry").
+inline constexpr int kPatchPx = 9;
+/// Points that must be followed and fit, or a frame is lost: several times the three that a pose
+/// takes. Not tuned.
+inline constexpr int kMinTracked = 20;
+/// A point fits a pose if it appears this near to where it should [px]: some four standard
+/// deviations of a followed corner (residuals of 0.46 to 0.53 px, docs/notes, "Which noise?").
+inline constexpr double kFitsWithinPx = 2;
 inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
 
 inline cv::Point2f ToCv(double x, double y) {
@@ -19,7 +28,6 @@ inline cv::Point2f ToCv(double x, double y) {
 /// What is followed: the points that a keyframe sees.
 struct Following {
   const StereoCamera& camera;
-  const StereoOdometryOptions& options;
   const StereoFrame& keyframe;
   const OdometryPoints& points;
 };
@@ -37,11 +45,9 @@ StereoFrame FindAll(const Following& following, const ImagePyramid& from, const 
 /// A point that has been found in both images, its column in the right one to a fraction of a
 /// pixel. None: it is not the same point, or its patch does not tell.
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
-                                       const cv::Point2f& left, const cv::Point2f& right,
-                                       const StereoOdometryOptions& options);
+                                       const cv::Point2f& left, const cv::Point2f& right);
 
 /// May these be the left and right image of one point?
-bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right,
-            const StereoOdometryOptions& options);
+bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right);
 
 }  // namespace sslcd

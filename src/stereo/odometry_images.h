@@ -18,11 +18,12 @@ struct StereoPyramids {
   ImagePyramid left, right;
   cv::Size size;
 };
-StereoPyramids BuildPyramids(const StereoView& images, const StereoOdometryOptions& options);
+/// `patch_px`: side of the patches that will be followed.
+StereoPyramids BuildPyramids(const StereoView& images, int patch_px);
 
 /// The same image with brightness and contrast evened out, by mean and deviation of each pixel's
 /// surroundings: what remains of a scene when the light changes.
-ImagePyramid Evened(const ImagePyramid& image, const StereoOdometryOptions& options);
+ImagePyramid Evened(const ImagePyramid& image, int patch_px);
 
 /// Where points of one image are in another. `guess` is where to begin to look, `levels` how
 /// coarse: the patch may be off by some 2^levels * patch_px / 2 pixels.
@@ -32,20 +33,19 @@ struct Followed {
 };
 Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
                 const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
-                int levels, const StereoOdometryOptions& options);
+                int levels, int patch_px);
 
 /// The same, and back again: found only if that leads to where it began.
 Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
                             const std::vector<cv::Point2f>& points,
-                            const std::vector<cv::Point2f>& guess, int levels,
-                            const StereoOdometryOptions& options);
+                            const std::vector<cv::Point2f>& guess, int levels, int patch_px);
 
 /// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good
-/// features to track, CVPR 1994) of each cell of a grid of about `options.points` cells that has
-/// none of the points `taken` in it. In the order of the cells, row by row; between pixels, and
-/// less than a patch off its cell.
+/// features to track, CVPR 1994) of each cell of a grid of about `cells` cells that has none of the
+/// points `taken` in it. In the order of the cells, row by row; between pixels, and less than a
+/// patch off its cell.
 std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
-                                       const std::vector<cv::Point2f>& taken,
-                                       const StereoOdometryOptions& options);
+                                       const std::vector<cv::Point2f>& taken, int cells,
+                                       int patch_px);
 
 }  // namespace sslcd

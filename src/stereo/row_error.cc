@@ -17,12 +17,12 @@ std::optional<double> RowError(const StereoCamera& camera, const std::vector<Ste
   std::array<std::vector<float>, kColumns * kRows> cells;
   for (const StereoView& pair : pairs) {
     CheckImages(pair);
-    const StereoPyramids images = BuildPyramids(pair, options);
-    const std::vector<cv::Point2f> left = SpreadCorners(images, {}, options);
+    const StereoPyramids images = BuildPyramids(pair, kPatchPx);
+    const std::vector<cv::Point2f> left = SpreadCorners(images, {}, options.points, kPatchPx);
     const Followed right =
-        FollowThereAndBack(images.left, images.right, left, left, kCoarse, options);
+        FollowThereAndBack(images.left, images.right, left, left, kCoarse, kPatchPx);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      if (!right.found[i] || !IsPair(camera, left[i], right.at[i], options)) continue;
+      if (!right.found[i] || !IsPair(camera, left[i], right.at[i])) continue;
       const int column =
           static_cast<int>(kColumns * left[i].x / static_cast<float>(images.size.width));
       const int row = static_cast<int>(kRows * left[i].y / static_cast<float>(images.size.height));

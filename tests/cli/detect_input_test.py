@@ -10,6 +10,22 @@ from stereo_world import CALIB, HEIGHT, STEP, WIDTH, look, write_png
 
 
 class DetectInputTest(DetectCase):
+    def test_a_file_of_classes(self):
+        classes = self.data + '/classes.yaml'
+        write(classes, 'Van: {length_m: 5, width_m: 2, height_m: 2, length_sigma_m: 1, width_sigma_m: 0.2,\n'
+                       '      height_sigma_m: 0.2, overhang: 0.2, roof: 0.8}\n')
+        result = self.detected('--boxes', self.boxes, '--set', f'vision.lift.classes={classes}')
+        self.assertEqual(self.count(result, 'boxes unknown label'), FRAMES, 'they are cars')
+        self.assertIn(': Car', result.stderr)
+        self.assertIn(f"classes: '{classes}'", read(self.out + '/config.yaml'))
+        write(classes, 'Car: {length_m: 4}\n')
+        result = self.detect('--boxes', self.boxes, '--force', '--set', f'vision.lift.classes={classes}')
+        self.assertEqual(result.returncode, 4, result.stderr)
+        self.assertIn("classes.yaml:1:1: class 'Car' lacks width_m", result.stderr)
+        missing = self.detect('--boxes', self.boxes, '--force', '--set', 'vision.lift.classes=none.yaml')
+        self.assertEqual(missing.returncode, 3, missing.stderr)
+        self.assertIn('none.yaml: no such file', missing.stderr)
+
     def test_images_missing_or_cut_off(self):
         os.remove(self.data + '/image_3/000002.png')
         with open(self.data + '/image_2/000005.png', 'r+b') as file:

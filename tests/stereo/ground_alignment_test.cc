@@ -112,9 +112,6 @@ TEST(AlignGround, OnlyAsSureAsAskedFor) {
   GroundAlignmentOptions options;
   options.max_sigma_m = 1e-4;
   EXPECT_FALSE(views.Align(views.T_a_b, options));
-  options = {};
-  options.min_patches = 9999;
-  EXPECT_FALSE(views.Align(views.T_a_b, options));
 }
 
 // KITTI's reference camera stands beside the left one.

@@ -155,10 +155,8 @@ TEST(StereoOdometry, GoesOnAfterImagesOfSomethingElse) {
   ExpectBridged(Mishap({}, [&](StereoOdometry& o) { return o.AddFrame(other.view()); }));
 }
 
-TEST(StereoOdometry, StartsAnewWhereItBelievesToBe) {
-  StereoOdometryOptions options;
-  options.patience = 1;
-  StereoOdometry odometry(Tunnel::Camera(), options);
+TEST(StereoOdometry, StartsAgainAtItsGuessAfterThreeLostFrames) {
+  StereoOdometry odometry(Tunnel::Camera(), {});
   const Tunnel tunnel, other(7);
   const std::vector<Pose> truth = Course(12, 0.3, 0);
   std::vector<OdometryStatus> statuses;
@@ -166,13 +164,13 @@ TEST(StereoOdometry, StartsAnewWhereItBelievesToBe) {
   for (std::size_t i = 0; i < truth.size(); ++i) {
     step = odometry.AddFrame((i < 6 ? tunnel : other).Look(truth[i]).view());
     statuses.push_back(step.status);
-    if (i == 8) {
+    if (i == 9) {
       EXPECT_LT(step.covariance.trace(), 1e-3)
           << "measured from the new start, not from before the gap";
     }
   }
-  EXPECT_EQ(std::count(statuses.begin(), statuses.end(), OdometryStatus::kLost), 2);
-  EXPECT_EQ(statuses[8], OdometryStatus::kTracked);
+  EXPECT_EQ(std::count(statuses.begin(), statuses.end(), OdometryStatus::kLost), 3);
+  EXPECT_EQ(statuses[9], OdometryStatus::kTracked);
   EXPECT_LT(Metres(step.T_odom_cam, truth.back()), 0.1);
 }
 

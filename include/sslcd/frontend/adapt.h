@@ -24,7 +24,7 @@ struct ImageSource {
 
 /// What a mapper should expect of images, where that is not what it expects of detections and
 /// odometry of unknown origin. The three numbers were chosen on HALV-sim, rendered, cases 1 to 4
-/// with seeds 1 and 2, and the scale's also with seed 3 (docs/results.md, "Aligned views").
+/// with seeds 1 and 2, and the scale's also with seed 3 (docs/notes, "From images alone").
 struct ImageModels {
   DetectionNoise lifted_noise = LiftNoise();  ///< Options::noise of lifted cuboids
   /// BaOptions::loss_scale of lifted cuboids: some headings are a quarter turn off, which a

@@ -17,12 +17,12 @@ struct VisionOptions {
   std::string detector;
   std::string embedder;  ///< description of a re-identification model; empty: no embeddings
   InferenceOptions inference;
+  /// file of the classes that are lifted (LoadClasses), instead of those in `lift`; empty: those
+  std::string classes;
   LiftOptions lift;  ///< of 2D boxes to cuboids
   StereoOdometryOptions odometry;
   /// of images of different passes; the ground is that of `lift`
   GroundAlignmentOptions alignment;
-  /// frames that wait between two stages that run at the same time
-  int ahead = 4;
 };
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
 

@@ -21,8 +21,6 @@ struct InferenceOptions {
   Provider provider = Provider::kCpu;
   int device_id = 0;  ///< which GPU
   int threads = 1;    ///< threads of one model; 1: only the one that calls
-  /// run once on an empty image when loading, so that the first frame is no slower
-  bool warm_up = true;
 };
 void DescribeFields(FieldVisitor& visitor, InferenceOptions& options);
 

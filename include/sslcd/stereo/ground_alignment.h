@@ -12,15 +12,10 @@
 namespace sslcd {
 
 struct GroundAlignmentOptions {
-  /// the ground that is looked at: from so far ahead of the first camera ...
-  double near_m = 2.5;
-  double length_m = 11.5;    ///< ... so far on
-  double half_width_m = 8;   ///< ... and to either side
-  double search_m = 0.6;     ///< how far off the guess may be, in each direction ...
-  double search_rad = 0.03;  ///< ... and in heading
-  int min_patches = 25;      ///< so many patches of ground must agree, ...
-  double min_share = 0.15;   ///< ... and this share of those that both see
-  double max_sigma_m = 0.2;  ///< found only if the place is known this well (standard deviation)
+  /// how far off the guess may be in each direction; with more of it, less ground is compared
+  double search_m = 0.6;
+  /// an alignment whose position has a larger standard deviation is none
+  double max_sigma_m = 0.2;
 };
 void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options);
 

@@ -11,16 +11,12 @@
 
 namespace sslcd {
 
-/// What is known of the ground before an image is looked at, and how it is looked for.
+/// What is known of the ground before an image is seen. The standard deviations also bound the
+/// search: no ground is found more than three of them away.
 struct GroundOptions {
   double height_m = 1.5, height_sigma_m = 0.3;  ///< of the camera above the ground
   /// of the camera against the ground, each of roll and pitch
   double tilt_sigma_rad = 0.03;
-  /// of a pixel on the ground; more than thrice as much is not ground
-  double disparity_sigma_px = 0.5;
-  int samples = 20000;  ///< pixels that are weighed, at most
-  int trials = 200;     ///< of RANSAC
-  int seed = 1;         ///< of RANSAC
 };
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options);
 

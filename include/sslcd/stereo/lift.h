@@ -14,7 +14,7 @@
 
 namespace sslcd {
 
-/// What objects of a class are like before one is looked at.
+/// Usual size and outline of the objects of a class.
 struct ClassPrior {
   double length_m = 4.3, width_m = 1.8, height_m = 1.55;
   double length_sigma_m = 0.4, width_sigma_m = 0.1, height_sigma_m = 0.12;
@@ -24,25 +24,19 @@ struct ClassPrior {
 };
 void DescribeFields(FieldVisitor& visitor, ClassPrior& prior);
 
+/// Of road users in Europe. config/classes.yaml holds the same.
+std::map<std::string, ClassPrior> UsualClasses();
+
 struct LiftOptions {
-  /// by label; boxes of other labels are not lifted
-  std::map<std::string, ClassPrior> classes = DefaultClasses();
+  /// by label; boxes of other labels are not lifted. LoadClasses (frontend) reads others.
+  std::map<std::string, ClassPrior> classes = UsualClasses();
   GroundOptions ground;
   double min_range_m = 2, max_range_m = 40;  ///< from the camera to the object's visible side
   double min_height_px = 14;                 ///< boxes that are less high are not lifted
-  /// nor those whose heading stays less certain than this
-  double max_yaw_sigma_rad = 0.8;
-  double box_sigma_px = 2;  ///< of each side of a box, the detector's error ...
-  /// ... of a coarse one: share of the box's width, height ...
+  double max_yaw_sigma_rad = 0.8;  ///< boxes whose yaw has a larger standard deviation are rejected
+  /// standard deviation of a box's sides, share of its width or height, on top of 2 px; a coarse
+  /// detector's, whose description has it (ModelOutput::box_sigma). 0: boxes are tight
   double box_sigma_share = 0;
-  double shape_sigma_m = 0.06;      ///< ... and what the object's own shape adds
-  double disparity_sigma_px = 0.3;  ///< of one column of pixels on the object
-  double disparity_bias_px = 0.05;  ///< what all columns of an object share
-  /// of the ground under an object against the plane ...
-  double ground_sigma_m = 0.04;
-  double ground_sigma_rad = 0.003;  ///< ... and of the plane's slope
-
-  static std::map<std::string, ClassPrior> DefaultClasses();
 };
 void DescribeFields(FieldVisitor& visitor, LiftOptions& options);
 
@@ -73,8 +67,8 @@ struct LiftedBox {
 };
 
 /// What a mapper should take such detections' noise for: measured on rendered images at a baseline
-/// of 12 cm (docs/results.md). The mapper learns a factor on each component; with another baseline
-/// it has to.
+/// of 12 cm (docs/notes, "Cuboids from stereo images"). The mapper learns a factor on each
+/// component; with another baseline it has to.
 DetectionNoise LiftNoise();
 
 /// Cuboids from 2D boxes and a rectified pair, one answer a box and in its order. For each box:

@@ -15,28 +15,16 @@ namespace sslcd {
 struct StereoOdometryOptions {
   /// image points followed, spread over the image; time grows with them
   int points = 400;
-  /// a corner's least share of the strongest corner's smaller eigenvalue
-  double min_corner = 0.01;
-  int patch_px = 9;               ///< side of the patches that are compared
-  double min_disparity_px = 0.5;  ///< points further away than that are not used
-  /// left and right of a point; more: not the same point, or images not rectified
-  double max_row_error_px = 1.5;
-  double ransac_px = 2;  ///< a point fits a pose if it appears so near to where it should
-  int ransac_iterations = 200;
-  int min_tracked = 20;  ///< with fewer points that fit, the frame is lost
-  int window = 8;        ///< keyframes adjusted together, of which the oldest two stand still
-  /// a keyframe is due when the points have moved that far (median) since the last one,
-  double keyframe_px = 8;
-  double keyframe_share = .8;  ///< ... or fewer than this share of its points are still followed
-  /// frames in a row lost before the odometry starts anew from where it believes to be
-  int patience = 2;
-  bool calibrate = true;  ///< CheckRig does; StereoOdometry itself takes the camera as it is
+  int window = 8;  ///< keyframes adjusted together, of which the oldest two are held fixed
+  /// CheckRig estimates the disparity at infinity; StereoOdometry takes the camera as it is
+  bool calibrate = true;
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
 /// What a mapper should take such odometry's noise for: that of real images, or as much less, in
 /// headings down to a fifth, as `row_error_rad` (RowError over the focal length in px) tells that
-/// calibration is nearer to ideal. None: not known, taken for real ones. Figures: docs/results.md.
+/// calibration is nearer to ideal. None: not known, taken for real ones. Figures: docs/notes,
+/// "Which noise?".
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
 /// How a frame got its pose.

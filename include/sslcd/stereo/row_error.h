@@ -16,7 +16,7 @@ namespace sslcd {
 /// (CheckRig). That pulls the odometry one way for as long as points take to cross a cell, and
 /// hardly shows in its residuals: those of rendered images and of KITTI's are nearly alike, but
 /// rows differ by 0.006 px, and by 0.19 (colour) and 0.45 px (grey). None where fewer than half of
-/// the cells have 20 points. Points whose rows differ by more than `max_row_error_px` do not count.
+/// the cells have 20 points. Points whose rows differ by more than 1.5 px do not count.
 /// Throws Error(kBadInput) as CheckImages does.
 std::optional<double> RowError(const StereoCamera& camera, const std::vector<StereoView>& pairs,
                                const StereoOdometryOptions& options);
