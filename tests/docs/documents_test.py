@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Links of the documents lead somewhere, and the pages that are read first stay short."""
+"""Links of the documents lead somewhere, the options that they name exist, and the pages that are
+read first stay short."""
 import glob
 import os
 import re
@@ -7,6 +8,7 @@ import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
+FILE_ENDINGS = {'cc', 'csv', 'h', 'json', 'md', 'npy', 'ply', 'txt', 'yaml'}
 
 
 def read(path):
@@ -36,6 +38,24 @@ def broken_links(page, text):
     return broken
 
 
+def option_keys(yaml):
+    """All keys of a configuration, as `section.key`."""
+    keys, path = set(), []
+    for indent, name in re.findall(r'^( *)([a-z_0-9]+):', yaml, re.MULTILINE):
+        path = path[:len(indent) // 2] + [name]
+        keys.add('.'.join(path))
+    return keys
+
+
+def unknown_options(text, keys):
+    """Names in code spans that begin with a section of the configuration but are no key of it."""
+    sections = {key for key in keys if '.' not in key}
+    named = [name for span in re.findall(r'`([^`\n]+)`', text)
+             for name in re.findall(r'(?<![\w./])([a-z_]+(?:\.[a-z_0-9]+)+)', span)]
+    return [name for name in named if name.split('.')[0] in sections and name not in keys
+            and name.split('.')[-1] not in FILE_ENDINGS]
+
+
 class Documents(unittest.TestCase):
     def test_broken_links_are_seen(self):
         text = '# A `b` c\n[1](#a-b-c) [2](#other) [3](none.md) [4](https://x.y/z)\n'
@@ -48,6 +68,20 @@ class Documents(unittest.TestCase):
         self.assertGreater(len(pages), 10)
         broken = {page: broken_links(page, read(page)) for page in pages}
         self.assertEqual({page: links for page, links in broken.items() if links}, {})
+
+    def test_unknown_options_are_seen(self):
+        keys = option_keys('loop:  # text\n  views:\n    enabled: true\nmap:\n  memory_m: 60\n')
+        self.assertEqual(keys, {'loop', 'loop.views', 'loop.views.enabled', 'map', 'map.memory_m'})
+        text = '`loop.views.enabled: false` `map.json` `--set map.memory=1` `loop.look` `a.b`'
+        self.assertEqual(unknown_options(text, keys), ['map.memory', 'loop.look'])
+
+    def test_options_that_are_named_exist(self):
+        keys = option_keys(read('config/default.yaml'))
+        self.assertGreater(len(keys), 50)
+        pages = ['README.md', 'CONTRIBUTING.md']
+        pages += [os.path.relpath(p, ROOT) for p in glob.glob(os.path.join(ROOT, 'docs/*.md'))]
+        unknown = {page: unknown_options(read(page), keys) for page in pages}
+        self.assertEqual({page: names for page, names in unknown.items() if names}, {})
 
     def test_pages_that_are_read_first_are_short(self):
         lines = read('README.md').split('\n')
