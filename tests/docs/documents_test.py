@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Links of the documents lead somewhere, the options that they name exist, and the pages that are
-read first stay short."""
+"""Links of the documents lead somewhere, the options and the sources that they name exist, and
+the pages that are read first stay short."""
 import glob
 import os
 import re
@@ -8,6 +8,7 @@ import unittest
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
+SOURCE = re.compile(r'(?<![\w./])((?:[a-z_0-9]+/)+[a-z_0-9]+\.(?:cc|h|py|sh))\b')
 FILE_ENDINGS = {'cc', 'csv', 'h', 'json', 'md', 'npy', 'ply', 'txt', 'yaml'}
 
 
@@ -56,6 +57,15 @@ def unknown_options(text, keys):
             and name.split('.')[-1] not in FILE_ENDINGS]
 
 
+def missing_sources(text):
+    """Sources in code spans that are in none of the folders that the documents leave out."""
+    named = [name for span in re.findall(r'`([^`\n]+)`', text)
+             for name in SOURCE.findall(span)]
+    return [name for name in named
+            if not any(os.path.exists(os.path.join(ROOT, folder, name))
+                       for folder in ('', 'src', 'tests', 'include', 'include/sslcd', 'apps'))]
+
+
 class Documents(unittest.TestCase):
     def test_broken_links_are_seen(self):
         text = '# A `b` c\n[1](#a-b-c) [2](#other) [3](none.md) [4](https://x.y/z)\n'
@@ -82,6 +92,16 @@ class Documents(unittest.TestCase):
         pages += [os.path.relpath(p, ROOT) for p in glob.glob(os.path.join(ROOT, 'docs/*.md'))]
         unknown = {page: unknown_options(read(page), keys) for page in pages}
         self.assertEqual({page: names for page, names in unknown.items() if names}, {})
+
+    def test_missing_sources_are_seen(self):
+        self.assertEqual(missing_sources('`docs/documents_test.py` `loop/none.cc` `x/y.h`'),
+                         ['loop/none.cc', 'x/y.h'])
+
+    def test_sources_that_are_named_exist(self):
+        pages = ['CONTRIBUTING.md', 'docs/architecture.md', 'docs/conventions.md',
+                 'docs/paper_map.md', 'docs/results.md']
+        missing = {page: missing_sources(read(page)) for page in pages}
+        self.assertEqual({page: names for page, names in missing.items() if names}, {})
 
     def test_pages_that_are_read_first_are_short(self):
         lines = read('README.md').split('\n')
