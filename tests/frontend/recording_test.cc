@@ -12,7 +12,7 @@ namespace {
 Dataset Pairs() {
   Dataset dataset;
   dataset.name = "drive";
-  dataset.camera = Camera{200, 200, 160, 60, {}, 0, 0};
+  dataset.camera = Camera{200, 200, 160, 60, Vec3::Zero(), 0, 0};
   dataset.camera_right = dataset.camera;
   dataset.camera_right->offset.x() = -0.5;
   dataset.frames.resize(3);
