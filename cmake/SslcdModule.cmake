@@ -39,18 +39,51 @@ function(sslcd_library target)
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0 EXPORT_NAME ${export_name})
 endfunction()
 
-# sslcd_test_module(NAME LINK <targets>...): tests/NAME/*_test.cc as one executable, each TEST a ctest entry.
+# Each case that a gtest filter names is a ctest entry; or all of them together are one. They run in
+# the build folder: where sources are compiled by relative names, these are relative to it.
+function(sslcd_test_cases name filter label)
+  gtest_discover_tests(sslcd_${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+    TEST_FILTER "${filter}" WORKING_DIRECTORY ${PROJECT_BINARY_DIR}
+    PROPERTIES LABELS ${label} ENVIRONMENT "SSLCD_DATA_DIR=${SSLCD_DATA_DIR}")
+endfunction()
+
+function(sslcd_test_process name label filter)
+  add_test(NAME ${name}.${label} COMMAND sslcd_${name}_tests --gtest_filter=${filter}
+    WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+  set_tests_properties(${name}.${label} PROPERTIES LABELS ${label})
+endfunction()
+
+# sslcd_test_module(NAME [EACH] LINK <targets>... PROPERTY|REGRESSION|SLOW <gtest patterns>...)
+#   tests/NAME/*_test.cc as one executable. CONTRIBUTING.md says what the labels mean. A test that
+#   no pattern names is a unit test. Unit tests are one ctest entry, property tests another: to start
+#   a process for each of a thousand cases would take longer than the cases. With EACH, and for
+#   REGRESSION and SLOW, each case is an entry, so that ctest lists what was skipped.
 function(sslcd_test_module name)
-  cmake_parse_arguments(ARG "" "" "LINK;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "EACH" "" "LINK;PROPERTY;REGRESSION;SLOW" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
   if(NOT sources)
     return()
   endif()
-  add_executable(sslcd_${name}_tests ${sources})
-  target_link_libraries(sslcd_${name}_tests PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main sslcd_compiler)
-  if(NOT ARG_LABELS)
-    set(ARG_LABELS unit)
+  set(exe sslcd_${name}_tests)
+  add_executable(${exe} ${sources})
+  target_link_libraries(${exe} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main sslcd_compiler)
+
+  list(JOIN ARG_PROPERTY ":" property)
+  list(JOIN ARG_REGRESSION ":" regression)
+  list(JOIN ARG_SLOW ":" slow)
+  string(JOIN ":" others ${ARG_PROPERTY} ${ARG_REGRESSION} ${ARG_SLOW})
+  if(ARG_EACH)
+    sslcd_test_cases(${name} "-${others}" unit)
+  elseif(NOT others STREQUAL "*")
+    sslcd_test_process(${name} unit "-${others}")
   endif()
-  gtest_discover_tests(sslcd_${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "SSLCD_DATA_DIR=${SSLCD_DATA_DIR}")
+  if(property)
+    sslcd_test_process(${name} property "${property}")
+  endif()
+  if(regression)
+    sslcd_test_cases(${name} "${regression}-${slow}" regression)
+  endif()
+  if(slow)
+    sslcd_test_cases(${name} "${slow}" slow)
+  endif()
 endfunction()

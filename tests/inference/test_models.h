@@ -13,9 +13,8 @@ namespace sslcd {
 
 /// A file of tests/data/models.
 inline std::string TestModel(const std::string& name) {
-  return (std::filesystem::path(__FILE__).parent_path() / "../data/models" / name)
-      .lexically_normal()
-      .string();
+  const std::filesystem::path here = std::filesystem::absolute(__FILE__).parent_path();
+  return (here / "../data/models" / name).lexically_normal().string();
 }
 
 /// Why no model can be run here; empty: they can.
