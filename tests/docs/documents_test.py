@@ -103,6 +103,14 @@ class Documents(unittest.TestCase):
         missing = {page: missing_sources(read(page)) for page in pages}
         self.assertEqual({page: names for page, names in missing.items() if names}, {})
 
+    def test_all_files_name_one_version_which_the_changelog_has(self):
+        wanted = {'CMakeLists.txt': r'^project\(sslcd VERSION ([\d.]+)',
+                  'package.xml': r'<version>([\d.]+)<', 'CITATION.cff': r'^version: ([\d.]+)'}
+        found = {page: re.search(pattern, read(page), re.MULTILINE).group(1)
+                 for page, pattern in wanted.items()}
+        self.assertEqual(len(set(found.values())), 1, found)
+        self.assertIn(f'## [{found["CMakeLists.txt"]}]', read('CHANGELOG.md'))
+
     def test_pages_that_are_read_first_are_short(self):
         lines = read('README.md').split('\n')
         self.assertLessEqual(len(lines), 121)
