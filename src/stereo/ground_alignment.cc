@@ -5,10 +5,11 @@
 #include <cmath>
 #include <vector>
 
+#include "stereo/bundle.h"
+#include "stereo/geometry.h"
 #include "stereo/grey.h"
 #include "stereo/ground_patches.h"
-#include "stereo/odometry_follow.h"
-#include "stereo/odometry_window.h"
+#include "stereo/image_pyramids.h"
 #include "stereo/patch_alignment.h"
 
 namespace sslcd {

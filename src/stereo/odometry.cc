@@ -10,9 +10,10 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/core/median.h"
+#include "stereo/bundle.h"
+#include "stereo/corners.h"
+#include "stereo/image_pyramids.h"
 #include "stereo/odometry_follow.h"
-#include "stereo/odometry_images.h"
-#include "stereo/odometry_window.h"
 
 namespace sslcd {
 namespace {

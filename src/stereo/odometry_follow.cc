@@ -124,15 +124,4 @@ std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoP
   return StereoPixel{left.x, left.y, at->x};
 }
 
-bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right) {
-  // [px] Rows of KITTI's images differ by up to 1.2 (docs/notes, "Calibration"); more is
-  // another point, or images that are not rectified.
-  constexpr double kMaxRowError = 1.5;
-  // [px] Points farther away tell hardly anything of their distance: it is off by a fifth where
-  // disparities are off by 0.1.
-  constexpr double kMinDisparity = 0.5;
-  return std::abs(left.y - right.y) <= kMaxRowError &&
-         left.x - right.x - camera.disparity_at_infinity >= kMinDisparity;
-}
-
 }  // namespace sslcd

@@ -3,13 +3,11 @@
 
 #include <optional>
 
-#include "stereo/odometry_images.h"
-#include "stereo/odometry_window.h"
+#include "stereo/bundle.h"
+#include "stereo/image_pyramids.h"
 
 namespace sslcd {
 
-/// Levels to look through: for anything, for what is nearly known.
-inline constexpr int kCoarse = 4, kFine = 1;
 /// Side of the patches that the odometry follows [px]; 13 were no better on rendered images and on
 /// KITTI (docs/notes, "Stereo odometry").
 inline constexpr int kPatchPx = 9;
@@ -20,10 +18,6 @@ inline constexpr int kMinTracked = 20;
 /// deviations of a followed corner (residuals of 0.46 to 0.53 px, docs/notes, "Which noise?").
 inline constexpr double kFitsWithinPx = 2;
 inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
-
-inline cv::Point2f ToCv(double x, double y) {
-  return {static_cast<float>(x), static_cast<float>(y)};
-}
 
 /// What is followed: the points that a keyframe sees.
 struct Following {
@@ -46,8 +40,5 @@ StereoFrame FindAll(const Following& following, const ImagePyramid& from, const 
 /// pixel. None: it is not the same point, or its patch does not tell.
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
                                        const cv::Point2f& left, const cv::Point2f& right);
-
-/// May these be the left and right image of one point?
-bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right);
 
 }  // namespace sslcd

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "sslcd/core/median.h"
+#include "stereo/corners.h"
+#include "stereo/geometry.h"
+#include "stereo/image_pyramids.h"
 #include "stereo/odometry_follow.h"
-#include "stereo/odometry_images.h"
 
 namespace sslcd {
 

@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "sslcd/core/image.h"
-#include "sslcd/stereo/odometry.h"
 
 namespace sslcd {
+
+/// Levels to look through: for anything, for what is nearly known.
+inline constexpr int kCoarse = 4, kFine = 1;
+
+/// Smallest eigenvalue that a patch must have (of OpenCV's, per pixel): what noise alone has.
+inline constexpr double kMinEigenvalue = 1e-4;
 
 /// A grey image in several sizes, as Lucas-Kanade wants it. Copies share their pixels.
 using ImagePyramid = std::vector<cv::Mat>;
@@ -39,13 +44,5 @@ Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
 Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
                             const std::vector<cv::Point2f>& points,
                             const std::vector<cv::Point2f>& guess, int levels, int patch_px);
-
-/// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good
-/// features to track, CVPR 1994) of each cell of a grid of about `cells` cells that has none of the
-/// points `taken` in it. In the order of the cells, row by row; between pixels, and less than a
-/// patch off its cell.
-std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
-                                       const std::vector<cv::Point2f>& taken, int cells,
-                                       int patch_px);
 
 }  // namespace sslcd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo/odometry_window.h"
+#include "stereo/bundle.h"
 
 #include <gtest/gtest.h>
 

@@ -6,14 +6,9 @@
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/pose.h"
+#include "stereo/geometry.h"
 
 namespace sslcd {
-
-/// Where a point appears: column and row in the left image, column in the right one (NaN: not found
-/// there). [px]
-struct StereoPixel {
-  double left = 0, row = 0, right = 0;
-};
 
 /// A point seen in a frame. `point` is its number among all points of the odometry.
 struct StereoSighting {
@@ -33,12 +28,6 @@ struct StereoFrame {
 };
 
 using OdometryPoints = std::map<int, Vec3>;
-
-/// Where a camera at the origin sees a point in front of it.
-StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& point_left);
-
-/// The point of which both images show where it is; disparity > 0.
-Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 
 /// How far the sighting is from where its point should appear, the largest of its coordinates.
 /// Infinite for a point that is not in front of the camera. [px]

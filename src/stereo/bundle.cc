@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "stereo/odometry_window.h"
+#include "stereo/bundle.h"
 
 #include <ceres/ceres.h>
 
@@ -106,20 +106,6 @@ bool InFront(const StereoFrame& frame, const Vec3& point) {
 }
 
 }  // namespace
-
-StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& p) {
-  const Camera& left = camera.left;
-  const double column = left.fx * p.x() / p.z() + left.cx;
-  const double disparity = left.fx * camera.baseline_m / p.z() + camera.disparity_at_infinity;
-  return {column, left.fy * p.y() / p.z() + left.cy, column - disparity};
-}
-
-Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
-  const Camera& left = camera.left;
-  const double z =
-      left.fx * camera.baseline_m / (pixel.left - pixel.right - camera.disparity_at_infinity);
-  return {(pixel.left - left.cx) / left.fx * z, (pixel.row - left.cy) / left.fy * z, z};
-}
 
 double StereoError(const StereoCamera& camera, const StereoFrame& frame,
                    const StereoSighting& sighting, const Vec3& point) {
