@@ -6,7 +6,8 @@
 The link list of each sslcd_module() is the rule:
 - modules are listed lowest first, and link only modules listed before them;
 - a module includes only headers of itself and of the modules it links, directly or through them;
-- private headers (src/M) are for M alone, and libraries from outside for the modules that link them, in src/ only;
+- private headers (src/M) are for M and for sources of modules that link it: nobody else, and no host, can see them;
+- libraries from outside are for the modules that link them, in src/ only;
 - public headers include the standard library, Eigen, lie/ and sslcd/ only, but for the opt-in ones listed below.
 Prints one line a breach; exit code 1 if there is any.
 """
@@ -71,7 +72,8 @@ def check_include(include, module, relative, modules, source_dir):
     if "/" in include and first in {*modules, *ABOVE}:  # not <map>
         if public:
             return f"a public header includes the private {include}"
-        return None if first == module else f"{include} is private to {first}"
+        seen = first == module or (module in modules and first in may_include)
+        return None if seen else f"{include} is private to {first}, which {module} does not link"
     if first in OUTSIDE:
         if public:
             return None if first in OPT_IN.get(relative, ()) else f"a public header includes {first}"

@@ -51,7 +51,9 @@ class CheckLayers(unittest.TestCase):
                                         '#include "sslcd/io/reader.h"\n'}), ["src/map/map.cc:1: map is not above io"])
 
     def test_private_header_of_another_module(self):
-        self.expect_one("src/map/map.cc", '#include "optim/ba.h"\n', "private to optim")
+        self.expect_one("src/map/map.cc", '#include "optim/ba.h"\n', "private to optim, which map does not link")
+        self.expect_one("src/core/core.cc", '#include "map/cells.h"\n', "private to map")
+        self.assertEqual(self.breaches({"src/optim/ba.cc": '#include "map/cells.h"\n'}), [])
 
     def test_outside_library_not_linked(self):
         self.expect_one("src/map/map.cc", "#include <ceres/problem.h>\n", "map does not link ceres")
