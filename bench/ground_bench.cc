@@ -16,8 +16,8 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/core/median.h"
+#include "sslcd/ground/ground_alignment.h"
 #include "sslcd/pipeline/loop_options.h"
-#include "sslcd/stereo/ground_alignment.h"
 #include "stereo/stereo_folder.h"
 
 namespace sslcd {

@@ -18,9 +18,9 @@
 #include "sslcd/io/boxes_reader.h"
 #include "sslcd/io/calib_reader.h"
 #include "sslcd/io/pose_reader.h"
+#include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"
 #include "sslcd/sim/halv.h"
-#include "sslcd/stereo/lift.h"
 
 namespace sslcd {
 namespace {

@@ -6,7 +6,7 @@ set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
 set(left_out sim render baselines benchmark)  # for tests, benchmarks and the demo only
 if(NOT TARGET sslcd_vision)
-  list(APPEND left_out inference detectors stereo frontend)
+  list(APPEND left_out inference detectors stereo ground visual_odometry lifting frontend)
 endif()
 list(JOIN left_out "|" left_out)
 install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "/sslcd/(${left_out})$" EXCLUDE)

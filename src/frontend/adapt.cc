@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/frontend/adapt.h"
 
-#include "sslcd/stereo/odometry.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {
 

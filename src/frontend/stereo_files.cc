@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "sslcd/core/log.h"
-#include "sslcd/stereo/ground_alignment.h"
+#include "sslcd/ground/ground_alignment.h"
 
 namespace sslcd {
 namespace {

@@ -10,7 +10,7 @@
 #include "sslcd/core/error.h"
 #include "sslcd/core/for_each.h"
 #include "sslcd/core/log.h"
-#include "sslcd/stereo/ground_alignment.h"
+#include "sslcd/ground/ground_alignment.h"
 
 namespace sslcd {
 namespace {

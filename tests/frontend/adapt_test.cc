@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "sslcd/io/config.h"
-#include "sslcd/stereo/odometry.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {
 namespace {

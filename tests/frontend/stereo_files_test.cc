@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sslcd/stereo/ground_alignment.h"
+#include "sslcd/ground/ground_alignment.h"
 
 namespace sslcd {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
-#include "../stereo/stereo_scene.h"
 #include "sslcd/core/log.h"
+#include "stereo/stereo_scene.h"
 
 namespace sslcd {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "tunnel.h"
+#include "stereo/tunnel.h"
 
 namespace sslcd {
 namespace {

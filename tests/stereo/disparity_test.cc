@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sslcd/core/median.h"
-#include "stereo_scene.h"
+#include "stereo/stereo_scene.h"
 
 namespace sslcd {
 namespace {

@@ -11,7 +11,7 @@
 #include "sslcd/io/calib_reader.h"
 #include "sslcd/io/pose_reader.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/stereo/rig_check.h"
+#include "sslcd/visual_odometry/rig_check.h"
 
 namespace sslcd {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/lifting/lift.h"
 #include "sslcd/pipeline/options.h"
-#include "sslcd/stereo/lift.h"
 
 namespace sslcd {
 

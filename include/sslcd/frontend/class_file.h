@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "sslcd/stereo/lift.h"
+#include "sslcd/lifting/lift.h"
 
 namespace sslcd {
 

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "sslcd/core/fields.h"
+#include "sslcd/ground/ground_alignment.h"
 #include "sslcd/inference/session.h"
-#include "sslcd/stereo/ground_alignment.h"
-#include "sslcd/stereo/lift.h"
-#include "sslcd/stereo/odometry.h"
+#include "sslcd/lifting/lift.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {
 

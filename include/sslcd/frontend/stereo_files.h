@@ -10,7 +10,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/image.h"
-#include "sslcd/stereo/rig_check.h"
+#include "sslcd/visual_odometry/rig_check.h"
 
 namespace sslcd {
 

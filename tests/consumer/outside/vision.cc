@@ -13,8 +13,8 @@
 #include "sslcd/detectors/detector_2d.h"
 #include "sslcd/frontend/adapt.h"
 #include "sslcd/frontend/image_frontend.h"
+#include "sslcd/ground/ground_alignment.h"
 #include "sslcd/pipeline/mapper.h"
-#include "sslcd/stereo/ground_alignment.h"
 
 namespace {
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/ground/ground_plane.h"
+#include "stereo/disparity.h"
+
+namespace sslcd {
+
+/// For images that are grey already.
+GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
+                           const std::vector<Box2d>& objects, const GroundOptions& options);
+
+}  // namespace sslcd

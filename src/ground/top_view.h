@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/pose.h"
+#include "sslcd/ground/ground_plane.h"
+
+namespace sslcd {
+
+/// T_cam_ground: a frame on the ground below the camera, x to the right, y down, z ahead.
+Pose LevelOn(const GroundPlane& plane);
+
+/// A rectangle of that ground in cells, one pixel of a top view each. Rows from near to far.
+struct GroundGrid {
+  double left = 0, near = 0;  ///< centre of the first cell [m]
+  double cell = 0;            ///< side [m]
+  int columns = 0, rows = 0;
+
+  Vec3 At(double column, double row) const { return {left + cell * column, 0, near + cell * row}; }
+};
+
+/// The ground as seen from above.
+struct TopView {
+  cv::Mat grey;  ///< 8 bits
+  cv::Mat seen;  ///< 8 bits: not 0 where the image shows the cell
+};
+
+/// What a camera's image shows of a grid. `T_cam_ground`: from the grid's frame to the camera's;
+/// `grey`: 8 bits.
+TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground,
+                     const GroundGrid& grid);
+
+}  // namespace sslcd

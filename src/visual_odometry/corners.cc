@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "visual_odometry/corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace sslcd {
+namespace {
+
+// A corner's least share of the strongest corner's smaller eigenvalue: OpenCV's customary value.
+constexpr double kMinCorner = 0.01;
+
+/// Moves corners to where their patches' gradients have their centre (Foerstner and Guelch, 1987).
+/// There a patch that is stretched, because it comes nearer or is slanted, moves as its corner
+/// does; elsewhere the stretching adds a shift, mostly towards where the camera goes, and the way
+/// seems too short.
+void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners, int patch_px) {
+  const int half = patch_px / 2, least = 2 * half + 5;  // what OpenCV needs
+  if (corners.empty() || grey.cols < least || grey.rows < least) return;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
+  cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, until);
+}
+
+}  // namespace
+
+std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
+                                       const std::vector<cv::Point2f>& taken, int cells,
+                                       int patch_px) {
+  cv::Mat strength;
+  cv::cornerMinEigenVal(images.left[0], strength, 5);
+  double strongest = 0;
+  cv::minMaxLoc(strength, nullptr, &strongest);
+  const int cell = std::max(8, static_cast<int>(std::sqrt(images.size.area() / double(cells))));
+  const int columns = (images.size.width + cell - 1) / cell,
+            rows = (images.size.height + cell - 1) / cell;
+  std::vector<bool> occupied(static_cast<std::size_t>(columns) * rows);
+  for (const cv::Point2f& p : taken)
+    occupied[static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell] = true;
+
+  std::vector<cv::Point2f> corners;
+  const int margin = patch_px / 2 + 2;  // or the patch is not in the image as a whole
+  const cv::Rect inner(margin, margin, images.size.width - 2 * margin,
+                       images.size.height - 2 * margin);
+  for (int i = 0; i < columns * rows; ++i) {
+    const cv::Rect box = cv::Rect(i % columns * cell, i / columns * cell, cell, cell) & inner;
+    if (occupied[i] || box.empty()) continue;
+    double best = 0;
+    cv::Point at;
+    cv::minMaxLoc(strength(box), nullptr, &best, nullptr, &at);
+    if (best > kMinCorner * strongest && best > kMinEigenvalue) corners.emplace_back(at + box.tl());
+  }
+  CentrePatches(images.left[0], corners, patch_px);
+  // A centre may lie in the next cell, and be that of a point which is there.
+  constexpr float kApart = 2;  // [px]
+  std::vector<cv::Point2f> all = taken;
+  for (const cv::Point2f& p : corners) {
+    const bool known = std::any_of(all.begin(), all.end(), [p](const cv::Point2f& q) {
+      return std::hypot(p.x - q.x, p.y - q.y) < kApart;
+    });
+    if (!known) all.push_back(p);
+  }
+  return {all.begin() + static_cast<std::ptrdiff_t>(taken.size()), all.end()};
+}
+
+}  // namespace sslcd

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/visual_odometry/rig_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sslcd/core/median.h"
+#include "sslcd/visual_odometry/row_error.h"
+
+namespace sslcd {
+namespace {
+
+// [px] rows that fit so well leave nothing to do; no burst tells it better
+constexpr double kSure = 0.03;
+
+std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
+                                 const PairLoader& load, const StereoOdometryOptions& options) {
+  constexpr std::size_t kPairs = 8;
+  std::vector<std::pair<Image, Image>> images;
+  for (std::size_t i = 0; i < frames; i += (frames + kPairs - 1) / kPairs)
+    if (auto pair = load(i)) images.push_back(std::move(*pair));
+  std::vector<StereoView> views;
+  for (const auto& [left, right] : images) views.push_back({left.view(), right.view()});
+  return RowError(camera, views, options);
+}
+
+/// Disparities at infinity of bursts of frames: as many as fill a window, from evenly spread ones
+/// on.
+std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
+                             const StereoOdometryOptions& options) {
+  // the most bursts; the most frames of one, in windows
+  constexpr std::size_t kBursts = 8, kWindows = 6;
+  const std::size_t most = kWindows * static_cast<std::size_t>(options.window);
+  std::vector<double> found;
+  std::size_t next = 0;
+  while (next < frames) {
+    const std::size_t first = next;
+    StereoOdometry odometry(camera, options);
+    std::optional<double> value;
+    for (; next < std::min(frames, first + most) && !value; ++next) {
+      if (const auto pair = load(next))
+        odometry.AddFrame({pair->first.view(), pair->second.view()});
+      else
+        odometry.AddMissingFrame();
+      value = odometry.DisparityAtInfinity();
+    }
+    if (value && std::abs(*value) < StereoCamera::kMostAtInfinity) found.push_back(*value);
+    next = std::max(next, first + frames / kBursts);
+  }
+  return found;
+}
+
+/// Standard error of the median of those, which scatter normally but for a few.
+double ErrorOfMedian(const std::vector<double>& values, double median) {
+  constexpr double kUnknown = 0.1;  // [px] of a single one
+  if (values.size() < 2) return kUnknown;
+  std::vector<double> off;
+  for (double value : values) off.push_back(std::abs(value - median));
+  return 1.2533 * 1.4826 * Median(off) / std::sqrt(static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
+                  const StereoOdometryOptions& options) {
+  const double calibrated = camera.disparity_at_infinity;
+  RigCheck check{RowErrorOf(camera, frames, load, options), calibrated, false};
+  if (!options.calibrate || !check.row_error || *check.row_error < kSure) return check;
+  const std::vector<double> found = InBursts(camera, frames, load, options);
+  check.unsure = found.empty();
+  if (check.unsure) return check;
+  const double median = Median(found);
+  // A right camera that is rolled by 0.4 degrees seems off by up to 0.17 of its rows' error.
+  constexpr double kRolled = 0.25;
+  if (std::abs(median - calibrated) < kRolled * *check.row_error) return check;
+  const double trust = std::pow(*check.row_error, 2);
+  const double doubt = std::pow(std::max(kSure, ErrorOfMedian(found, median)), 2);
+  check.disparity_at_infinity += (median - calibrated) * trust / (trust + doubt);
+  return check;
+}
+
+}  // namespace sslcd
