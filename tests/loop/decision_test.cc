@@ -183,21 +183,45 @@ TEST(MatchLayouts, WithoutARivalTheMarginIsThatOverChance) {
   }
 }
 
-TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
-  std::vector<LayoutObject> grid;
-  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
-  const LayoutAnswer answer = MatchMaps(SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1), grid);
-  ASSERT_GE(answer.hypotheses.size(), 3u);
-  double chance_and_others = std::exp(DecisionOptions().min_evidence), all_but_second = 0;
-  for (std::size_t i = 0; i < answer.hypotheses.size(); ++i) {
-    const double weight = std::exp(answer.hypotheses[i].fit.evidence);
-    if (i != 0) chance_and_others += weight;
-    if (i != 1) all_but_second += weight;
+// A place, and copies of it 100 m apart, each less exact than the one before.
+std::vector<LayoutObject> WithCopies(const std::vector<LayoutObject>& place, int copies) {
+  std::vector<LayoutObject> map = place;
+  for (int copy = 1; copy <= copies; ++copy) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      map.push_back(place[i]);
+      const double off = 0.15 * copy * (i % 2 == 0 ? 1 : -1);
+      map.back().position += Vec3(100. * copy + off, off, 0);
+    }
   }
-  all_but_second += std::exp(DecisionOptions().min_evidence);
-  EXPECT_NEAR(answer.score, answer.hypotheses[0].fit.evidence - std::log(chance_and_others), 1e-6);
-  EXPECT_NEAR(answer.second_score, answer.hypotheses[1].fit.evidence - std::log(all_but_second),
-              1e-6);
+  return map;
+}
+
+TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
+  const std::vector<LayoutObject> place = Strewn(10, 30, 4);
+  for (const int copies : {1, 3}) {
+    LayoutMatchOptions options;
+    for (const double chance : {-10., 15., -2000.}) {
+      options.decision.min_evidence = chance;
+      const LayoutAnswer answer = MatchMaps(place, WithCopies(place, copies), options);
+      ASSERT_EQ(static_cast<int>(answer.hypotheses.size()), copies + 1);
+      const auto evidence = [&](std::size_t i) { return answer.hypotheses[i].fit.evidence; };
+      const auto log_odds = [&](std::size_t of) {
+        double rivals = std::exp(chance);
+        for (std::size_t i = 0; i < answer.hypotheses.size(); ++i)
+          if (i != of) rivals += std::exp(evidence(i));
+        return evidence(of) - std::log(rivals);
+      };
+      EXPECT_GT(evidence(0), evidence(1) + 0.1);
+      EXPECT_NEAR(answer.score, log_odds(0), 1e-6);
+      EXPECT_NEAR(answer.second_score, log_odds(1), 1e-6);
+    }
+  }
+}
+
+TEST(MatchLayouts, TheSmallerOfBothMapsSaysWhetherThereIsEnough) {
+  const std::vector<LayoutObject> map = Strewn(60, 80, 1), three(map.begin(), map.begin() + 3);
+  for (const LayoutAnswer& answer : {MatchMaps(three, map), MatchMaps(map, three)})
+    EXPECT_THAT(answer.reason, testing::StartsWith("3 objects are too few"));
 }
 
 TEST(MatchLayouts, AsManyObjectsAsHaveToAgreeAreEnough) {

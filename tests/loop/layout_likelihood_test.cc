@@ -304,6 +304,22 @@ TEST(LayoutLikelihood, BeyondTheRimOfTheMapNothingIsUnmapped) {
       << "among mapped objects";
 }
 
+TEST(LayoutLikelihood, WhereTheMapEndsIsAskedUnderThePose) {
+  const YawShift pose{M_PI / 2, {100, 0, 0}};
+  std::vector<LayoutObject> map = Square();
+  for (LayoutObject& object : map) object.position = Apply(pose, object.position);
+  std::vector<LayoutObject> local = Square();
+  const LayoutIndex index(map, 50, 2);
+  LayoutLikelihoodOptions options;
+  options.leave_map = true;
+  const double score = LayoutLikelihood(local, index, options).Evaluate(pose).score;
+  local.push_back(ObjectAt({60, 5, 0}));
+  EXPECT_NEAR(LayoutLikelihood(local, index, options).Evaluate(pose).score, score, 1e-9);
+  local.back().position = {5, 18, 0};
+  EXPECT_LT(LayoutLikelihood(local, index, options).Evaluate(pose).score, score - 0.1)
+      << "next to mapped objects";
+}
+
 TEST(LayoutLikelihood, RefiningAnExactLayoutEndsAtItsPose) {
   const std::vector<LayoutObject> map = Strewn(40, 50, 3),
                                   local = SeenFrom(map, kPose, {0, 0}, 18, 0, 2);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "layout_cases.h"
 
@@ -162,6 +163,115 @@ TEST(PoseTracks, FollowAChangeOfCoordinates) {
   for (const Vec3& point : {Vec3(0, 0, 0), Vec3(10, 0, 1), Vec3(-3, 7, 2)})
     EXPECT_NEAR((Apply(after, Apply(change, point)) - Apply(before, point)).norm(), 0, 1e-9);
   EXPECT_LE(std::abs(after.yaw), M_PI);
+}
+
+TEST(PoseTracks, EvidenceGrowsWithWhatIsNewInTheLocalMaps) {
+  Attempts attempts(Strewn(60, 80, 1));
+  const auto first = attempts.SeenAt(4, 5), second = attempts.SeenAt(18, 0);
+  attempts.Update(first, 100);
+  attempts.Update(second, 105);
+  std::set<int> different;
+  for (const auto* local : {&first, &second})
+    for (const LayoutObject& object : *local) different.insert(object.id);
+  ASSERT_LT(different.size(), first.size() + second.size());
+  ASSERT_GT(different.size(), first.size());
+  const PoseTrack& track = attempts.tracks.tracks()[0];
+  ASSERT_EQ(track.votes.size(), 2u);
+  const double volume = track.fit.evidence - track.fit.score,
+               mean_score = (track.votes[0].score + track.votes[1].score) / 2,
+               mean_objects = static_cast<double>(first.size() + second.size()) / 2;
+  EXPECT_NEAR(track.evidence,
+              volume + mean_score * static_cast<double>(different.size()) / mean_objects, 1e-9);
+}
+
+TEST(PoseTracks, MarginIsTheLogOddsAgainstAllOthersAndNowhere) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
+  Attempts attempts(grid);
+  attempts.Update(attempts.SeenAt(5, 12, 7.5), 100);
+  const std::vector<PoseTrack>& tracks = attempts.tracks.tracks();
+  ASSERT_GE(tracks.size(), 3u);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    double others = 1;  // nowhere has evidence 0
+    for (std::size_t j = 0; j < tracks.size(); ++j)
+      if (j != i) others += std::exp(tracks[j].evidence);
+    EXPECT_NEAR(attempts.tracks.Margin(i), tracks[i].evidence - std::log(others), 1e-9);
+  }
+}
+
+TEST(PoseTracks, MarginHoldsWhereEvidenceIsBeyondTheRangeOfExp) {
+  std::vector<LayoutObject> map = Strewn(20, 40, 4);
+  for (int i = 0; i < 20; ++i)
+    map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
+  Attempts attempts(map);
+  attempts.Update(attempts.SeenAt(0, 0, 25), 100, [](const YawShift& pose, const LayoutFit&) {
+    return pose.t.x() > 150 ? 2000. : 1000.;
+  });
+  ASSERT_GE(attempts.tracks.tracks().size(), 2u);
+  const double apart = attempts.tracks.tracks()[0].evidence - attempts.tracks.tracks()[1].evidence;
+  EXPECT_NEAR(attempts.tracks.Margin(0), apart, 1e-6);
+  EXPECT_NEAR(attempts.tracks.Margin(1), -apart, 1e-6);
+}
+
+TEST(PoseTracks, VotesCountFromAgreeMBackOn) {
+  PoseTrackOptions options;
+  options.agree_m = 10;
+  Attempts attempts(Strewn(60, 80, 1), options);
+  for (const double path : {0., 5., 10., 15., 20.}) attempts.Update(attempts.SeenAt(10, 5), path);
+  EXPECT_EQ(attempts.tracks.tracks()[0].votes.front().path_m, 10);
+}
+
+TEST(PoseTracks, FollowedWithAsManyMatchesAsHaveToAgree) {
+  Attempts attempts(Strewn(60, 80, 1));
+  auto four = attempts.SeenAt(10, 5);
+  four.resize(4);
+  attempts.match.search.min_matches = 4;
+  attempts.Update(four, 100);
+  ASSERT_FALSE(attempts.tracks.tracks().empty());
+  attempts.UpdateWithoutSearch(four, 105);
+  EXPECT_FALSE(attempts.tracks.tracks().empty());
+  attempts.match.search.min_matches = 5;
+  attempts.UpdateWithoutSearch(four, 110);
+  EXPECT_TRUE(attempts.tracks.tracks().empty());
+}
+
+TEST(PoseTracks, AHypothesisThatJumpsIsAnotherOne) {
+  const Vec3 jump(0.8, 0.6, 0);  // 1 m
+  for (const double step_m : {0.8, 1.2}) {
+    PoseTrackOptions options;
+    options.step_m = step_m;
+    Attempts attempts(Strewn(60, 80, 1), options);
+    auto local = attempts.SeenAt(10, 5);
+    attempts.Update(local, 100);
+    for (LayoutObject& object : local) object.position += jump;
+    attempts.UpdateWithoutSearch(local, 105);
+    EXPECT_EQ(attempts.tracks.tracks().empty(), step_m < 1);
+  }
+  for (const double step_rad : {0.02, 0.04}) {
+    PoseTrackOptions options;
+    options.step_rad = step_rad;
+    Attempts attempts(Strewn(60, 80, 1), options);
+    auto local = attempts.SeenAt(10, 5);
+    attempts.Update(local, 100);
+    for (LayoutObject& object : local) object.position = Apply({0.03, {0, 0, 0}}, object.position);
+    attempts.UpdateWithoutSearch(local, 105);
+    EXPECT_EQ(attempts.tracks.tracks().empty(), step_rad < 0.03);
+  }
+}
+
+TEST(PoseTracks, TheBestOnesAreFollowed) {
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
+  Attempts all(grid);
+  all.Update(all.SeenAt(5, 12, 7.5), 100);
+  ASSERT_GE(all.tracks.tracks().size(), 3u);
+  PoseTrackOptions options;
+  options.max_tracks = 2;
+  Attempts two(grid, options);
+  two.Update(two.SeenAt(5, 12, 7.5), 100);
+  ASSERT_EQ(two.tracks.tracks().size(), 2u);
+  for (const std::size_t i : {0, 1})
+    EXPECT_EQ(two.tracks.tracks()[i].evidence, all.tracks.tracks()[i].evidence);
 }
 
 }  // namespace

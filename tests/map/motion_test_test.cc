@@ -100,8 +100,8 @@ Motion VerdictOfTwo(double apart_m, double seconds, double sigma,
                     const MotionTestOptions& options) {
   MotionTest test;
   const Eigen::Matrix2d covariance = sigma * sigma * Eigen::Matrix2d::Identity();
-  test.Add(Vec2(0, 0), covariance, 0, options);
-  test.Add(Vec2(0, apart_m), covariance, seconds, options);
+  test.Add(Vec2(0, 0), covariance, 100, options);
+  test.Add(Vec2(0, apart_m), covariance, 100 + seconds, options);
   return test.Verdict(options);
 }
 

@@ -216,6 +216,27 @@ TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
   }
 }
 
+// Two trees, each seen once, by a detector that is as exact in all directions. Their distance is
+// explained where its square is within the 99 % quantile (two components) of both variances.
+TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
+  constexpr double kSigma = 0.05, kQuantile = 9.21;
+  for (const double share : {0.98, 1.02}) {
+    TwoVisits world;
+    DetectionNoise& noise = world.options.noise;
+    noise.radial_m = noise.lateral_m = noise.vertical_m = kSigma;
+    noise.radial_per_m = noise.lateral_per_m = noise.vertical_per_m = 0;
+    const double scale = std::hypot(world.options.map.caution * world.map.noise_scale().radial,
+                                    world.options.map.min_noise_scale);
+    const double apart = share * std::sqrt(kQuantile * 2) * scale * kSigma;
+    ASSERT_GT(apart, 0.26) << "beyond their bodies";
+    ASSERT_LT(apart, world.options.refine.duplicate_m);
+    world.Add({4, 1, 12}, 0, 1);
+    const LandmarkId twin = world.Add({4, 1, 12 + apart}, 4, 1);
+    FuseDuplicates(world.map, world.frames, world.options);
+    EXPECT_EQ(world.Gone(twin), share < 1) << apart;
+  }
+}
+
 TEST(FuseDuplicates, FurtherThanDuplicateIsNotOnePlace) {
   for (const double duplicate_m : {0.15, 0.25}) {
     TwoVisits world;
