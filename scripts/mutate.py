@@ -36,7 +36,7 @@ SUBJECTS = {
     "tracks": [("src/loop/pose_tracks.cc", "sslcd_loop_tests", "PoseTracks*")],
     "drift": [("src/optim/drift.cc", "sslcd_optim_tests", "Drift.*:FindStart.*"),
               ("src/optim/drift_problem.cc", "sslcd_optim_tests", "Drift*:FindStart.*")],
-    "robust": [("src/optim/pose_graph_robust.cc", "sslcd_optim_tests", "*RobustPoseGraph*:Chi2*")],
+    "robust": [("src/optim/pose_graph_robust.cc", "sslcd_optim_tests", "Robust*:Warm*:Chi2*")],
     "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],
     "motion": [("src/map/motion_test.cc", "sslcd_map_tests", "MotionTest*")],
     "fusion": [("src/pipeline/fuse.cc", "sslcd_pipeline_tests", "Fuse*:SeenTogether*:Stretches*")],

@@ -43,16 +43,19 @@ TEST(Drift, CovarianceIsHonestFarFromTheOrigin) {
 }
 
 // What SolveDrift promises to minimise: a Cauchy loss on each pair's position (three rows) and
-// heading (one), s^2 log(1 + mean square / s^2).
-double RobustCost(const std::vector<DriftPair>& pairs, const Pose& D, double loss_scale) {
+// heading (one), s^2 log(1 + mean square / s^2), and the prior on the vertical.
+double RobustCost(const std::vector<DriftPair>& pairs, const Pose& D, const DriftOptions& options) {
   const auto loss = [&](double mean_square) {
-    return loss_scale * loss_scale * std::log1p(mean_square / (loss_scale * loss_scale));
+    return std::pow(options.loss_scale, 2) *
+           std::log1p(mean_square / std::pow(options.loss_scale, 2));
   };
-  double cost = 0;
+  const Vec3 up = D.so3().inverse() * Vec3(0, 0, 1);
+  double cost = up.head<2>().squaredNorm() / std::pow(options.tilt_sigma_rad, 2);
   for (const DriftPair& pair : pairs) {
     const Pose E = pair.T_world_global.inverse() * D * pair.T_world_local;
-    const double position = E.translation().squaredNorm() / std::pow(pair.sigma_horizontal_m, 2);
-    cost += 3 * loss(position / 3) + loss(std::pow(E.so3().Log().z() / pair.sigma_yaw_rad, 2));
+    const Vec3 heading = E.so3() * Vec3(1, 0, 0);
+    cost += 3 * loss(E.translation().squaredNorm() / std::pow(pair.sigma_horizontal_m, 2) / 3);
+    cost += loss(std::pow(std::atan2(heading.y(), heading.x()) / pair.sigma_yaw_rad, 2));
   }
   return cost;
 }
@@ -67,18 +70,25 @@ TEST(Drift, IsAMinimumOfTheCauchyLoss) {
   std::vector<DriftPair> pairs = scene.Pairs(random);
   pairs[0].T_world_global.translation() += Vec3(1.5, 0, 0);  // pulls, but less than by its square
   pairs[1].T_world_global = pairs[1].T_world_global * Pose::RotZ(0.4);
-  for (const double loss_scale : {0.7, 2., 5.}) {
-    DriftOptions options;
-    options.loss_scale = loss_scale;
-    const DriftResult result = SolveDrift(pairs, scene.gravity(), options);
-    ASSERT_TRUE(result.converged);
-    const double least = RobustCost(pairs, result.T_global_local, loss_scale);
-    for (const int i : {0, 1, 2, 5}) {
-      for (const double step : {-1e-3, 1e-3}) {
-        Pose::Tangent d = Pose::Tangent::Zero();
-        d[i] = step;
-        EXPECT_GT(RobustCost(pairs, result.T_global_local * Pose::Exp(d), loss_scale), least)
-            << "loss scale " << loss_scale << ", component " << i << " by " << step;
+  for (const bool six_dof : {false, true}) {
+    for (const double loss_scale : {0.7, 2., 5.}) {
+      DriftOptions options;
+      options.six_dof = six_dof;
+      options.tilt_sigma_rad = 0.05;
+      options.max_iterations = 300;
+      options.loss_scale = loss_scale;
+      options.loss_scale = loss_scale;
+      const DriftResult result = SolveDrift(pairs, scene.gravity(), options);
+      ASSERT_TRUE(result.converged);
+      const double least = RobustCost(pairs, result.T_global_local, options);
+      for (int i = 0; i < 6; ++i) {
+        if (!six_dof && (i == 3 || i == 4)) continue;
+        for (const double step : {-1e-3, 1e-3}) {
+          Pose::Tangent d = Pose::Tangent::Zero();
+          d[i] = i < 3 ? step : 0.1 * step;
+          EXPECT_GT(RobustCost(pairs, result.T_global_local * Pose::Exp(d), options), least)
+              << "loss scale " << loss_scale << ", component " << i << " by " << d[i];
+        }
       }
     }
   }
@@ -118,6 +128,15 @@ TEST(Drift, LargerResidualsTakeTheSigmasPlaceInTheCovariance) {
   EXPECT_NEAR(result.covariance(5, 5), variance / 400, 1e-9);
   EXPECT_NEAR(result.covariance(3, 3), std::pow(options.tilt_sigma_rad, 2), 1e-12)
       << "the tilt is not measured";
+}
+
+TEST(Drift, AYawLessSureThanMaxYawSigmaIsNotUsable) {
+  for (const double share : {0.97, 1.03}) {
+    DriftPair car = At({1, 2, 0}, {4, 6, 0}, 0.1, 0.6, Symmetry::kNone);
+    car.sigma_yaw_rad = share * DriftOptions().max_yaw_sigma_rad;
+    const DriftResult result = Solve({car});
+    EXPECT_EQ(result.usable, share < 1) << result.reason;
+  }
 }
 
 TEST(Drift, InliersEndAtInlierSigmas) {
