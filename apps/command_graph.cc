@@ -10,7 +10,7 @@
 #include "sslcd/core/log.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/g2o.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/metrics_json.h"
 #include "sslcd/optim/pose_graph_robust.h"
 #include "threads.h"
 

@@ -9,7 +9,7 @@
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/io/map_json.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/metrics_json.h"
 
 namespace sslcd::apps {
 

@@ -11,7 +11,7 @@
 #include "optim/pose_graph_world.h"
 #include "sslcd/io/atomic_file.h"
 #include "sslcd/io/g2o.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/pose_reader.h"
 #include "sslcd/optim/pose_graph_robust.h"
 
 namespace sslcd {

@@ -73,14 +73,10 @@ void MakeWritableFolder(const std::string& path) {
   std::error_code code, unseen;
   fs::create_directories(path, code);
   if (!fs::is_directory(path, unseen))
-    Fail(path,
-         code     ? code.value()
-         : unseen ? unseen.value()
-                  : ENOTDIR,
-         "choose another folder with --out");
-  const std::string probe = path + "/.sslcd-probe-" + std::to_string(getpid());
+    Fail(path, code ? code.value() : unseen ? unseen.value() : ENOTDIR, "choose another folder");
+  const std::string probe = fs::path(path) / (".sslcd-probe-" + std::to_string(getpid()));
   if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC))
-    Fail(path, failed, "choose another folder with --out");
+    Fail(path, failed, "choose another folder");
   unlink(probe.c_str());
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/io/calib_reader.h"
 
+#include <filesystem>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "io/files.h"
+#include "io/number_text.h"
 #include "io/rigid.h"
 #include "sslcd/io/text_rows.h"
 
@@ -122,6 +124,16 @@ std::optional<Pose> ReadRT(const std::string& path) {
   return entries.MakeRigid(R, T);
 }
 
+/// Row "Pn: ..." of K [I | t].
+std::string CalibRow(int number, const Camera& camera) {
+  const Vec3& offset = camera.offset;
+  const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(),
+                    camera.fy * offset.y() + camera.cy * offset.z(), offset.z());
+  return FormatNumbers("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number,
+                       camera.fx, camera.cx, column.x(), camera.fy, camera.cy, column.y(),
+                       column.z());
+}
+
 }  // namespace
 
 Calibration ReadCalibration(const std::string& path, CameraPair pair) {
@@ -139,8 +151,9 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
-    if (*camera && !size.empty())
-      (*camera)->width = static_cast<int>(size[0]), (*camera)->height = static_cast<int>(size[1]);
+    if (!*camera || size.empty()) continue;
+    (*camera)->width = static_cast<int>(size[0]);
+    (*camera)->height = static_cast<int>(size[1]);
   }
   calibration.T_cam_velo = entries.Rigid({"Tr"});  // KITTI odometry: the rectification is in it
   if (!calibration.T_cam_velo) {
@@ -154,14 +167,21 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
 }
 
 Calibration ReadRawCalibration(const std::string& folder) {
-  const std::string cam_to_cam = folder + "/calib_cam_to_cam.txt";
+  const std::string cam_to_cam = std::filesystem::path(folder) / "calib_cam_to_cam.txt";
   Calibration calibration = ReadCalibration(cam_to_cam);
-  calibration.T_cam_velo = ReadRT(folder + "/calib_velo_to_cam.txt");
+  calibration.T_cam_velo = ReadRT(std::filesystem::path(folder) / "calib_velo_to_cam.txt");
   const std::optional<Pose> rectification = Entries(cam_to_cam).Rotation({"R_rect_00"});
   if (calibration.T_cam_velo && rectification)
     calibration.T_cam_velo = *rectification * *calibration.T_cam_velo;
-  calibration.T_velo_imu = ReadRT(folder + "/calib_imu_to_velo.txt");
+  calibration.T_velo_imu = ReadRT(std::filesystem::path(folder) / "calib_imu_to_velo.txt");
   return calibration;
+}
+
+std::string CalibrationText(const StereoCamera& stereo) {
+  StereoCamera at_reference = stereo;
+  at_reference.left.offset.setZero();
+  return CalibRow(0, at_reference.left) + CalibRow(1, RightOf(at_reference)) +
+         CalibRow(2, stereo.left) + CalibRow(3, RightOf(stereo));
 }
 
 }  // namespace sslcd

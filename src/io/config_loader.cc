@@ -36,9 +36,9 @@ std::string Plain(double value) {
 
 // Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing;
 // second pass: applies.
-class Loader final : public FieldVisitor {
+class ConfigLoader final : public FieldVisitor {
  public:
-  Loader(const YAML::Node& root, std::string name, bool marks, bool apply)
+  ConfigLoader(const YAML::Node& root, std::string name, bool marks, bool apply)
       : node_(root), name_(std::move(name)), marks_(marks), apply_(apply) {}
 
   const std::vector<std::string>& problems() const { return problems_; }
@@ -249,10 +249,10 @@ void LoadConfigText(const std::string& text, const std::string& name, const Desc
     throw Error(ErrorKind::kBadConfig, {name, problem.mark.line + 1, problem.mark.column + 1},
                 problem.msg);
   }
-  Loader check(root, name, true, false);
+  ConfigLoader check(root, name, true, false);
   check.Root(describe);
   if (!check.problems().empty()) Throw(check.problems());
-  Loader(root, name, true, true).Root(describe);
+  ConfigLoader(root, name, true, true).Root(describe);
 }
 
 void LoadConfigFile(const std::string& path, const Describe& describe) {
@@ -277,13 +277,13 @@ void ApplySettings(const std::vector<std::string>& settings, const Describe& des
       parent[dot == std::string::npos ? key : key.substr(dot + 1)] = tree;
       tree.reset(parent);
     }
-    Loader check(tree, name, false, false);
+    ConfigLoader check(tree, name, false, false);
     check.Root(describe);
     problems.insert(problems.end(), check.problems().begin(), check.problems().end());
     trees.emplace_back(tree, name);
   }
   if (!problems.empty()) Throw(problems);
-  for (const auto& [tree, name] : trees) Loader(tree, name, false, true).Root(describe);
+  for (const auto& [tree, name] : trees) ConfigLoader(tree, name, false, true).Root(describe);
 }
 
 }  // namespace sslcd

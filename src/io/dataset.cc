@@ -41,9 +41,9 @@ PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
   return file;
 }
 
-class Loader {
+class DatasetLoader {
  public:
-  explicit Loader(const DatasetRequest& request)
+  explicit DatasetLoader(const DatasetRequest& request)
       : request_(request), layout_(FindDatasetLayout(request)) {}
 
   Dataset Load() {
@@ -84,7 +84,7 @@ class Loader {
   Dataset out_;
 };
 
-void Loader::AddFrames() {
+void DatasetLoader::AddFrames() {
   PoseFile odometry = ReadPoses(layout_.odometry, calibration_);
   out_.odometry_path = layout_.odometry;
   out_.odometry_format = odometry.format;
@@ -135,7 +135,7 @@ void Loader::AddFrames() {
   }
 }
 
-void Loader::AddFramesWithoutPoses() {
+void DatasetLoader::AddFramesWithoutPoses() {
   // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
   out_.up_axis = Vec3(0, -1, 0);
   std::vector<double> stamps;
@@ -159,7 +159,7 @@ void Loader::AddFramesWithoutPoses() {
   }
 }
 
-void Loader::WarnOfMoreImages() {
+void DatasetLoader::WarnOfMoreImages() {
   const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_);
   if (more == 0) return;
   const std::string count = std::to_string(frames_in_file_);
@@ -168,7 +168,7 @@ void Loader::WarnOfMoreImages() {
        ", and " + layout_.images + " " + std::to_string(more) + " more images; they are left out");
 }
 
-void Loader::AddDetections() {
+void DatasetLoader::AddDetections() {
   out_.detections_path = layout_.detections;
   DetectionFile file;
   if (IsTracklets(layout_.detections)) {
@@ -206,7 +206,7 @@ void Loader::AddDetections() {
   CheckLabels();
 }
 
-int Loader::AddVectors(const std::string& path, std::vector<float> Detection::*vector) {
+int DatasetLoader::AddVectors(const std::string& path, std::vector<float> Detection::*vector) {
   if (path.empty()) return 0;
   const NpyMatrix matrix = ReadNpy(path);
   if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
@@ -232,7 +232,7 @@ int Loader::AddVectors(const std::string& path, std::vector<float> Detection::*v
   return unusable;
 }
 
-void Loader::AddAppearance() {
+void DatasetLoader::AddAppearance() {
   if (const int unusable = AddVectors(layout_.embeddings, &Detection::embedding)) {
     Warn(layout_.embeddings + ": left out " + std::to_string(unusable) +
          " embedding(s) that are zero or not finite");
@@ -247,7 +247,7 @@ void Loader::AddAppearance() {
 }
 
 /// A label that sequence.yaml forgets is most likely misspelt in one of the two files.
-void Loader::CheckLabels() {
+void DatasetLoader::CheckLabels() {
   if (out_.labels.entries().empty()) return;
   std::set<std::string> unknown;
   for (const Frame& frame : out_.frames) {
@@ -260,7 +260,7 @@ void Loader::CheckLabels() {
        "; taken as symmetry none");
 }
 
-void Loader::AddGroundtruth() {
+void DatasetLoader::AddGroundtruth() {
   if (layout_.groundtruth.empty()) return;
   if (request_.groundtruth.empty() && IsOxts(layout_.groundtruth) && !calibration_.HasImu()) {
     Warn(layout_.groundtruth +
@@ -286,6 +286,6 @@ void Loader::AddGroundtruth() {
 
 }  // namespace
 
-Dataset LoadDataset(const DatasetRequest& request) { return Loader(request).Load(); }
+Dataset LoadDataset(const DatasetRequest& request) { return DatasetLoader(request).Load(); }
 
 }  // namespace sslcd

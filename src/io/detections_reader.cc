@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "io/files.h"
+#include "io/number_text.h"
 #include "sslcd/core/sigmoid.h"
+#include "sslcd/core/upright.h"
 #include "sslcd/io/text_rows.h"
 
 namespace sslcd {
@@ -88,9 +90,9 @@ std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
   return detection;
 }
 
-class Reader {
+class DetectionReader {
  public:
-  explicit Reader(const DetectionReadOptions& options) : options_(options) {}
+  explicit DetectionReader(const DetectionReadOptions& options) : options_(options) {}
 
   /// `frame` < 0: the rows say which frame they are of.
   void ReadFile(const std::string& path, int frame);
@@ -107,7 +109,7 @@ class Reader {
   std::string first_dropped_;
 };
 
-void Reader::CheckLayout(const TextRows& row, int frame) {
+void DetectionReader::CheckLayout(const TextRows& row, int frame) {
   if (out_.format == DetectionFormat::kNone) {
     out_.format = Guess(row);
     row_size_ = row.size();
@@ -126,7 +128,7 @@ void Reader::CheckLayout(const TextRows& row, int frame) {
   }
 }
 
-void Reader::CheckScore(const TextRows& row, double score) {
+void DetectionReader::CheckScore(const TextRows& row, double score) {
   if (score >= 0 && score <= 1) return;
   outside_unit_ = true;
   if (options_.score == ScoreKind::kProbability) {
@@ -135,7 +137,7 @@ void Reader::CheckScore(const TextRows& row, double score) {
   }
 }
 
-void Reader::ReadFile(const std::string& path, int frame) {
+void DetectionReader::ReadFile(const std::string& path, int frame) {
   TextRows row(path);
   while (row.Next()) {
     CheckLayout(row, frame);
@@ -157,7 +159,7 @@ void Reader::ReadFile(const std::string& path, int frame) {
   }
 }
 
-DetectionFile Reader::Finish() {
+DetectionFile DetectionReader::Finish() {
   out_.logits =
       options_.score == ScoreKind::kLogit || (options_.score == ScoreKind::kAuto && outside_unit_);
   const bool has_scores = ColumnsOf(out_.format, row_size_).score >= 0;
@@ -172,6 +174,22 @@ DetectionFile Reader::Finish() {
         " detection(s), this the first: a value is not finite or a size not positive");
   }
   return std::move(out_);
+}
+
+/// KITTI tracking: frame track label truncated occluded alpha, box, h w l, centre of the bottom
+/// face, rotation_y, score.
+std::string TrackingRow(int frame, const Detection& detection) {
+  const Box2d box = detection.box.value_or(Box2d{-1, -1, -1, -1});
+  const Vec3& centre = detection.T_cam_object.translation();
+  // rotation_y turns about +y, which points down; yaw counts about up.
+  const double rotation_y = WrapAngle(-GravityFrame().YawOf(detection.T_cam_object.so3()));
+  const double alpha = WrapAngle(rotation_y - std::atan2(centre.x(), centre.z()));
+  const Vec3& d = detection.dims;
+  return std::to_string(frame) + " -1 " + detection.label +
+         FormatNumbers(" -1 -1 %.4f %.2f %.2f %.2f %.2f %.4f %.4f %.4f %.4f %.4f %.4f %.5f %.3f\n",
+                       alpha, box.left, box.top, box.right, box.bottom, d.z(), d.y(), d.x(),
+                       centre.x(), centre.y() + 0.5 * d.z(), centre.z(), rotation_y,
+                       detection.score);
 }
 
 }  // namespace
@@ -192,7 +210,7 @@ const char* ToString(DetectionFormat format) {
 }
 
 DetectionFile ReadDetections(const std::string& path, const DetectionReadOptions& options) {
-  Reader reader(options);
+  DetectionReader reader(options);
   if (IsFolder(path)) {
     const std::vector<NumberedFile> files = NumberedFiles(path, ".txt");
     if (files.empty())
@@ -202,6 +220,14 @@ DetectionFile ReadDetections(const std::string& path, const DetectionReadOptions
     reader.ReadFile(path, -1);
   }
   return reader.Finish();
+}
+
+std::string DetectionsText(const std::vector<std::vector<Detection>>& by_frame) {
+  std::string text;
+  for (std::size_t frame = 0; frame < by_frame.size(); ++frame)
+    for (const Detection& detection : by_frame[frame])
+      text += TrackingRow(static_cast<int>(frame), detection);
+  return text;
 }
 
 }  // namespace sslcd

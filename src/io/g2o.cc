@@ -9,6 +9,8 @@
 #include <map>
 #include <set>
 
+#include "io/number_text.h"
+#include "io/pose_text.h"
 #include "io/rigid.h"
 #include "sslcd/io/text_rows.h"
 
@@ -67,7 +69,7 @@ Information ReadInformation(const TextRows& row, std::size_t column,
   return information;
 }
 
-struct Reader {
+struct G2oReader {
   G2oFile file;
   std::map<int, FileLocation> vertex_rows;  // by id
   std::vector<FileLocation> edge_rows;      // one per edge
@@ -180,7 +182,7 @@ std::vector<PoseGraph::Vertex> VerticesFromEdges(const PoseGraph& graph) {
 }  // namespace
 
 G2oFile ReadG2o(const std::string& path) {
-  Reader reader;
+  G2oReader reader;
   reader.Read(path);
   PoseGraph& graph = reader.file.graph;
   reader.MarkLoops();
@@ -191,6 +193,24 @@ G2oFile ReadG2o(const std::string& path) {
   }
   reader.Fix();
   return reader.file;
+}
+
+std::string G2oText(const PoseGraph& graph) {
+  std::string text;
+  for (const auto& vertex : graph.vertices) {
+    text += "VERTEX_SE3:QUAT " + std::to_string(vertex.id) + " " + PoseText(vertex.T_world_vertex) +
+            "\n";
+    if (vertex.fixed) text += "FIX " + std::to_string(vertex.id) + "\n";
+  }
+  for (const auto& edge : graph.edges) {
+    text += "EDGE_SE3:QUAT " + std::to_string(edge.from) + " " + std::to_string(edge.to) + " " +
+            PoseText(edge.T_from_to);
+    for (int row = 0; row < 6; ++row)
+      for (int column = row; column < 6; ++column)
+        text += " " + ShortestNumber(edge.information(row, column));
+    text += "\n";
+  }
+  return text;
 }
 
 }  // namespace sslcd

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/io/metrics_json.h"
+
 #include <nlohmann/json.hpp>
 
 #include "io/json_text.h"
-#include "sslcd/io/run_folder.h"
 
 namespace sslcd {
 

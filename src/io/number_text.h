@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdio>
 #include <string>
 
 namespace sslcd {
@@ -19,6 +20,14 @@ inline std::string FixedNumber(double value, int decimals) {
       buffer,
       std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr);
   if (text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
+  return text;
+}
+
+/// Numbers as printf writes them; a whole row of a table fits.
+template <class... Values>
+std::string FormatNumbers(const char* format, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, values...);
   return text;
 }
 

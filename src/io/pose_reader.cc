@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "io/number_text.h"
+#include "io/pose_text.h"
 #include "io/rigid.h"
 #include "sslcd/io/text_rows.h"
 
@@ -95,6 +97,22 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
 
 Trajectory ReadTrajectory(const std::string& path, PoseFormat format) {
   return ReadPoseFile(path, format).trajectory;
+}
+
+std::string TumText(const Trajectory& trajectory) {
+  std::string text;
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    text += FixedNumber(trajectory.stamps[i], 9) + " " + PoseText(trajectory.poses[i]) + "\n";
+  return text;
+}
+
+std::string KittiText(const Trajectory& trajectory) {
+  std::string text;
+  for (const Pose& T : trajectory.poses) {
+    const auto M = T.matrix3x4();
+    for (int i = 0; i < 12; ++i) text += FixedNumber(M(i / 4, i % 4), 9) + (i < 11 ? " " : "\n");
+  }
+  return text;
 }
 
 }  // namespace sslcd

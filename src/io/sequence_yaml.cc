@@ -6,15 +6,16 @@
 #include <cmath>
 #include <set>
 
+#include "io/number_text.h"
 #include "sslcd/core/error.h"
 #include "sslcd/io/text_rows.h"
 
 namespace sslcd {
 namespace {
 
-class Reader {
+class SequenceYamlReader {
  public:
-  explicit Reader(const std::string& path) : path_(path) {}
+  explicit SequenceYamlReader(const std::string& path) : path_(path) {}
 
   SequenceInfo Read() const {
     SequenceInfo info;
@@ -103,6 +104,19 @@ class Reader {
 
 }  // namespace
 
-SequenceInfo ReadSequenceYaml(const std::string& path) { return Reader(path).Read(); }
+SequenceInfo ReadSequenceYaml(const std::string& path) { return SequenceYamlReader(path).Read(); }
+
+std::string SequenceYamlText(const SequenceInfo& info) {
+  std::string text;
+  if (info.up_axis)
+    text += FormatNumbers("up_axis: [%.9g, %.9g, %.9g]\n", info.up_axis->x(), info.up_axis->y(),
+                          info.up_axis->z());
+  if (info.image_width > 0)
+    text += FormatNumbers("image_size_px: [%d, %d]\n", info.image_width, info.image_height);
+  if (!info.labels.entries().empty()) text += "labels:\n";
+  for (const auto& [label, of_label] : info.labels.entries())
+    text += "  " + label + ": {symmetry: " + ToString(of_label.symmetry) + "}\n";
+  return text;
+}
 
 }  // namespace sslcd

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/number_text.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/median.h"
 #include "sslcd/io/text_rows.h"
@@ -11,11 +12,7 @@
 namespace sslcd {
 namespace {
 
-std::string Seconds(double stamp) {
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.3f s", stamp);
-  return text;
-}
+std::string Seconds(double stamp) { return FormatNumbers("%.3f s", stamp); }
 
 std::string Span(const std::vector<double>& stamps) {
   return std::to_string(stamps.size()) + " stamps from " + Seconds(stamps.front()) + " to " +
@@ -81,6 +78,12 @@ std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& t
     poses.push_back(trajectory.poses[static_cast<std::size_t>(nearest - given.begin())]);
   }
   return poses;
+}
+
+std::string TimesText(const std::vector<double>& stamps) {
+  std::string text;
+  for (const double stamp : stamps) text += FormatNumbers("%.6f\n", stamp);
+  return text;
 }
 
 }  // namespace sslcd

@@ -11,6 +11,7 @@ namespace sslcd {
 
 /// times.txt: one stamp a row, increasing. [s] Throws Error with file:line.
 std::vector<double> ReadTimes(const std::string& path);
+std::string TimesText(const std::vector<double>& stamps);
 
 /// Median difference of neighbours; 0 for fewer than two stamps. [s]
 double MedianStep(const std::vector<double>& stamps);

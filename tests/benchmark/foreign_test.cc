@@ -8,7 +8,7 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/io/atomic_file.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/pose_reader.h"
 #include "temp_folder.h"
 
 namespace sslcd::benchmark {

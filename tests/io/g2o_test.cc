@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "sslcd/io/run_folder.h"
 #include "temp_folder.h"
 
 namespace sslcd {
@@ -87,7 +86,7 @@ TEST(G2o, VerticesFromEdgesFollowTheOdometry) {
   }
 }
 
-TEST(G2o, ReadsWhatTheRunFolderWrites) {
+TEST(G2o, ReadsWhatItWrites) {
   PoseGraph graph;
   graph.vertices = {{0, Pose(), true}, {7, Pose::Trans(1, 2, 3) * Pose::RotX(0.3)}};
   PoseGraph::Edge edge;

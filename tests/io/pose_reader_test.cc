@@ -81,5 +81,32 @@ TEST(PoseReader, RefusesMalformedRows) {
   ExpectError([&] { ReadTrajectory(folder.path() + "/none.txt"); }, {"none.txt", "No such file"});
 }
 
+Trajectory Path() {
+  Trajectory trajectory;
+  for (int i = 0; i < 5; ++i) {
+    Vec6 xi;
+    xi << i, -0.5 * i, 1e-12, 0.3 * i, 0.1, -0.7 * i;
+    trajectory.stamps.push_back(0.1 * i);
+    trajectory.poses.push_back(Pose::Exp(xi));
+  }
+  return trajectory;
+}
+
+TEST(PoseText, TrajectoriesReadBack) {
+  const TempFolder folder;
+  const Trajectory path = Path();
+  folder.Write("tum.txt", TumText(path));
+  folder.Write("kitti.txt", KittiText(path));
+  for (const char* name : {"tum.txt", "kitti.txt"}) {
+    const Trajectory read = ReadTrajectory(folder.In(name));
+    ASSERT_EQ(read.size(), path.size());
+    for (std::size_t i = 0; i < path.size(); ++i)
+      EXPECT_LT((read.poses[i].inverse() * path.poses[i]).Log().norm(), 1e-7);
+  }
+  EXPECT_EQ(TumText(path).find(" \n"), std::string::npos)
+      << "evo refuses a blank at the end of a row";
+  EXPECT_EQ(TumText(path).find("-0.000000000"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sslcd

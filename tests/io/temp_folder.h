@@ -26,6 +26,9 @@ class TempFolder {
   TempFolder& operator=(const TempFolder&) = delete;
 
   const std::string& path() const { return path_; }
+  std::string In(const std::string& name) const {
+    return (std::filesystem::path(path_) / name).string();
+  }
 
   /// Writes a file, making the folders on the way; returns its path.
   std::string Write(const std::string& name, const std::string& text) const {

@@ -7,7 +7,6 @@
 
 #include "loop_drives.h"
 #include "sslcd/core/median.h"
-#include "sslcd/io/run_folder.h"
 #include "sslcd/sim/halv.h"
 
 namespace sslcd {

@@ -9,7 +9,10 @@
 
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/g2o.h"
+#include "sslcd/io/loops_csv.h"
+#include "sslcd/io/map_json.h"
+#include "sslcd/io/pose_reader.h"
 
 namespace sslcd {
 namespace {

@@ -8,7 +8,9 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/io/run_folder.h"
+#include "sslcd/io/g2o.h"
+#include "sslcd/io/map_json.h"
+#include "sslcd/io/pose_reader.h"
 #include "sslcd/sim/sensor.h"
 #include "sslcd/sim/world.h"
 

@@ -37,4 +37,7 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair = CameraPai
 /// calib_imu_to_velo.txt; the latter two may be missing.
 Calibration ReadRawCalibration(const std::string& folder);
 
+/// calib.txt of KITTI odometry: P0 and P1 without the left camera's offset, P2 and P3 with it.
+std::string CalibrationText(const StereoCamera& stereo);
+
 }  // namespace sslcd

@@ -52,4 +52,7 @@ struct DetectionFile {
 /// ScoreKind::kProbability is asked for.
 DetectionFile ReadDetections(const std::string& path, const DetectionReadOptions& options = {});
 
+/// Rows of DetectionFormat::kKittiTracking with a score; id, truncated and occluded are -1.
+std::string DetectionsText(const std::vector<std::vector<Detection>>& by_frame);
+
 }  // namespace sslcd

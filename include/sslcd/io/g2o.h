@@ -28,6 +28,10 @@ struct G2oFile {
 /// itself and information that is not positive definite.
 G2oFile ReadG2o(const std::string& path);
 
+/// VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT rows; information in the order [translation, rotation],
+/// upper triangle.
+std::string G2oText(const PoseGraph& graph);
+
 /// Information [1/m^2, 1/rad^2] of z, roll and pitch of a lifted SE2 edge: 0.1 mm and 0.1 mrad.
 constexpr double kLiftedInformation = 1e8;
 

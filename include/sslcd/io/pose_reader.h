@@ -35,4 +35,9 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format = PoseFormat::k
 /// The same without the format.
 Trajectory ReadTrajectory(const std::string& path, PoseFormat format = PoseFormat::kAuto);
 
+/// PoseFormat::kTum, as evo reads it: single blanks, no blank at the end of a row, qw >= 0.
+std::string TumText(const Trajectory& trajectory);
+/// PoseFormat::kKitti.
+std::string KittiText(const Trajectory& trajectory);
+
 }  // namespace sslcd

@@ -26,4 +26,7 @@ struct SequenceInfo {
 /// wrong values.
 SequenceInfo ReadSequenceYaml(const std::string& path);
 
+/// sequence.yaml's text.
+std::string SequenceYamlText(const SequenceInfo& info);
+
 }  // namespace sslcd
