@@ -8,7 +8,7 @@
 #include "evaluation.h"
 #include "sslcd/benchmark/paper_figures.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/dataset.h"
+#include "sslcd/datasets/dataset.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd::apps {

@@ -13,9 +13,9 @@
 #include "sslcd/benchmark/foreign.h"
 #include "sslcd/benchmark/halv_tables.h"
 #include "sslcd/benchmark/results.h"
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/config.h"
+#include "sslcd/formats/atomic_file.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "commands.h"
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
 
 namespace sslcd::apps {
 namespace {

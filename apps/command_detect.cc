@@ -8,10 +8,10 @@
 #include "image_loader.h"
 #include "overlay.h"
 #include "overwriting.h"
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/io/config.h"
-#include "sslcd/io/sequence_writer.h"
+#include "sslcd/datasets/sequence_writer.h"
 #include "threads.h"
 
 namespace sslcd::apps {

@@ -5,8 +5,8 @@
 #include "commands.h"
 #include "evaluation.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/dataset.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/datasets/dataset.h"
+#include "sslcd/formats/poses.h"
 
 namespace sslcd::apps {
 namespace {

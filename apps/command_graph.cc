@@ -8,9 +8,9 @@
 #include "commands.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/g2o.h"
-#include "sslcd/io/metrics_json.h"
+#include "sslcd/formats/atomic_file.h"
+#include "sslcd/formats/g2o.h"
+#include "sslcd/formats/metrics_json.h"
 #include "sslcd/optim/pose_graph_robust.h"
 #include "threads.h"
 

@@ -5,8 +5,8 @@
 
 #include "commands.h"
 #include "sslcd/core/for_each.h"
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/pairs_reader.h"
+#include "sslcd/formats/atomic_file.h"
+#include "sslcd/formats/pairs.h"
 #include "sslcd/loop/decision.h"
 #include "sslcd/loop/paper_match.h"
 #include "threads.h"

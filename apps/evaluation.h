@@ -8,8 +8,8 @@
 #include "sslcd/core/detection.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/trajectory.h"
-#include "sslcd/io/map_json.h"
-#include "sslcd/io/metrics_json.h"
+#include "sslcd/formats/map_json.h"
+#include "sslcd/formats/metrics_json.h"
 
 namespace sslcd::apps {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "commands.h"
+#include "sslcd/datasets/dataset.h"
 #include "sslcd/frontend/recording.h"
-#include "sslcd/io/dataset.h"
 
 namespace sslcd::apps {
 

@@ -8,7 +8,7 @@
 
 #include "console.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/atomic_file.h"
+#include "sslcd/formats/atomic_file.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd::apps {

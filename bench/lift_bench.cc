@@ -15,9 +15,9 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/eval/iou3d.h"
-#include "sslcd/io/boxes_reader.h"
-#include "sslcd/io/calib_reader.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/boxes.h"
+#include "sslcd/formats/calib.h"
+#include "sslcd/formats/poses.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"
 #include "sslcd/sim/halv.h"

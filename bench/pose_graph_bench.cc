@@ -9,9 +9,9 @@
 #include <string>
 
 #include "optim/pose_graph_world.h"
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/g2o.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/atomic_file.h"
+#include "sslcd/formats/g2o.h"
+#include "sslcd/formats/poses.h"
 #include "sslcd/optim/pose_graph_robust.h"
 
 namespace sslcd {

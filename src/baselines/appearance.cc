@@ -10,7 +10,7 @@
 
 #include "baselines/image_features.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/dataset.h"
+#include "sslcd/datasets/dataset.h"
 
 namespace sslcd::baselines {
 namespace {

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 
 namespace sslcd::baselines {
 namespace {

@@ -2,7 +2,7 @@
 #include "sslcd/benchmark/foreign.h"
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/poses.h"
 
 namespace sslcd::benchmark {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
 #include "sslcd/loop/decision.h"
 
 namespace sslcd::benchmark {

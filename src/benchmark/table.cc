@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/csv.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/csv.h"
+#include "sslcd/formats/text_rows.h"
 
 namespace sslcd::benchmark {
 namespace {

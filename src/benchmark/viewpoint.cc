@@ -7,7 +7,7 @@
 
 #include "sslcd/benchmark/foreign.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 
 namespace sslcd::benchmark {
 namespace {

@@ -5,7 +5,7 @@
 #include "detectors/decode_3d.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/sigmoid.h"
-#include "sslcd/io/npy.h"
+#include "sslcd/formats/npy.h"
 
 namespace sslcd {
 namespace {

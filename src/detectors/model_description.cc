@@ -4,8 +4,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
 
 namespace sslcd {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "sslcd/core/log.h"
 #include "sslcd/detectors/model_description.h"
-#include "sslcd/io/boxes_reader.h"
+#include "sslcd/formats/boxes.h"
 
 namespace sslcd {
 namespace {

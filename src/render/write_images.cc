@@ -6,7 +6,7 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/core/for_each.h"
-#include "sslcd/io/atomic_file.h"
+#include "sslcd/formats/atomic_file.h"
 
 namespace sslcd::render {
 namespace {

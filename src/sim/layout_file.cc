@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/json.h"
+#include "sslcd/formats/json.h"
 
 namespace sslcd::sim {
 namespace {

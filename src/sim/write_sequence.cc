@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/sequence_writer.h"
+#include "sslcd/datasets/sequence_writer.h"
+#include "sslcd/formats/atomic_file.h"
 
 namespace sslcd::sim {
 

@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/atomic_file.h"
+#include "sslcd/formats/atomic_file.h"
 #include "temp_folder.h"
 
 namespace sslcd::baselines {

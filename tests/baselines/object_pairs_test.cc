@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "sslcd/baselines/options.h"
-#include "sslcd/io/pairs_reader.h"
+#include "sslcd/formats/pairs.h"
 #include "sslcd/loop/layout_likelihood.h"
 #include "temp_folder.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
 
 namespace sslcd::baselines {
 namespace {

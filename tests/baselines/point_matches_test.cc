@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/atomic_file.h"
+#include "sslcd/formats/atomic_file.h"
 #include "temp_folder.h"
 
 namespace sslcd::baselines {

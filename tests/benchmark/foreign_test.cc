@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/atomic_file.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/atomic_file.h"
+#include "sslcd/formats/poses.h"
 #include "temp_folder.h"
 
 namespace sslcd::benchmark {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/config.h"
 
 namespace sslcd::benchmark {
 namespace {

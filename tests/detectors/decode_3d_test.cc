@@ -7,9 +7,9 @@
 #include <opencv2/core.hpp>
 
 #include "../inference/test_models.h"
-#include "../io/temp_folder.h"
+#include "../support/temp_folder.h"
 #include "sslcd/detectors/detector_3d.h"
-#include "sslcd/io/npy.h"
+#include "sslcd/formats/npy.h"
 #include "sslcd/perception/opencv_image.h"
 #include "sslcd/perception/projection.h"
 

@@ -9,7 +9,7 @@
 #include "sslcd/detectors/detector_2d.h"
 #include "sslcd/detectors/detector_3d.h"
 #include "sslcd/detectors/embedder.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "../io/temp_folder.h"
+#include "../support/temp_folder.h"
 
 namespace sslcd {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "../io/temp_folder.h"
+#include "../support/temp_folder.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd {

@@ -6,10 +6,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "../inference/test_models.h"
-#include "../io/temp_folder.h"
+#include "../support/temp_folder.h"
 #include "sslcd/detectors/detector_2d.h"
 #include "sslcd/detectors/embedder.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/text_rows.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd {

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "sslcd/io/config.h"
+#include "sslcd/config/config.h"
 #include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sslcd/io/config.h"
+#include "sslcd/config/config.h"
 #include "temp_folder.h"
 
 namespace sslcd {

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "../io/temp_folder.h"
+#include "../support/temp_folder.h"
 #include "sslcd/core/log.h"
 #include "test_models.h"
 

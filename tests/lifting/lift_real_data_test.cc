@@ -8,10 +8,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "io/temp_folder.h"
-#include "sslcd/io/calib_reader.h"
+#include "sslcd/formats/calib.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"
+#include "support/temp_folder.h"
 
 namespace sslcd {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "layout_cases.h"
-#include "sslcd/io/pairs_reader.h"
+#include "sslcd/formats/pairs.h"
 
 namespace sslcd {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "layout_cases.h"
-#include "sslcd/io/pairs_reader.h"
+#include "sslcd/formats/pairs.h"
 
 namespace sslcd {
 namespace {

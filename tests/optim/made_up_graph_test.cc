@@ -6,7 +6,7 @@
 #include <map>
 
 #include "pose_graph_world.h"
-#include "sslcd/io/g2o.h"
+#include "sslcd/formats/g2o.h"
 #include "sslcd/optim/pose_graph_robust.h"
 
 namespace sslcd {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "pose_graph_world.h"
-#include "sslcd/io/g2o.h"
-#include "sslcd/io/text_rows.h"
+#include "sslcd/formats/g2o.h"
+#include "sslcd/formats/text_rows.h"
 #include "sslcd/optim/pose_graph_robust.h"
 
 namespace sslcd {

@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "figures.h"
+#include "sslcd/datasets/dataset.h"
 #include "sslcd/eval/map_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/io/dataset.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd {

@@ -9,10 +9,10 @@
 
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
-#include "sslcd/io/g2o.h"
-#include "sslcd/io/loops_csv.h"
-#include "sslcd/io/map_json.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/g2o.h"
+#include "sslcd/formats/loops_csv.h"
+#include "sslcd/formats/map_json.h"
+#include "sslcd/formats/poses.h"
 
 namespace sslcd {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/io/g2o.h"
-#include "sslcd/io/map_json.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/g2o.h"
+#include "sslcd/formats/map_json.h"
+#include "sslcd/formats/poses.h"
 #include "sslcd/sim/sensor.h"
 #include "sslcd/sim/world.h"
 

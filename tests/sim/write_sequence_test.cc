@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/dataset.h"
+#include "sslcd/datasets/dataset.h"
 
 namespace sslcd::sim {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sslcd/core/error.h"
-#include "sslcd/io/calib_reader.h"
-#include "sslcd/io/pose_reader.h"
+#include "sslcd/formats/calib.h"
+#include "sslcd/formats/poses.h"
 #include "sslcd/perception/opencv_image.h"
 #include "sslcd/visual_odometry/rig_check.h"
 

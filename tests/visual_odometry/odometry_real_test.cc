@@ -2,9 +2,9 @@
 // Real data; skipped where it is absent.
 #include <gtest/gtest.h>
 
-#include "io/temp_folder.h"
 #include "sslcd/eval/segment_error.h"
 #include "stereo/stereo_folder.h"
+#include "support/temp_folder.h"
 
 namespace sslcd {
 namespace {

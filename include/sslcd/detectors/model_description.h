@@ -92,7 +92,7 @@ void DescribeFields(FieldVisitor& visitor, ModelAnchors& anchors);
 void DescribeFields(FieldVisitor& visitor, ModelOutput& output);
 void DescribeFields(FieldVisitor& visitor, ModelDescription& description);
 
-/// Reads a description; strict like all our configuration (io/config.h).
+/// Reads a description; strict like all our configuration (config/config.h).
 ModelDescription LoadModelDescription(const std::string& yaml_path);
 
 /// What a model of this layout is for: decides which of Detector2d, Detector3d and Embedder can

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "sslcd/datasets/dataset.h"
 #include "sslcd/frontend/adapt.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/frontend/stereo_files.h"
 #include "sslcd/frontend/view_alignment.h"
-#include "sslcd/io/dataset.h"
 
 namespace sslcd {
 

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/datasets/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "datasets/dataset_images.h"
+#include "datasets/dataset_layout.h"
+#include "datasets/oxts.h"
+#include "datasets/sequence_yaml.h"
+#include "datasets/stamps.h"
+#include "datasets/tracklets.h"
+#include "formats/files.h"
+#include "sslcd/core/error.h"
+#include "sslcd/formats/calib.h"
+#include "sslcd/formats/npy.h"
+#include "sslcd/formats/text_rows.h"
+
+namespace sslcd {
+namespace {
+
+constexpr double kKittiFrameStep = 0.1;  // [s]
+
+bool IsOxts(const std::string& path) {
+  if (IsFolder(path)) return true;
+  TextRows row(path);
+  return row.Next() && row.size() == 30;
+}
+
+bool IsTracklets(const std::string& path) {
+  return path.size() > 4 && path.substr(path.size() - 4) == ".xml";
+}
+
+PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
+  if (!IsOxts(path)) return ReadPoseFile(path);
+  PoseFile file{PoseFormat::kKitti, {}};
+  file.trajectory.poses = ReadOxtsCamera(path, calibration);
+  for (std::size_t i = 0; i < file.trajectory.size(); ++i)
+    file.trajectory.stamps.push_back(static_cast<double>(i));
+  return file;
+}
+
+class DatasetLoader {
+ public:
+  explicit DatasetLoader(const DatasetRequest& request)
+      : request_(request), layout_(FindDatasetLayout(request)) {}
+
+  Dataset Load() {
+    out_.format = layout_.format;
+    out_.name = layout_.name;
+    if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
+    out_.labels = info_.labels;
+    if (!layout_.calib.empty()) calibration_ = layout_.read_calibration(layout_.calib);
+    layout_.odometry.empty() ? AddFramesWithoutPoses() : AddFrames();
+    out_.camera = calibration_.left;
+    out_.camera_right = calibration_.right;
+    const std::size_t frames = out_.frames.size();
+    AddImages(layout_, info_, out_);
+    if (out_.frames.size() < frames) frames_in_file_ = out_.frames.size();
+    WarnOfMoreImages();
+    if (!layout_.detections.empty()) AddDetections();
+    AddGroundtruth();
+    return std::move(out_);
+  }
+
+ private:
+  void AddFrames();
+  void AddFramesWithoutPoses();
+  void AddDetections();
+  void AddAppearance();
+  // returns how many are unusable
+  int AddVectors(const std::string& path, std::vector<float> Detection::*vector);
+  void WarnOfMoreImages();
+  void CheckLabels();
+  void AddGroundtruth();
+  void Warn(const std::string& text) { out_.warnings.push_back(text); }
+
+  DatasetRequest request_;
+  DatasetLayout layout_;
+  Calibration calibration_;
+  SequenceInfo info_;
+  std::size_t frames_in_file_ = 0;  // before max_frames
+  Dataset out_;
+};
+
+void DatasetLoader::AddFrames() {
+  PoseFile odometry = ReadPoses(layout_.odometry, calibration_);
+  out_.odometry_path = layout_.odometry;
+  out_.odometry_format = odometry.format;
+  if (odometry.trajectory.poses.empty()) {
+    throw Error(ErrorKind::kBadInput, {layout_.odometry},
+                "holds no poses: there is nothing to run on");
+  }
+  const bool is_vins = odometry.format == PoseFormat::kVinsCsv;
+  out_.up_axis = info_.up_axis.value_or(is_vins ? Vec3(0, 0, 1) : Vec3(0, -1, 0));
+  if (is_vins) Warn(layout_.odometry + ": VINS-Fusion csv; its poses are taken as the camera's");
+  const bool has_stamps = odometry.format != PoseFormat::kKitti;
+  std::vector<double> stamps = odometry.trajectory.stamps;
+  std::vector<Pose> poses = odometry.trajectory.poses;
+  if (!layout_.times.empty()) {
+    stamps = layout_.read_times(layout_.times);
+    if (stamps.empty())
+      throw Error(ErrorKind::kBadInput, {layout_.times},
+                  "holds no stamps: fill or remove the file");
+    if (has_stamps) {
+      poses = PosesAt(stamps, odometry.trajectory, layout_.odometry);
+      const std::vector<double>& given = odometry.trajectory.stamps;
+      const auto late = given.end() - std::upper_bound(given.begin(), given.end(),
+                                                       stamps.back() + 0.5 * MedianStep(stamps));
+      if (late > 0)
+        Warn(layout_.odometry + ": " + std::to_string(late) + " poses come after the last of " +
+             layout_.times);
+    } else if (stamps.size() != poses.size()) {
+      throw Error(ErrorKind::kBadInput, {layout_.odometry},
+                  "has " + std::to_string(poses.size()) + " poses, but " + layout_.times + " has " +
+                      std::to_string(stamps.size()) + " stamps: one pose a frame is needed");
+    }
+  } else if (!has_stamps) {
+    for (double& stamp : stamps) stamp *= kKittiFrameStep;
+  }
+  if (const auto warning = GapWarning(stamps)) Warn(*warning);
+  if (layout_.odometry_is_truth) {
+    Warn("no odometry named: the ground truth (" + layout_.odometry + ") is used as odometry");
+  }
+
+  frames_in_file_ = poses.size();
+  const std::size_t limit =
+      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : poses.size();
+  out_.frames.resize(std::min(poses.size(), limit));
+  for (std::size_t i = 0; i < out_.frames.size(); ++i) {
+    out_.frames[i].index = static_cast<int>(i);
+    out_.frames[i].stamp = stamps[i];
+    out_.frames[i].T_odom_cam = poses[i];
+  }
+}
+
+void DatasetLoader::AddFramesWithoutPoses() {
+  // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
+  out_.up_axis = Vec3(0, -1, 0);
+  std::vector<double> stamps;
+  if (!layout_.times.empty()) {
+    stamps = layout_.read_times(layout_.times);
+  } else if (!layout_.images.empty()) {
+    for (int i = 0; i < FramesOfImages(layout_.images); ++i) stamps.push_back(kKittiFrameStep * i);
+  }
+  if (stamps.empty())
+    throw Error(ErrorKind::kBadInput, {request_.path},
+                "no frames: odometry from images needs times.txt or a folder of left images "
+                "(image_2, or image_0)");
+  if (const auto warning = GapWarning(stamps)) Warn(*warning);
+  frames_in_file_ = stamps.size();
+  const std::size_t limit =
+      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : stamps.size();
+  out_.frames.resize(std::min(stamps.size(), limit));
+  for (std::size_t i = 0; i < out_.frames.size(); ++i) {
+    out_.frames[i].index = static_cast<int>(i);
+    out_.frames[i].stamp = stamps[i];
+  }
+}
+
+void DatasetLoader::WarnOfMoreImages() {
+  const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_);
+  if (more == 0) return;
+  const std::string count = std::to_string(frames_in_file_);
+  Warn((layout_.times.empty() ? layout_.odometry + ": has " + count + " poses"
+                              : layout_.times + ": has " + count + " stamps") +
+       ", and " + layout_.images + " " + std::to_string(more) + " more images; they are left out");
+}
+
+void DatasetLoader::AddDetections() {
+  out_.detections_path = layout_.detections;
+  DetectionFile file;
+  if (IsTracklets(layout_.detections)) {
+    if (!calibration_.T_cam_velo) {
+      throw Error(ErrorKind::kBadInput, {layout_.detections},
+                  "tracklets are in the lidar's frame: add calib_cam_to_cam.txt and "
+                  "calib_velo_to_cam.txt to the drive or "
+                  "the folder above it");
+    }
+    file.by_frame = TrackletDetections(ReadTracklets(layout_.detections), *calibration_.T_cam_velo);
+    for (const auto& [frame, detections] : file.by_frame)
+      file.rows += static_cast<int>(detections.size());
+    Warn("the detections are the drive's hand-labelled tracklets (" + layout_.detections + ")");
+  } else {
+    file = ReadDetections(layout_.detections, request_.detection_options);
+  }
+  out_.rows_read = file.rows;
+  out_.rows_dropped = file.dropped;
+  out_.rows_dont_care = file.dont_care;
+  out_.warnings.insert(out_.warnings.end(), file.warnings.begin(), file.warnings.end());
+
+  for (auto& [frame, detections] : file.by_frame) {
+    if (static_cast<std::size_t>(frame) >= frames_in_file_)
+      out_.rows_beyond_end += static_cast<int>(detections.size());
+    if (static_cast<std::size_t>(frame) < out_.frames.size())
+      out_.frames[frame].detections = std::move(detections);
+  }
+  if (file.by_frame.empty())
+    Warn(layout_.detections + " holds no detections that can be used: the map will be empty");
+  if (out_.rows_beyond_end > 0) {
+    Warn(layout_.detections + ": dropped " + std::to_string(out_.rows_beyond_end) +
+         " detections of frames after the last pose (" + std::to_string(frames_in_file_ - 1) + ")");
+  }
+  AddAppearance();
+  CheckLabels();
+}
+
+int DatasetLoader::AddVectors(const std::string& path, std::vector<float> Detection::*vector) {
+  if (path.empty()) return 0;
+  const NpyMatrix matrix = ReadNpy(path);
+  if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
+    throw Error(ErrorKind::kBadInput, {path},
+                "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections +
+                    " has " + std::to_string(out_.rows_read) +
+                    ": one row a detection row is needed");
+  }
+  int unusable = 0;
+  for (Frame& frame : out_.frames) {
+    for (Detection& detection : frame.detections) {
+      const float* row = matrix.Row(static_cast<std::size_t>(detection.row));
+      double squares = 0;
+      for (std::size_t i = 0; i < matrix.columns; ++i) squares += double(row[i]) * row[i];
+      if (!(std::isfinite(squares) && squares > 0)) {
+        ++unusable;
+        continue;
+      }
+      (detection.*vector).assign(row, row + matrix.columns);
+      for (float& value : detection.*vector) value = static_cast<float>(value / std::sqrt(squares));
+    }
+  }
+  return unusable;
+}
+
+void DatasetLoader::AddAppearance() {
+  if (const int unusable = AddVectors(layout_.embeddings, &Detection::embedding)) {
+    Warn(layout_.embeddings + ": left out " + std::to_string(unusable) +
+         " embedding(s) that are zero or not finite");
+  }
+  // A gap would be filled from the image, with a vector of another kind.
+  if (const int unusable = AddVectors(layout_.colours, &Detection::colour)) {
+    throw Error(ErrorKind::kBadInput, {layout_.colours},
+                std::to_string(unusable) +
+                    " colour vector(s) are zero or not finite: give every detection its colour, " +
+                    "or remove the file");
+  }
+}
+
+/// A label that sequence.yaml forgets is most likely misspelt in one of the two files.
+void DatasetLoader::CheckLabels() {
+  if (out_.labels.entries().empty()) return;
+  std::set<std::string> unknown;
+  for (const Frame& frame : out_.frames) {
+    for (const Detection& detection : frame.detections) {
+      if (out_.labels.entries().count(detection.label) == 0) unknown.insert(detection.label);
+    }
+  }
+  if (unknown.empty()) return;
+  Warn(layout_.sequence_yaml + ": not among its labels: " + Join({unknown.begin(), unknown.end()}) +
+       "; taken as symmetry none");
+}
+
+void DatasetLoader::AddGroundtruth() {
+  if (layout_.groundtruth.empty()) return;
+  if (request_.groundtruth.empty() && IsOxts(layout_.groundtruth) && !calibration_.HasImu()) {
+    Warn(layout_.groundtruth +
+         ": not used as ground truth, the calibration does not lead from IMU to camera");
+    return;
+  }
+  PoseFile file = ReadPoses(layout_.groundtruth, calibration_);
+  Trajectory& trajectory = file.trajectory;
+  if (file.format == PoseFormat::kKitti) {
+    if (trajectory.size() != frames_in_file_) {
+      Warn(layout_.groundtruth + ": " + std::to_string(trajectory.size()) +
+           " ground-truth poses for " + std::to_string(frames_in_file_) +
+           " frames; row i is taken as frame i");
+    }
+    trajectory.poses.resize(std::min(trajectory.size(), out_.frames.size()));
+    trajectory.stamps.clear();
+    for (std::size_t i = 0; i < trajectory.size(); ++i)
+      trajectory.stamps.push_back(out_.frames[i].stamp);
+  }
+  out_.groundtruth = std::move(trajectory);
+  out_.groundtruth_path = layout_.groundtruth;
+}
+
+}  // namespace
+
+Dataset LoadDataset(const DatasetRequest& request) { return DatasetLoader(request).Load(); }
+
+}  // namespace sslcd

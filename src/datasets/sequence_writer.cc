@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/datasets/sequence_writer.h"
+
+#include <algorithm>
+
+#include "datasets/sequence_yaml.h"
+#include "datasets/stamps.h"
+#include "sslcd/core/error.h"
+#include "sslcd/formats/atomic_file.h"
+#include "sslcd/formats/calib.h"
+#include "sslcd/formats/detections.h"
+#include "sslcd/formats/npy.h"
+#include "sslcd/formats/poses.h"
+
+namespace sslcd {
+namespace {
+
+using Detections = std::vector<std::vector<Detection>>;
+
+std::string SequenceYaml(const SequenceFiles& files) {
+  SequenceInfo info;
+  info.up_axis = files.up_axis;
+  if (files.camera) {
+    info.image_width = files.camera->left.width;
+    info.image_height = files.camera->left.height;
+  }
+  info.labels = files.labels;
+  return (files.comment.empty() ? "" : "# " + files.comment + "\n") + SequenceYamlText(info);
+}
+
+/// One row a detection; empty where none has such a vector, or where all should have one and some
+/// have not.
+std::string Npy(const Detections& detections, std::vector<float> Detection::*vector, bool all) {
+  NpyMatrix matrix;
+  bool gaps = false;
+  for (const auto& frame : detections) {
+    for (const Detection& detection : frame) {
+      matrix.columns = std::max(matrix.columns, (detection.*vector).size());
+      gaps = gaps || (detection.*vector).empty();
+    }
+  }
+  if (matrix.columns == 0 || (all && gaps)) return "";
+  for (const auto& frame : detections) {
+    for (const Detection& detection : frame) {
+      const std::vector<float>& row = detection.*vector;
+      matrix.values.insert(matrix.values.end(), row.begin(), row.end());
+      matrix.values.resize(++matrix.rows * matrix.columns, 0.f);
+    }
+  }
+  return NpyBytes(matrix);
+}
+
+}  // namespace
+
+void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files) {
+  std::vector<std::pair<std::string, std::string>> written;
+  std::vector<std::filesystem::path> removed;  // what is left from before would be of other frames
+  const auto write = [&](const char* name, const std::string& text) {
+    written.emplace_back((folder / name).string(), text);
+  };
+  const auto write_or_remove = [&](const char* name, const std::string& bytes) {
+    if (bytes.empty())
+      removed.push_back(folder / name);
+    else
+      write(name, bytes);
+  };
+  write_or_remove("calib.txt", files.camera ? CalibrationText(*files.camera) : "");
+  write("times.txt", TimesText(files.odometry.stamps));
+  write("odometry.txt", TumText(files.odometry));
+  write_or_remove("groundtruth.txt", files.groundtruth ? TumText(*files.groundtruth) : "");
+  write("detections.txt", DetectionsText(files.detections));
+  write("sequence.yaml", SequenceYaml(files));
+  write_or_remove("embeddings.npy", Npy(files.detections, &Detection::embedding, false));
+  write_or_remove("colours.npy", Npy(files.detections, &Detection::colour, true));
+  if (!files.config_yaml.empty()) write("config.yaml", files.config_yaml);
+  WriteFilesAtomically(written);
+  for (const std::filesystem::path& path : removed) {
+    std::error_code error;
+    std::filesystem::remove(path, error);
+    if (error)
+      throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
+  }
+}
+
+void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
+  MakeWritableFolder(folder.string());
+  std::error_code error;
+  const bool empty = std::filesystem::is_empty(folder, error);
+  if (error)
+    throw Error(ErrorKind::kOutput,
+                folder.string() + ": " + error.message() + "; choose another folder");
+  if (!overwrite && !empty)
+    throw Error(
+        ErrorKind::kUsage,
+        folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+}
+
+}  // namespace sslcd

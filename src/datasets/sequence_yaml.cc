@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "datasets/sequence_yaml.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <set>
+
+#include "formats/number_text.h"
+#include "sslcd/core/error.h"
+#include "sslcd/formats/text_rows.h"
+
+namespace sslcd {
+namespace {
+
+class SequenceYamlReader {
+ public:
+  explicit SequenceYamlReader(const std::string& path) : path_(path) {}
+
+  SequenceInfo Read() const {
+    SequenceInfo info;
+    YAML::Node root;
+    try {
+      root = YAML::Load(ReadFileBytes(path_));
+    } catch (const YAML::Exception& error) {
+      Fail(error.mark, error.msg);
+    }
+    if (root.IsNull()) return info;
+    CheckKeys(root, {"up_axis", "image_size_px", "labels"});
+    if (root["up_axis"]) info.up_axis = UpAxis(root["up_axis"]);
+    if (root["image_size_px"]) ReadImageSize(root["image_size_px"], info);
+    if (root["labels"]) info.labels = Labels(root["labels"]);
+    return info;
+  }
+
+ private:
+  [[noreturn]] void Fail(const YAML::Mark& mark, const std::string& message) const {
+    throw Error(ErrorKind::kBadInput, {path_, mark.line + 1, mark.column + 1}, message);
+  }
+
+  /// A mapping with no key twice (yaml-cpp would keep both silently) and, unless `known` is empty,
+  /// only known ones.
+  void CheckKeys(const YAML::Node& node, const std::set<std::string>& known) const {
+    if (!node.IsMap()) Fail(node.Mark(), "expected a mapping 'key: value'");
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    std::set<std::string> seen;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) Fail(entry.first.Mark(), "expected a plain key");
+      const std::string key = entry.first.Scalar();
+      if (!seen.insert(key).second) Fail(entry.first.Mark(), "duplicate key '" + key + "'");
+      if (!known.empty() && known.count(key) == 0) {
+        Fail(entry.first.Mark(), "unknown key '" + key + "'; known here: " + names);
+      }
+    }
+  }
+
+  double Number(const YAML::Node& node, const std::string& key) const {
+    const auto value = node.IsScalar() ? ParseNumber(node.Scalar()) : std::nullopt;
+    if (!value) Fail(node.Mark(), key + ": expected a number");
+    return *value;
+  }
+
+  Vec3 UpAxis(const YAML::Node& node) const {
+    if (!node.IsSequence() || node.size() != 3)
+      Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
+    const Vec3 up(Number(node[0], "up_axis"), Number(node[1], "up_axis"),
+                  Number(node[2], "up_axis"));
+    if (!(up.allFinite() && up.norm() > 1e-6))
+      Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
+    return up.normalized();
+  }
+
+  void ReadImageSize(const YAML::Node& node, SequenceInfo& info) const {
+    if (!node.IsSequence() || node.size() != 2)
+      Fail(node.Mark(), "image_size_px: expected width and height, like [1242, 375]");
+    const double width = Number(node[0], "image_size_px"),
+                 height = Number(node[1], "image_size_px");
+    for (const double side : {width, height})
+      if (!(side >= 1 && side <= 1e5 && side == std::floor(side)))
+        Fail(node.Mark(), "image_size_px: expected whole numbers of pixels, like [1242, 375]");
+    info.image_width = static_cast<int>(width);
+    info.image_height = static_cast<int>(height);
+  }
+
+  LabelTable Labels(const YAML::Node& node) const {
+    CheckKeys(node, {});
+    LabelTable labels;
+    for (const auto& entry : node) {
+      CheckKeys(entry.second, {"symmetry"});
+      LabelInfo info;
+      if (const YAML::Node symmetry = entry.second["symmetry"]) {
+        const auto parsed = symmetry.IsScalar() ? ParseSymmetry(symmetry.Scalar()) : std::nullopt;
+        if (!parsed) Fail(symmetry.Mark(), "symmetry: expected none, pi or full");
+        info.symmetry = *parsed;
+      }
+      labels.Set(entry.first.Scalar(), info);
+    }
+    return labels;
+  }
+
+  std::string path_;
+};
+
+}  // namespace
+
+SequenceInfo ReadSequenceYaml(const std::string& path) { return SequenceYamlReader(path).Read(); }
+
+std::string SequenceYamlText(const SequenceInfo& info) {
+  std::string text;
+  if (info.up_axis)
+    text += FormatNumbers("up_axis: [%.9g, %.9g, %.9g]\n", info.up_axis->x(), info.up_axis->y(),
+                          info.up_axis->z());
+  if (info.image_width > 0)
+    text += FormatNumbers("image_size_px: [%d, %d]\n", info.image_width, info.image_height);
+  if (!info.labels.entries().empty()) text += "labels:\n";
+  for (const auto& [label, of_label] : info.labels.entries())
+    text += "  " + label + ": {symmetry: " + ToString(of_label.symmetry) + "}\n";
+  return text;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/config/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sslcd/core/error.h"
+
+namespace sslcd {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Loop {
+  double topology_m = 5;
+  int neighbours = 3;
+};
+void DescribeFields(FieldVisitor& v, Loop& loop) {
+  v.Real("topology_m", loop.topology_m, 0, 10, "how far neighbours are");
+  v.Integer("neighbours", loop.neighbours, 1, 20, "K");
+}
+struct Lists {
+  std::vector<double> weights{1, 2};
+  std::map<int, std::string> names{{3, "three"}};
+};
+void DescribeFields(FieldVisitor& v, Lists& lists) {
+  v.Numbers("weights", lists.weights, 0, 10, "how much each counts");
+  v.Names("names", lists.names, "who is who");
+}
+Describe Of(Lists& lists) {
+  return [&lists](FieldVisitor& v) { DescribeFields(v, lists); };
+}
+struct Root {
+  enum class Mode { kFast, kSafe } mode = Mode::kFast;
+  bool on = true;
+  std::string name = "it's";
+  Loop loop;
+};
+void DescribeFields(FieldVisitor& v, Root& root) {
+  v.Enum("mode", root.mode, {"fast", "safe"}, "how");
+  v.Flag("on", root.on, "whether");
+  v.Text("name", root.name, "who");
+  v.Nested("loop", root.loop, "loops");
+}
+Describe Of(Root& root) {
+  return [&root](FieldVisitor& v) { DescribeFields(v, root); };
+}
+
+std::string ErrorOf(const std::string& yaml) {
+  Root root;
+  try {
+    LoadConfigText(yaml, "c.yaml", Of(root));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadConfig);
+    EXPECT_EQ(root.loop.topology_m, 5) << "a bad file must change nothing";
+    EXPECT_EQ(root.loop.neighbours, 3);
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Config, LoadsWhatIsThereAndKeepsTheRest) {
+  Root root;
+  LoadConfigText("mode: safe\nloop:\n  topology_m: 2.5\n", "c.yaml", Of(root));
+  EXPECT_EQ(root.mode, Root::Mode::kSafe);
+  EXPECT_EQ(root.loop.topology_m, 2.5);
+  EXPECT_EQ(root.loop.neighbours, 3);
+  LoadConfigText("", "c.yaml", Of(root));
+  LoadConfigText("loop:\n", "c.yaml", Of(root));
+  EXPECT_EQ(root.loop.topology_m, 2.5);
+}
+
+TEST(Config, UnknownKeysAreSuggestedWithTheirPlace) {
+  EXPECT_EQ(ErrorOf("on: true\nloop:\n  topolgy_m: 3\n"),
+            "c.yaml:3:3: unknown key 'topolgy_m' in 'loop' - did you mean 'topology_m'?");
+  EXPECT_EQ(ErrorOf("quite_else: 3\n"), "c.yaml:1:1: unknown key 'quite_else'");
+}
+
+TEST(Config, AllProblemsAtOnce) {
+  const std::string text =
+      ErrorOf("mode: slow\non: 1\nloop: {topology_m: 11, neighbours: 3.0, neighbours: 4}\n");
+  EXPECT_THAT(text, HasSubstr("c.yaml:1:7: 'mode' is 'slow', must be one of fast, safe"));
+  EXPECT_THAT(text, HasSubstr("c.yaml:2:5: 'on' is '1', must be true or false"));
+  EXPECT_THAT(text, HasSubstr("c.yaml:3:20: 'topology_m' is 11, must be in [0, 10]"));
+  EXPECT_THAT(text, HasSubstr("duplicate key 'neighbours' in 'loop'"));
+  EXPECT_THAT(text, HasSubstr("'neighbours' is '3.0', must be a whole number"));
+}
+
+TEST(Config, WrongTypesAndSyntax) {
+  EXPECT_THAT(ErrorOf("loop: {topology_m: two}\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(ErrorOf("loop: {topology_m: [1]}\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(ErrorOf("loop: {topology_m: }\n"), HasSubstr("is nothing, must be a number"));
+  EXPECT_THAT(ErrorOf("loop: {topology_m: .nan}\n"), HasSubstr("must be"));
+  EXPECT_THAT(ErrorOf("loop: {topology_m: nan}\n"), HasSubstr("must be in [0, 10]"));
+  EXPECT_THAT(ErrorOf("loop: 5\n"), HasSubstr("'loop' is a section"));
+  EXPECT_THAT(ErrorOf("- 1\n- 2\n"), HasSubstr("expected a map"));
+  EXPECT_THAT(ErrorOf("on: true\nloop: {a: [}\n"), HasSubstr("c.yaml:2:"));
+}
+
+TEST(Config, SettingsNameThemselves) {
+  Root root;
+  ApplySettings({"loop.topology_m=3", "mode=safe", "name=a=b"}, Of(root));
+  EXPECT_EQ(root.loop.topology_m, 3);
+  EXPECT_EQ(root.mode, Root::Mode::kSafe);
+  EXPECT_EQ(root.name, "a=b");
+  try {
+    ApplySettings({"loop.neighbours=7", "loop.topolgy_m=3", "nonsense", "on=maybe"}, Of(root));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("--set loop.topolgy_m=3: unknown key 'topolgy_m' in 'loop' - did you mean"));
+    EXPECT_THAT(error.what(), HasSubstr("--set nonsense: expected key=value"));
+    EXPECT_THAT(error.what(), HasSubstr("--set on=maybe: 'on' is 'maybe'"));
+  }
+  EXPECT_EQ(root.loop.neighbours, 3) << "one bad setting, and none is applied";
+}
+
+TEST(Config, DumpLoadsBackToTheBit) {
+  Root root;
+  root.loop.topology_m = 0.1 + 0.2;
+  root.mode = Root::Mode::kSafe;
+  for (const bool comments : {false, true}) {
+    Root loaded;
+    LoadConfigText(DumpConfig(Of(root), comments), "dump", Of(loaded));
+    EXPECT_EQ(loaded.loop.topology_m, root.loop.topology_m);
+    EXPECT_EQ(loaded.mode, root.mode);
+    EXPECT_EQ(loaded.name, "it's");
+  }
+}
+
+TEST(Config, ReferenceNamesEveryKey) {
+  Root root;
+  const std::string text = ConfigReference(Of(root));
+  EXPECT_THAT(text, HasSubstr("| `topology_m` | number | 5 | 0 .. 10 | how far neighbours are |"));
+  EXPECT_THAT(text, HasSubstr("## `loop`"));
+}
+
+TEST(Config, ListsAndNames) {
+  Lists lists;
+  LoadConfigText("weights: [0.5, 3e0, 10]\nnames: {0: a, 12: 'b c'}\n", "c.yaml", Of(lists));
+  EXPECT_EQ(lists.weights, (std::vector<double>{0.5, 3, 10}));
+  EXPECT_EQ(lists.names, (std::map<int, std::string>{{0, "a"}, {12, "b c"}}));
+  Lists again;
+  LoadConfigText(DumpConfig(Of(lists), true), "dump", Of(again));
+  EXPECT_EQ(again.weights, lists.weights);
+  EXPECT_EQ(again.names, lists.names);
+  LoadConfigText("weights: []\nnames: {}\n", "c.yaml", Of(lists));
+  EXPECT_TRUE(lists.weights.empty() && lists.names.empty());
+  EXPECT_THAT(ConfigReference(Of(again)),
+              HasSubstr("| `weights` | numbers | [0.5, 3, 10] | 0 .. 10 | how much"));
+}
+
+TEST(Config, BadListsAndNames) {
+  Lists lists;
+  const auto error_of = [&lists](const std::string& yaml) -> std::string {
+    try {
+      LoadConfigText(yaml, "c.yaml", Of(lists));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of("weights: 3"),
+            "c.yaml:1:10: 'weights' is '3', must be a list of numbers, e.g. [1, 2]");
+  EXPECT_EQ(error_of("weights: [1, 11]"), "c.yaml:1:14: 'weights' is 11, must be in [0, 10]");
+  EXPECT_THAT(error_of("weights: [1, [2]]"), HasSubstr("c.yaml:1:14: 'weights' is a list or map"));
+  EXPECT_THAT(error_of("weights: [1, .nan]"), HasSubstr("must be"));
+  EXPECT_THAT(error_of("names: [a]"),
+              HasSubstr("must be names by number, e.g. {2: Car, 7: Truck}"));
+  EXPECT_THAT(error_of("names: {-1: a}"),
+              HasSubstr("'names' has '-1', must be a whole number >= 0"));
+  EXPECT_THAT(error_of("names: {1: [a]}"), HasSubstr("must be names by number"));
+  EXPECT_THAT(error_of("names: {1: a, 01: b}"), HasSubstr("duplicate number 01 in 'names'"));
+  EXPECT_EQ(lists.weights, (std::vector<double>{1, 2})) << "a bad file must change nothing";
+}
+
+TEST(Config, MissingFile) {
+  Root root;
+  EXPECT_THROW(LoadConfigFile("/nowhere/c.yaml", Of(root)), Error);
+}
+
+}  // namespace
+}  // namespace sslcd

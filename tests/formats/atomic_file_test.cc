@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/formats/atomic_file.h"
+
+#include "sslcd/formats/text_rows.h"
+#include "temp_folder.h"
+
+namespace sslcd {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(AtomicFile, AFullDiskLeavesTheOldFileAlone) {
+  const TempFolder folder;
+  EXPECT_THROW(WriteFileAtomically("/dev/full", "text"), Error);
+  EXPECT_TRUE(fs::is_character_file("/dev/full")) << "a device must not be renamed away";
+  WriteFileAtomically(folder.In("file"), "old");
+  fs::create_directory(folder.In("file2"));
+  EXPECT_THROW(WriteFileAtomically(folder.In("file2"), "new"), Error);
+  EXPECT_THROW(WriteFileAtomically(folder.In("file/below"), "new"), Error);
+  EXPECT_EQ(ReadFileBytes(folder.In("file")), "old");
+}
+
+TEST(AtomicFile, OfSeveralFilesAllAreWrittenOrNone) {
+  const TempFolder folder;
+  fs::create_directory(folder.In("folder"));
+  WriteFileAtomically(folder.In("a"), "old");
+  EXPECT_THROW(WriteFilesAtomically({{folder.In("a"), "new"}, {folder.In("folder"), "new"}}),
+               Error);
+  EXPECT_THROW(WriteFilesAtomically({{folder.In("a"), "new"}, {folder.In("none/b"), "new"}}),
+               Error);
+  EXPECT_EQ(ReadFileBytes(folder.In("a")), "old");
+  WriteFilesAtomically({{folder.In("a"), "new"}, {folder.In("b"), "too"}});
+  EXPECT_EQ(ReadFileBytes(folder.In("a")), "new");
+  EXPECT_EQ(ReadFileBytes(folder.In("b")), "too");
+  for (const auto& entry : fs::directory_iterator(folder.In("")))
+    EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::HasSubstr("tmp")))
+        << "nothing is left behind";
+}
+
+TEST(AtomicFile, FoldersThatCannotBe) {
+  const TempFolder folder;
+  WriteFileAtomically(folder.In("file"), "x");
+  try {
+    MakeWritableFolder(folder.In("file/run"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kOutput);
+    EXPECT_THAT(error.what(), testing::HasSubstr("file/run: cannot be written"));
+  }
+  EXPECT_THROW(MakeWritableFolder("/proc/sslcd"), Error);
+}
+
+}  // namespace
+}  // namespace sslcd
