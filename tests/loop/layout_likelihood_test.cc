@@ -304,20 +304,26 @@ TEST(LayoutLikelihood, BeyondTheRimOfTheMapNothingIsUnmapped) {
       << "among mapped objects";
 }
 
+// Far beyond the rim on any side nothing is unmapped; right beside the mapped objects it is.
 TEST(LayoutLikelihood, WhereTheMapEndsIsAskedUnderThePose) {
-  const YawShift pose{M_PI / 2, {100, 0, 0}};
-  std::vector<LayoutObject> map = Square();
+  const YawShift pose{0.7, {100, 40, 0}};
+  const Vec3 corner(200, 300, 0);  // of the square in the local frame
+  std::vector<LayoutObject> square = Square();
+  for (LayoutObject& object : square) object.position += corner;
+  std::vector<LayoutObject> map = square;
   for (LayoutObject& object : map) object.position = Apply(pose, object.position);
-  std::vector<LayoutObject> local = Square();
   const LayoutIndex index(map, 50, 2);
   LayoutLikelihoodOptions options;
   options.leave_map = true;
-  const double score = LayoutLikelihood(local, index, options).Evaluate(pose).score;
-  local.push_back(ObjectAt({60, 5, 0}));
-  EXPECT_NEAR(LayoutLikelihood(local, index, options).Evaluate(pose).score, score, 1e-9);
-  local.back().position = {5, 18, 0};
-  EXPECT_LT(LayoutLikelihood(local, index, options).Evaluate(pose).score, score - 0.1)
-      << "next to mapped objects";
+  const auto score_with = [&](const std::vector<Vec3>& more) {
+    std::vector<LayoutObject> local = square;
+    for (const Vec3& position : more) local.push_back(ObjectAt(corner + position));
+    return LayoutLikelihood(local, index, options).Evaluate(pose).score;
+  };
+  for (const Vec3& away : {Vec3(60, 5, 0), Vec3(-50, 5, 0), Vec3(5, 60, 0), Vec3(5, -50, 0)})
+    EXPECT_NEAR(score_with({away}), score_with({}), 1e-9) << away.transpose();
+  for (const Vec3& beside : {Vec3(15, 5, 0), Vec3(-5, 5, 0), Vec3(5, 15, 0), Vec3(5, -5, 0)})
+    EXPECT_LT(score_with({beside}), score_with({}) - 0.1) << beside.transpose();
 }
 
 TEST(LayoutLikelihood, RefiningAnExactLayoutEndsAtItsPose) {
