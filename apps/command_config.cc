@@ -38,9 +38,13 @@ void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, Configuration& configuration) {
+  visitor.Enum("mode", configuration.mode, {"robust", "paper"},
+               "which defaults: robust, or the paper's equations as printed");
   DescribeFields(visitor, configuration.options);
   visitor.Nested("vision", configuration.vision, "frames from images: detections and odometry");
 }
+
+Mode ParseMode(const std::string& name) { return name == "paper" ? Mode::kPaper : Mode::kRobust; }
 
 void ConfigArguments::AddTo(CLI::App& command) {
   command.add_option("--config", file, "YAML file; what it does not name keeps its default");
@@ -57,20 +61,19 @@ void ConfigArguments::ApplyTo(Configuration& all) const {
   }
   ApplySettings(settings, Fields(all));
   ResolvePaths(fs::current_path(), all.vision);
-  if (!mode.empty())
-    all.options.mode = mode == "paper" ? Options::Mode::kPaper : Options::Mode::kRobust;
+  if (!mode.empty()) all.mode = ParseMode(mode);
 }
 
 Configuration ConfigArguments::Load() const {
-  Configuration all{DefaultOptions(Options::Mode::kRobust), VisionOptions()};
+  Configuration all;
   ApplyTo(all);
   // The mode decides the defaults that the file and the settings then change, wherever it is named.
-  return all.options.mode == Options::Mode::kRobust ? all : LoadOver(all.options.mode, {});
+  return all.mode == Mode::kRobust ? all : LoadOver(all.mode, {});
 }
 
-Configuration ConfigArguments::LoadOver(Options::Mode defaults,
+Configuration ConfigArguments::LoadOver(Mode defaults,
                                         const std::function<void(Configuration&)>& adapt) const {
-  Configuration all{DefaultOptions(defaults), VisionOptions()};
+  Configuration all{defaults, DefaultOptions(defaults), VisionOptions()};
   if (adapt) adapt(all);
   ApplyTo(all);
   return all;

@@ -4,21 +4,50 @@
 #include <memory>
 
 #include "commands.h"
+#include "sslcd/config/config.h"
 #include "sslcd/core/for_each.h"
 #include "sslcd/formats/atomic_file.h"
 #include "sslcd/formats/pairs.h"
-#include "sslcd/loop/decision.h"
+#include "sslcd/loop/layout_match.h"
 #include "sslcd/loop/paper_match.h"
 #include "threads.h"
 
 namespace sslcd::apps {
 namespace {
 
+// What `match` reads of a configuration; the other keys of a run mean nothing to it and are
+// refused.
+struct MatchConfiguration {
+  Mode mode = Mode::kRobust;
+  LayoutMatchOptions match;
+  PaperMatchOptions paper;
+  SingleLookOptions decision;
+};
+
+void DescribeFields(FieldVisitor& visitor, MatchConfiguration& configuration) {
+  visitor.Enum("mode", configuration.mode, {"robust", "paper"},
+               "robust, or the paper's two stages as printed");
+  visitor.Section("loop", "the keys that a run has too", [&](FieldVisitor& loop) {
+    loop.Nested("match", configuration.match, "layout matching (paper IV-B, IV-C)");
+    loop.Nested("paper", configuration.paper, "the matching of mode: paper");
+  });
+  visitor.Nested("decision", configuration.decision, "when the best pose is accepted");
+}
+
 struct MatchArguments {
   std::string pairs, out;
   ConfigArguments config;
   int threads = 1;
 };
+
+MatchConfiguration Load(const ConfigArguments& arguments) {
+  MatchConfiguration all;
+  const Describe fields = [&all](FieldVisitor& visitor) { DescribeFields(visitor, all); };
+  if (!arguments.file.empty()) LoadConfigFile(arguments.file, fields);
+  ApplySettings(arguments.settings, fields);
+  if (!arguments.mode.empty()) all.mode = ParseMode(arguments.mode);
+  return all;
+}
 
 // A row of the answers.
 struct Answer {
@@ -29,9 +58,10 @@ struct Answer {
   double ms = 0;
 };
 
-Answer MatchRobust(const LayoutPair& pair, const LayoutMatchOptions& options) {
+Answer MatchRobust(const LayoutPair& pair, const MatchConfiguration& configuration) {
+  const LayoutMatchOptions& options = configuration.match;
   const LayoutIndex index(pair.global, options.max_pair_m, options.reach_m);
-  const LayoutAnswer found = MatchLayouts(pair.local, index, options);
+  const LayoutAnswer found = MatchLayouts(pair.local, index, options, configuration.decision);
   Answer answer{found.decision, {}, found.score, found.second_score};
   if (!found.hypotheses.empty()) {
     answer.pose = found.hypotheses[0].pose;
@@ -57,20 +87,22 @@ Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
   return answer;
 }
 
-Answer TimedMatch(const LayoutPair& pair, const Options& options) {
+Answer TimedMatch(const LayoutPair& pair, const MatchConfiguration& configuration) {
   const auto start = std::chrono::steady_clock::now();
-  Answer answer = options.mode == Options::Mode::kPaper ? MatchPaper(pair, options.loop.paper)
-                                                        : MatchRobust(pair, options.loop.match);
+  Answer answer = configuration.mode == Mode::kPaper ? MatchPaper(pair, configuration.paper)
+                                                     : MatchRobust(pair, configuration);
   answer.ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return answer;
 }
 
-std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Options& options,
-                             int threads, const Console& console) {
+std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs,
+                             const MatchConfiguration& configuration, int threads,
+                             const Console& console) {
   std::vector<Answer> answers(pairs.size());
   ForEach(
-      pairs.size(), threads, [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], options); },
+      pairs.size(), threads,
+      [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], configuration); },
       [&](int done, int total) { console.Progress("pair", done, total); });
   console.EndProgress();
   return answers;
@@ -90,9 +122,9 @@ std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>&
 }
 
 int Match(const MatchArguments& a, const Console& console) {
-  const Options options = a.config.Load().options;
+  const MatchConfiguration configuration = Load(a.config);
   const std::vector<LayoutPair> pairs = ReadLayoutPairs(a.pairs);
-  const std::vector<Answer> answers = MatchAll(pairs, options, a.threads, console);
+  const std::vector<Answer> answers = MatchAll(pairs, configuration, a.threads, console);
   if (a.out.empty()) {
     std::fputs(Csv(pairs, answers).c_str(), stdout);
     return 0;

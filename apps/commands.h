@@ -26,10 +26,15 @@ Command AddVersionCommand(CLI::App& app);
 /// Everything a configuration file may hold: the library's options and, in `vision`, how frames
 /// come from images.
 struct Configuration {
+  /// the preset that was taken; the other options may differ from it
+  Mode mode = Mode::kRobust;
   Options options;
   VisionOptions vision;
 };
 void DescribeFields(FieldVisitor& visitor, Configuration& configuration);
+
+/// "robust" or "paper".
+Mode ParseMode(const std::string& name);
 
 /// --config, --mode and --set, shared by several subcommands.
 struct ConfigArguments {
@@ -42,8 +47,7 @@ struct ConfigArguments {
   /// that it can be written anywhere. Throws Error(kBadConfig).
   Configuration Load() const;
   /// The same over other defaults: those of `mode`, as `adapt` changes them.
-  Configuration LoadOver(Options::Mode mode,
-                         const std::function<void(Configuration&)>& adapt) const;
+  Configuration LoadOver(Mode mode, const std::function<void(Configuration&)>& adapt) const;
   /// Throws Error(kBadInput) with the places looked at where a path of the configuration leads
   /// nowhere.
   void CheckPath(const std::string& path) const;

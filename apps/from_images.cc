@@ -59,8 +59,8 @@ Configuration AdaptToImages(const ConfigArguments& config, const Configuration& 
   if (LiftsBoxes(request, given.vision)) config.CheckPath(given.vision.classes);
   const ImageSource source = InspectImages(request, given.vision, FilesOf(dataset), dataset);
   std::vector<std::string> keys;
-  const Configuration adapted = config.LoadOver(
-      given.options.mode, [&](Configuration& c) { keys = AdaptTo(source, c.options); });
+  const Configuration adapted =
+      config.LoadOver(given.mode, [&](Configuration& c) { keys = AdaptTo(source, c.options); });
   std::string line;
   for (const std::string& key : keys) line += (line.empty() ? "" : ", ") + key;
   if (!line.empty())

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/closing/loop_options.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/median.h"
 #include "sslcd/ground/ground_alignment.h"
-#include "sslcd/pipeline/loop_options.h"
 #include "stereo/stereo_folder.h"
 
 namespace sslcd {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "pipeline/pass_map.h"
-#include "sslcd/loop/decision.h"
+#include "sslcd/loop/layout_match.h"
 #include "sslcd/loop/pose_tracks.h"
 #include "sslcd/sim/random.h"
 

@@ -30,7 +30,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # The code that decides: subject -> source, target and gtest filter of the tests that should notice.
 SUBJECTS = {
-    "decision": [("src/loop/decision.cc", "sslcd_loop_tests", "MatchLayouts*")],
+    "decision": [("src/loop/decision.cc", "sslcd_loop_tests", "Decide*:ApplyGraphVerdict*:IsWithdrawn*:MatchLayouts*"),
+                 ("src/loop/layout_match.cc", "sslcd_loop_tests", "MatchLayouts*")],
     "likelihood": [("src/loop/layout_likelihood.cc", "sslcd_loop_tests",
                     "LayoutLikelihood*:AlignPoints*")],
     "tracks": [("src/loop/pose_tracks.cc", "sslcd_loop_tests", "PoseTracks*")],
@@ -39,7 +40,7 @@ SUBJECTS = {
     "robust": [("src/optim/pose_graph_robust.cc", "sslcd_optim_tests", "Robust*:Warm*:Chi2*")],
     "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],
     "motion": [("src/map/motion_test.cc", "sslcd_map_tests", "MotionTest*")],
-    "fusion": [("src/pipeline/fuse.cc", "sslcd_pipeline_tests", "Fuse*:SeenTogether*:Stretches*")],
+    "fusion": [("src/refine/fuse.cc", "sslcd_refine_tests", "Fuse*:SeenTogether*:PathSegments*")],
 }
 
 SWAPS = {  # binary operators; the house format puts a blank on both sides of them and of no others

@@ -6,7 +6,7 @@
 
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/loop/decision.h"
+#include "sslcd/loop/layout_match.h"
 
 namespace sslcd::benchmark {
 namespace {
@@ -52,7 +52,7 @@ Method Changed(const std::string& key, const std::string& title,
 }  // namespace
 
 std::vector<Method> Methods(const baselines::BaselineOptions& baselines) {
-  const Options as_printed = DefaultOptions(Options::Mode::kPaper);
+  const Options as_printed = DefaultOptions(Mode::kPaper);
   Method paper_unrefined{"paper_unrefined", "the paper as printed, w/o refinement", as_printed};
   paper_unrefined.options.window.enabled = paper_unrefined.options.refine.enabled = false;
   return {
@@ -106,7 +106,7 @@ std::vector<Method> Ablations() {
       Changed("no_lag", "loops tie the newest camera", {"loop.lag_m=0"}),
       Changed("trusting", "no loop is ever refused or taken back by the others",
               {"loop.graph.inlier_probability=0.999999", "loop.graph.drift_factor=1000",
-               "loop.belief.probation_m=1000", "loop.belief.probation_rad=4"}),
+               "loop.acceptance.withdraw_m=1000", "loop.acceptance.withdraw_rad=4"}),
       Changed("paper_association", "association as printed (Eqs. 2 to 6)",
               {"association.method=paper"}),
       Changed("paper_adjustment", "bundle adjustment as printed (Eq. 8)", {"ba.residual=paper"}),

@@ -22,6 +22,13 @@ class KdForest {
   using Point = std::array<Scalar, 3>;
 
   KdForest() { trees_.push_back(std::make_unique<Tree>()); }
+  KdForest(const KdForest& other) {
+    for (const auto& tree : other.trees_) trees_.push_back(tree->Copy());
+  }
+  KdForest& operator=(KdForest other) {
+    trees_.swap(other.trees_);
+    return *this;
+  }
 
   void Add(const Point& point, const Value& value) {
     trees_.back()->Add(point.data(), value);
@@ -76,6 +83,23 @@ class KdForest {
       alive.push_back(true);
     }
 
+    void BuildIndex() {
+      index = std::make_unique<Index>(flann::Matrix<Scalar>(coordinates.data(), values.size(), 3));
+      index->buildIndex();
+    }
+
+    // FLANN's tree refers to the coordinates, so the copy needs one of its own; it comes out the
+    // same.
+    std::unique_ptr<Tree> Copy() const {
+      auto copy = std::make_unique<Tree>();
+      copy->coordinates = coordinates;
+      copy->values = values;
+      copy->alive = alive;
+      copy->dead = dead;
+      if (index) copy->BuildIndex();
+      return copy;
+    }
+
     template <class Visitor>
     void Search(const Scalar* point, Visitor& visitor) const {
       Results<Visitor> results(*this, visitor);
@@ -121,9 +145,7 @@ class KdForest {
       trees_.pop_back();
     }
     if (!merged->values.empty()) {
-      merged->index = std::make_unique<Index>(
-          flann::Matrix<Scalar>(merged->coordinates.data(), merged->values.size(), 3));
-      merged->index->buildIndex();
+      merged->BuildIndex();
       trees_.push_back(std::move(merged));
     }
     trees_.push_back(std::make_unique<Tree>());

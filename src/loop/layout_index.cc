@@ -38,6 +38,32 @@ LayoutIndex::LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, d
   Build();
 }
 
+double LayoutIndex::pose_volume() const {
+  return 2 * M_PI * static_cast<double>(objects_.size()) / density_;
+}
+
+LayoutIndex::LayoutIndex(const LayoutIndex& other)
+    : objects_(other.objects_),
+      points_(other.points_),
+      index_of_(other.index_of_),
+      max_pair_(other.max_pair_),
+      reach_(other.reach_),
+      blocks_(other.blocks_),
+      near_(other.near_),
+      labels_(other.labels_),
+      bins_(other.bins_),
+      pair_start_(other.pair_start_),
+      pairs_(other.pairs_),
+      triangles_(other.triangles_ ? std::make_unique<TriangleIndex>(*other.triangles_) : nullptr),
+      neighbours_(other.neighbours_),
+      height_sum_(other.height_sum_),
+      density_(other.density_),
+      height_spread_(other.height_spread_),
+      label_counts_(other.label_counts_),
+      headings_(other.headings_) {}
+
+LayoutIndex& LayoutIndex::operator=(const LayoutIndex& other) { return *this = LayoutIndex(other); }
+
 LayoutIndex::~LayoutIndex() = default;
 LayoutIndex::LayoutIndex(LayoutIndex&&) noexcept = default;
 LayoutIndex& LayoutIndex::operator=(LayoutIndex&&) noexcept = default;

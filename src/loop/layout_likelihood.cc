@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "loop/convex_hull.h"
 #include "loop/heading_density.h"
+#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {
@@ -26,11 +28,6 @@ double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no)
     return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
   };
   return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
-}
-
-double LogAdd(double a, double b) {
-  const double top = std::max(a, b);
-  return top + std::log(std::exp(a - top) + std::exp(b - top));
 }
 
 bool HasHeading(const LayoutObject& object) {
@@ -272,10 +269,10 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose, true);
   const int in_view = CountInView(pose);
   const int on_map = OnMap(pose);
-  const double searched =
-      2 * M_PI * static_cast<double>(index_.objects().size()) / index_.density();
+  const double searched = index_.pose_volume();
   LayoutFit best;
   best.score = best.evidence = -1e9;
+  const double log_sigmas = std::log(static_cast<double>(std::size(kSigmas)));
   double score = -1e9, evidence = -1e9;
   for (const double sigma : kSigmas) {
     LayoutFit fit = Assign(candidates, in_view, on_map, sigma);
@@ -288,8 +285,8 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
     const double volume =
         std::pow(2 * M_PI, 1.5) * sigma * sigma / std::max(1., n) * sigma / std::sqrt(spread);
     fit.evidence = fit.score + std::log(volume / searched);
-    score = LogAdd(score, fit.score - std::log(4.));
-    evidence = LogAdd(evidence, fit.evidence - std::log(4.));
+    score = LogSumExp({score, fit.score - log_sigmas});
+    evidence = LogSumExp({evidence, fit.evidence - log_sigmas});
     if (fit.score > best.score) best = fit;
   }
   best.score = score;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "sslcd/core/math.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
@@ -93,13 +94,10 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
 }
 
 double PoseTracks::Margin(std::size_t track) const {
-  double top = 0;
+  std::vector<double> rivals = {0.};  // "nowhere" has evidence 0
   for (std::size_t i = 0; i < tracks_.size(); ++i)
-    if (i != track) top = std::max(top, tracks_[i].evidence);
-  double sum = std::exp(-top);  // "nowhere" has evidence 0
-  for (std::size_t i = 0; i < tracks_.size(); ++i)
-    if (i != track) sum += std::exp(tracks_[i].evidence - top);
-  return tracks_[track].evidence - top - std::log(sum);
+    if (i != track) rivals.push_back(tracks_[i].evidence);
+  return tracks_[track].evidence - LogSumExp(rivals);
 }
 
 void PoseTracks::Move(const YawShift& change) {

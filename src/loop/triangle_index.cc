@@ -204,6 +204,9 @@ TriangleIndex::TriangleIndex(const LayoutIndex& index) : state_(std::make_unique
   for (const auto& [labels, triangles] : groups) state_->forests[labels].Build(triangles);
 }
 
+TriangleIndex::TriangleIndex(const TriangleIndex& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
+
 TriangleIndex::~TriangleIndex() = default;
 
 void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {

@@ -40,6 +40,8 @@ std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& p
 class TriangleIndex {
  public:
   explicit TriangleIndex(const LayoutIndex& index);
+  TriangleIndex(const TriangleIndex& other);  ///< O(n log n): its trees are built again
+  TriangleIndex& operator=(const TriangleIndex&) = delete;
   ~TriangleIndex();
 
   /// Follows the index it was made of, whose points at `changed` indices (old ones or new ones) are

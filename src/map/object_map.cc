@@ -322,6 +322,7 @@ void ObjectMap::SetState(LandmarkId id, LandmarkState state) {
 }
 
 void ObjectMap::SetSightings(LandmarkId id, std::vector<Sighting> sightings) {
+  ++rewrites_;
   if (sightings.empty()) {
     index_.Remove(id.value);
     open_.erase(std::remove(open_.begin(), open_.end(), id.value), open_.end());

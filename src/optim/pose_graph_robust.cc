@@ -9,6 +9,7 @@
 #include "optim/pose_graph_cost.h"
 #include "optim/pose_graph_index.h"
 #include "optim/pose_graph_tree.h"
+#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {
@@ -140,16 +141,6 @@ bool KeepConsistent(const PoseGraph& graph, const std::vector<std::pair<int, int
 }
 
 }  // namespace
-
-double Chi2Quantile(double probability, int dof) {
-  double low = -40, high = 40;  // the normal distribution's quantile by bisection
-  for (int i = 0; i < 100; ++i) {
-    const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::sqrt(2.)) < probability ? low : high) = middle;
-  }
-  const double v = 2. / (9. * dof);
-  return dof * std::pow(1 - v + low * std::sqrt(v), 3);
-}
 
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
   visitor.Nested("graph", options.graph, "the solver");

@@ -13,40 +13,7 @@ void DescribeFields(FieldVisitor& visitor, WindowOptions& options) {
       "objects seen less often stay out of the window ('more than 4 times' in the paper)");
 }
 
-void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
-  visitor.Flag(
-      "enabled", options.enabled,
-      "look for loops once more and optimise the full map at the end of a run; false: neither");
-  visitor.Integer("rounds", options.rounds, 1, 20, "times to optimise, associate anew and fuse");
-  visitor.Real("keyframe_m", options.keyframe_m, 0, 1000,
-               "a camera of the optimisation every so many metres of path");
-  visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7,
-               "or after such a turn; all other frames follow");
-  visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
-                  "objects seen less often do not enter the final map");
-  visitor.Real("duplicate_m", options.duplicate_m, 0, 100,
-               "landmarks of one label closer than this are one object");
-  visitor.Real(
-      "moved_m", options.moved_m, 0, 1000,
-      "a landmark whose late sightings lie further than this from its early ones has moved");
-  visitor.Real("min_seen_share", options.min_seen_share, 0, 1,
-               "a movable object seen in fewer of the frames it was in sight for is a chimera of "
-               "passers-by");
-}
-
-void DescribeFields(FieldVisitor& visitor, LevelOptions& options) {
-  visitor.Flag("enabled", options.enabled,
-               "turn the odometry back upright where its vertical has drifted");
-  visitor.Real("max_slope_rad", options.max_slope_rad, 0, 1.5,
-               "no ground is steeper than this on average ...");
-  visitor.Real("window_m", options.window_m, 1, 1e5, "... over so many metres of path");
-  visitor.Real("slope_rad", options.slope_rad, 0, 1.5,
-               "how steep it usually is over that path, a standard deviation; 0: nothing is known");
-}
-
 void DescribeFields(FieldVisitor& visitor, Options& options) {
-  visitor.Enum("mode", options.mode, {"robust", "paper"},
-               "robust, or the paper's equations as printed");
   visitor.Nested("filter", options.filter, "which detections are used (paper III-A.1)");
   visitor.Nested("colour", options.colour, "colour signature (paper III-A.2)");
   visitor.Nested("noise", options.noise, "how far the detector is off");
@@ -59,19 +26,27 @@ void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Nested("refine", options.refine, "the full-map optimisation at the end");
 }
 
-Options DefaultOptions(Options::Mode mode) {
+Options DefaultOptions(Mode mode) {
   Options options;
-  options.mode = mode;
-  if (mode == Options::Mode::kPaper) {
-    options.colour.method = ColourOptions::Method::kPaper;
-    options.association.method = AssociationOptions::Method::kPaper;
-    options.ba.residual = BaOptions::Residual::kPaper;
-    options.ba.solver = BaOptions::Solver::kGaussNewton;
-    options.ba.odometry.scale_prior = 0;
-    options.map.learn_noise = false;
-    options.refine.rounds = 1;
-    options.level.enabled = false;
-  }
+  if (mode == Mode::kRobust) return options;
+  options.colour.method = ColourOptions::Method::kPaper;
+  options.association.method = AssociationOptions::Method::kPaper;
+  options.map.learn_noise = false;
+  options.level.enabled = false;
+  options.ba.residual = BaOptions::Residual::kPaper;
+  options.ba.solver = BaOptions::Solver::kGaussNewton;
+  options.ba.odometry.scale_prior = 0;
+  options.refine.rounds = 1;
+  LoopOptions& loop = options.loop;
+  loop.finder = LoopOptions::Finder::kPrinted;
+  loop.lag_m = 0;                    // the newest camera is tied
+  loop.layout.hindsight_m = 0;       // one search only
+  loop.robust = false;               // no loop is ever refused ...
+  loop.acceptance.withdraw_m = 1e9;  // ... or withdrawn
+  loop.acceptance.withdraw_rad = 4;
+  loop.adjust_keyframes = 0;
+  loop.learn_odometry = false;
+  loop.views.enabled = false;
   return options;
 }
 

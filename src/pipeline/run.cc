@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sslcd/optim/odometry_edge.h"
+
 namespace sslcd {
 namespace {
 
@@ -24,17 +26,14 @@ bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hook
 
 PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
   PoseGraph graph;
-  const std::vector<FrameRecord>& frames = mapper.frames();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  const FrameStore& frames = mapper.frames();
+  const Vec3& up = mapper.map().gravity().up;
+  for (int i = 0; i < frames.size(); ++i) {
     graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
     if (i == 0) continue;
-    PoseGraph::Edge& edge = graph.edges.emplace_back();
-    edge.from = frames[i - 1].frame;
-    edge.to = frames[i].frame;
-    edge.T_from_to = frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam;
-    const Vec3 up_here = frames[i].T_world_cam.so3().inverse() * mapper.map().gravity().up;
-    edge.information = InformationOf(SigmasOf(edge.T_from_to, noise), up_here);
-    edge.T_from_to.translation() *= mapper.scale();
+    const OdometryEdge step = OdometryBetween(frames, i - 1, i, noise, up, mapper.scale());
+    graph.edges.push_back(
+        {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }
   for (const LoopClosure& loop : mapper.LoopClosures()) {
     // else the tie would count twice

@@ -101,10 +101,8 @@ std::string Dump(Options options) {
 }
 
 TEST(Method, ThePaperIsAsPrintedInEveryPart) {
-  EXPECT_EQ(Dump(Select(Methods(), {"paper"})[0].options),
-            Dump(DefaultOptions(Options::Mode::kPaper)));
-  EXPECT_EQ(Dump(Select(Methods(), {"sslcd"})[0].options),
-            Dump(DefaultOptions(Options::Mode::kRobust)));
+  EXPECT_EQ(Dump(Select(Methods(), {"paper"})[0].options), Dump(DefaultOptions(Mode::kPaper)));
+  EXPECT_EQ(Dump(Select(Methods(), {"sslcd"})[0].options), Dump(DefaultOptions(Mode::kRobust)));
   const Options unrefined = Select(Methods(), {"paper_unrefined"})[0].options;
   EXPECT_EQ(unrefined.association.method, AssociationOptions::Method::kPaper);
   EXPECT_EQ(unrefined.ba.residual, BaOptions::Residual::kPaper);

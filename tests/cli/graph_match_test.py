@@ -127,10 +127,10 @@ class GraphMatchTest(CliCase):
         self.assertEqual((quiet.returncode, quiet.stdout, quiet.stderr), (0, '', ''))
 
     def test_match_takes_modes_and_settings(self):
-        strict = call('match', self.strewn_pairs(), '--set', 'loop.match.decision.min_margin=900')
+        strict = call('match', self.strewn_pairs(), '--set', 'decision.min_margin=900')
         self.assertIn('5,ambiguous', strict.stdout)
         self.assertEqual(call('match', self.strewn_pairs(), '--mode', 'paper').returncode, 0)
-        unknown = call('match', self.strewn_pairs(), '--set', 'loop.match.decision.min_margn=9')
+        unknown = call('match', self.strewn_pairs(), '--set', 'decision.min_margn=9')
         self.assertEqual(unknown.returncode, 4)
         self.assertIn("did you mean 'min_margin'", unknown.stderr)
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace sslcd {
 namespace {
 
@@ -26,6 +28,20 @@ TEST(RelativePose, ComposeCarriesErrorsAlong) {
     expected += variances[i] * (of_ab * of_ab.transpose() + 2 * of_bc * of_bc.transpose());
   }
   EXPECT_LT((ac.covariance - expected).norm(), 1e-4 * expected.norm());
+}
+
+TEST(Agrees, WithinTheConfidenceRegion) {
+  RelativePose measured;
+  measured.T_a_b = Pose::Trans(4, 0, 2) * Pose::RotY(0.3);
+  measured.covariance = 0.01 * Pose::Matrix6::Identity();
+  // chi2 of one component: (x / .1)^2; the limit for six degrees and .9 is 10.64
+  const auto off = [&](double x) {
+    return Agrees(measured, measured.T_a_b * Pose::Trans(x, 0, 0), 0.9);
+  };
+  EXPECT_TRUE(off(0));
+  EXPECT_TRUE(off(0.32));
+  EXPECT_FALSE(off(0.33));
+  EXPECT_FALSE(Agrees(measured, measured.T_a_b * Pose::Trans(NAN, 0, 0), 0.9));
 }
 
 }  // namespace

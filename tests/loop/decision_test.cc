@@ -2,273 +2,169 @@
 #include "sslcd/loop/decision.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "layout_cases.h"
 
 namespace sslcd {
 namespace {
 
-const YawShift kPose{2.5, {30, -20, 1.5}};
+double Minus1000() { return -1000; }
 
-TEST(MatchLayouts, FindsItsPlaceInAStrewnMap) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2);
-  ASSERT_GE(local.size(), 6u);
-  const LayoutAnswer answer = MatchMaps(local, map);
-  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
-  ASSERT_FALSE(answer.hypotheses.empty());
-  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
-  EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - kPose.yaw), 0, 0.03);
-  EXPECT_EQ(answer.hypotheses[0].fit.matches.size(), local.size());
-  EXPECT_GT(answer.score, answer.second_score);
+TEST(DecideSingleLook, TheScoreIsTheLogOddsAgainstAllRivalsAndChance) {
+  SingleLookOptions options;
+  options.min_evidence = 1;
+  const LoopVerdict verdict = DecideSingleLook({8, 5, 3}, 6, Minus1000, options);
+  EXPECT_NEAR(verdict.score, 8 - std::log(std::exp(5) + std::exp(3) + std::exp(1)), 1e-12);
+  EXPECT_NEAR(verdict.second_score, 5 - std::log(std::exp(8) + std::exp(3) + std::exp(1)), 1e-12);
+  EXPECT_EQ(verdict.decision, LoopDecision::kAccepted);
+  EXPECT_EQ(verdict.reason, "6 objects agree");
 }
 
-TEST(MatchLayouts, HoldsFromAnyDirection) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 3);
-  for (double yaw = -3; yaw <= 3; yaw += 0.5) {
-    const YawShift pose{yaw, {5, 300, 0}};
-    const LayoutAnswer answer = MatchMaps(SeenFrom(map, pose, {-5, 0}, 18, 0.1, 4), map);
-    ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << "yaw " << yaw << ": " << answer.reason;
-    EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - yaw), 0, 0.03);
+TEST(DecideSingleLook, WithoutARivalTheSecondScoreIsThatOfChance) {
+  SingleLookOptions options;
+  options.min_evidence = -2;
+  const LoopVerdict verdict = DecideSingleLook({3}, 6, Minus1000, options);
+  EXPECT_NEAR(verdict.score, 5, 1e-12);
+  EXPECT_NEAR(verdict.second_score, -5, 1e-12);
+}
+
+TEST(DecideSingleLook, RefusesWhatChanceReaches) {
+  SingleLookOptions options;
+  options.min_evidence = 4;
+  options.min_margin = -100;
+  EXPECT_EQ(DecideSingleLook({4}, 6, Minus1000, options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({3.9}, 6, Minus1000, options);
+  EXPECT_EQ(refused.decision, LoopDecision::kNone);
+  EXPECT_THAT(refused.reason, testing::HasSubstr("chance"));
+}
+
+TEST(DecideSingleLook, IsAmbiguousBelowTheMargin) {
+  SingleLookOptions options;
+  options.min_evidence = 0;
+  options.min_margin = 4;
+  EXPECT_EQ(DecideSingleLook({4}, 6, Minus1000, options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({3.9}, 6, Minus1000, options);
+  EXPECT_EQ(refused.decision, LoopDecision::kAmbiguous);
+  EXPECT_THAT(refused.reason, testing::HasSubstr("other poses"));
+}
+
+TEST(DecideSingleLook, ABetterMirrorImageRefutesAndIsAskedLast) {
+  SingleLookOptions options;
+  options.mirror_gain = 2;
+  int asked = 0;
+  const auto mirror = [&asked](double evidence) {
+    return [&asked, evidence] { return ++asked, evidence; };
+  };
+  EXPECT_EQ(DecideSingleLook({7}, 6, mirror(9), options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({7}, 6, mirror(9.1), options);
+  EXPECT_EQ(refused.decision, LoopDecision::kNone);
+  EXPECT_THAT(refused.reason, testing::HasSubstr("mirror"));
+  EXPECT_EQ(asked, 2);
+  DecideSingleLook({7, 7}, 6, mirror(0), options);
+  EXPECT_EQ(asked, 2) << "two equal poses are ambiguous anyway";
+}
+
+// A track that everything speaks for.
+TrackEvidence GoodTrack() {
+  TrackEvidence track;
+  track.evidence = 30;
+  track.margin = 20;
+  track.second_margin = -21;
+  track.own_evidence = 5;
+  track.heading_sigma_rad = 0.01;
+  track.apart_m = 2;
+  return track;
+}
+
+LoopAcceptanceOptions Acceptance() {
+  LoopAcceptanceOptions options;
+  options.min_margin = 13;
+  options.max_heading_sigma_rad = 0.04;
+  options.max_apart_m = 30;
+  return options;
+}
+
+TEST(DecideTrack, AcceptsWhatEverythingSpeaksFor) {
+  const TrackVerdict verdict = DecideTrack(GoodTrack(), Acceptance());
+  EXPECT_EQ(verdict.loop.decision, LoopDecision::kAccepted);
+  EXPECT_TRUE(verdict.confirmed);
+  EXPECT_EQ(verdict.loop.score, 20);
+  EXPECT_EQ(verdict.loop.second_score, -21);
+}
+
+TEST(DecideTrack, AMarginBelowTheBarIsAmbiguousButConfirmed) {
+  TrackEvidence track = GoodTrack();
+  track.margin = 13;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAccepted);
+  track.margin = 12.9;
+  const TrackVerdict verdict = DecideTrack(track, Acceptance());
+  EXPECT_EQ(verdict.loop.decision, LoopDecision::kAmbiguous);
+  EXPECT_TRUE(verdict.confirmed) << "accepted as soon as its track is";
+  EXPECT_EQ(verdict.loop.reason, "another pose fits nearly as well");
+}
+
+TEST(DecideTrack, ATrackWorseThanChanceIsNone) {
+  TrackEvidence track = GoodTrack();
+  track.evidence = -0.1;
+  track.margin = -1;
+  const TrackVerdict verdict = DecideTrack(track, Acceptance());
+  EXPECT_EQ(verdict.loop.decision, LoopDecision::kNone);
+  EXPECT_EQ(verdict.loop.reason, "chance explains the best pose");
+  track.evidence = 0;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAmbiguous);
+}
+
+TEST(DecideTrack, APoorMeasurementIsNotAcceptedHoweverSureTheTrackIs) {
+  struct Case {
+    double TrackEvidence::*field;
+    double good, bad;
+    const char* reason;
+  };
+  for (const Case& c :
+       {Case{&TrackEvidence::own_evidence, 0., -0.01, "too few objects of its own agree"},
+        Case{&TrackEvidence::heading_sigma_rad, 0.0399, 0.04, "heading too uncertain"},
+        Case{&TrackEvidence::apart_m, 29.9, 30., "no old camera stood near"}}) {
+    TrackEvidence track = GoodTrack();
+    track.*c.field = c.good;
+    EXPECT_TRUE(DecideTrack(track, Acceptance()).confirmed) << c.reason;
+    track.*c.field = c.bad;
+    const TrackVerdict verdict = DecideTrack(track, Acceptance());
+    EXPECT_FALSE(verdict.confirmed);
+    EXPECT_EQ(verdict.loop.decision, LoopDecision::kAmbiguous);
+    EXPECT_EQ(verdict.loop.reason, c.reason);
   }
 }
 
-TEST(MatchLayouts, RefusesWhatIsTooLittle) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  for (std::size_t count = 0; count < 4; ++count) {
-    const std::vector<LayoutObject> few(map.begin(),
-                                        map.begin() + static_cast<std::ptrdiff_t>(count));
-    for (const LayoutAnswer& answer :
-         {MatchMaps(few, map), MatchMaps(map, few), MatchMaps(few, few)}) {
-      EXPECT_EQ(answer.decision, LoopDecision::kNone) << count << " objects";
-      EXPECT_THAT(answer.reason, testing::Not(testing::IsEmpty()));
-    }
-  }
+TEST(ApplyGraphVerdict, ARefusedLoopIsAmbiguousAndMayComeBack) {
+  LoopClosure loop;
+  loop.decision = LoopDecision::kAccepted;
+  loop.reason = "7 objects agree";
+  ApplyGraphVerdict(true, loop);
+  EXPECT_EQ(loop.reason, "7 objects agree") << "nothing has changed";
+  ApplyGraphVerdict(false, loop);
+  EXPECT_EQ(loop.decision, LoopDecision::kAmbiguous);
+  EXPECT_EQ(loop.reason, "contradicts other loops");
+  ApplyGraphVerdict(true, loop);
+  EXPECT_EQ(loop.decision, LoopDecision::kAccepted);
+  EXPECT_EQ(loop.reason, "other loops agree after all");
 }
 
-TEST(MatchLayouts, DoesNotMatchTheMirrorImage) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    const std::vector<LayoutObject> map = Strewn(100, 60, seed);
-    std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 20, 0.1, seed);
-    ASSERT_EQ(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted);
-    for (LayoutObject& object : mirrored) object.position.y() *= -1;
-    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
-  }
-}
-
-TEST(MatchLayouts, DoesNotMatchTheMirrorImageOfAFewObjects) {
-  int cases = 0;
-  for (unsigned seed = 1; seed <= 60; ++seed) {
-    const std::vector<LayoutObject> map = Strewn(80, 90, seed);
-    std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 16, 0.3, seed);
-    if (mirrored.size() < 6 || mirrored.size() > 12 ||
-        MatchMaps(mirrored, map).decision != LoopDecision::kAccepted)
-      continue;
-    ++cases;
-    for (LayoutObject& object : mirrored) object.position.y() *= -1;
-    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
-  }
-  EXPECT_GT(cases, 30);
-}
-
-TEST(MatchLayouts,
-     AnswersAreProperTurns) {  // even the best pose of a mirror image keeps left on the left
-  const std::vector<LayoutObject> map = Strewn(40, 60, 5);
-  std::vector<LayoutObject> mirrored = map;
-  for (LayoutObject& object : mirrored) object.position.y() *= -1;
-  for (const PoseHypothesis& hypothesis : MatchMaps(mirrored, map).hypotheses)
-    EXPECT_LT(hypothesis.fit.matches.size(), mirrored.size() / 2);
-}
-
-TEST(MatchLayouts, IsLostInAPerfectGrid) {
-  std::vector<LayoutObject> grid;
-  for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
-  const std::vector<LayoutObject> part = SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1);
-  ASSERT_GE(part.size(), 8u);
-  EXPECT_EQ(MatchMaps(part, grid).decision, LoopDecision::kAmbiguous) << "many shifts fit";
-  EXPECT_EQ(MatchMaps(grid, grid).decision, LoopDecision::kAmbiguous)
-      << "the half-turn fits as well";
-}
-
-TEST(MatchLayouts, IsLostOnAnEvenLine) {
-  std::vector<LayoutObject> even;
-  for (int i = 0; i < 8; ++i) even.push_back(ObjectAt({6. * i, 0.1 * i, 0}));
-  EXPECT_EQ(MatchMaps(even, even).decision, LoopDecision::kAmbiguous)
-      << "the half-turn fits as well";
-}
-
-TEST(MatchLayouts, UnevenSpacingsTellTheEndsOfALineApart) {
-  std::vector<LayoutObject> line;
-  for (const double x : {0., 7., 12., 21., 35., 41., 60.})
-    line.push_back(ObjectAt({x, 0.2 * x, 0}));
-  const LayoutAnswer answer = MatchMaps(line, line);
-  ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
-  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(60, 12, 0)), 0.01);
-}
-
-TEST(MatchLayouts, ObjectsOnOneSpotAreNoLayout) {
-  const std::vector<LayoutObject> heap(12, ObjectAt({3, 4, 0}));
-  EXPECT_EQ(MatchMaps(heap, heap).decision, LoopDecision::kNone);
-  EXPECT_EQ(MatchMaps(heap, Strewn(60, 80, 1)).decision, LoopDecision::kNone);
-}
-
-TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  std::vector<LayoutObject> three = SeenFrom(map, kPose, {10, 5}, 18, 0., 2);
-  three.resize(3);
-  std::vector<LayoutObject> doubled = three;
-  for (int copy = 0; copy < 4; ++copy) doubled.insert(doubled.end(), three.begin(), three.end());
-  EXPECT_NE(MatchMaps(doubled, map).decision, LoopDecision::kAccepted)
-      << "three places, seen five times each";
-
-  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), global = map;
-  local.push_back(local[0]);
-  global.push_back(global[0]);
-  const LayoutAnswer answer = MatchMaps(local, global);
-  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
-  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
-}
-
-TEST(MatchLayouts, LeavesOutWhatIsNotFinite) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), dirty = map;
-  const LayoutAnswer clean = MatchMaps(local, map);
-  dirty.push_back(ObjectAt({std::nan(""), 0, 0}));
-  local.push_back(ObjectAt({0, INFINITY, 0}));
-  const LayoutAnswer answer = MatchMaps(local, dirty);
-  EXPECT_EQ(answer.decision, clean.decision);
-  EXPECT_EQ(answer.score, clean.score);
-  const std::vector<LayoutObject> nothing(9, ObjectAt({std::nan(""), std::nan(""), 0}));
-  EXPECT_EQ(MatchMaps(nothing, map).decision, LoopDecision::kNone);
-  EXPECT_EQ(MatchMaps(local, nothing).decision, LoopDecision::kNone);
-}
-
-TEST(MatchLayouts, MatchesNameTheObjectsOfTheCaller) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.1, 2);
-  local.insert(local.begin(), ObjectAt({std::nan(""), 0, 0}));
-  const LayoutAnswer answer = MatchMaps(local, map);
-  ASSERT_EQ(answer.decision, LoopDecision::kAccepted);
-  for (const auto& [i, j] : answer.hypotheses[0].fit.matches)
-    EXPECT_LT((Apply(kPose, local[i].position) - map[j].position).norm(), 1.);
-}
-
-TEST(MatchLayouts, AnyLabelNumberIsFine) {
-  std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  for (LayoutObject& object : map) object.label = object.label * 1000000000 - 1;
-  const LayoutAnswer answer = MatchMaps(SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), map);
-  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
-}
-
-// Poles along a line at uneven distances: only one shift and no turn fits.
-std::vector<LayoutObject> UnevenLine() {
-  std::vector<LayoutObject> line;
-  for (const double x : {0., 7., 12., 21., 35., 41., 60.}) line.push_back(ObjectAt({x, 0, 0}));
-  return line;
-}
-
-TEST(MatchLayouts, WithoutARivalTheMarginIsThatOverChance) {
-  LayoutMatchOptions options;
-  options.search.distinct_m = 1e6;  // all poses count as one
-  options.search.distinct_rad = 4;
-  for (const double chance : {-10., 3.}) {
-    options.decision.min_evidence = chance;
-    const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
-    ASSERT_EQ(answer.hypotheses.size(), 1u);
-    const double evidence = answer.hypotheses[0].fit.evidence;
-    EXPECT_NEAR(answer.score, evidence - chance, 1e-9);
-    EXPECT_NEAR(answer.second_score, chance - evidence, 1e-9);
-  }
-}
-
-// A place, and copies of it 100 m apart, each less exact than the one before.
-std::vector<LayoutObject> WithCopies(const std::vector<LayoutObject>& place, int copies) {
-  std::vector<LayoutObject> map = place;
-  for (int copy = 1; copy <= copies; ++copy) {
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      map.push_back(place[i]);
-      const double off = 0.15 * copy * (i % 2 == 0 ? 1 : -1);
-      map.back().position += Vec3(100. * copy + off, off, 0);
-    }
-  }
-  return map;
-}
-
-TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
-  const std::vector<LayoutObject> place = Strewn(10, 30, 4);
-  for (const int copies : {1, 3}) {
-    LayoutMatchOptions options;
-    for (const double chance : {-10., 15., -2000.}) {
-      options.decision.min_evidence = chance;
-      const LayoutAnswer answer = MatchMaps(place, WithCopies(place, copies), options);
-      ASSERT_EQ(static_cast<int>(answer.hypotheses.size()), copies + 1);
-      const auto evidence = [&](std::size_t i) { return answer.hypotheses[i].fit.evidence; };
-      const auto log_odds = [&](std::size_t of) {
-        double rivals = std::exp(chance);
-        for (std::size_t i = 0; i < answer.hypotheses.size(); ++i)
-          if (i != of) rivals += std::exp(evidence(i));
-        return evidence(of) - std::log(rivals);
-      };
-      EXPECT_GT(evidence(0), evidence(1) + 0.1);
-      EXPECT_NEAR(answer.score, log_odds(0), 1e-6);
-      EXPECT_NEAR(answer.second_score, log_odds(1), 1e-6);
-    }
-  }
-}
-
-TEST(MatchLayouts, TheSmallerOfBothMapsSaysWhetherThereIsEnough) {
-  const std::vector<LayoutObject> map = Strewn(60, 80, 1), three(map.begin(), map.begin() + 3);
-  for (const LayoutAnswer& answer : {MatchMaps(three, map), MatchMaps(map, three)})
-    EXPECT_THAT(answer.reason, testing::StartsWith("3 objects are too few"));
-}
-
-TEST(MatchLayouts, AsManyObjectsAsHaveToAgreeAreEnough) {
-  LayoutMatchOptions options;
-  options.search.min_matches = 7;
-  EXPECT_EQ(MatchMaps(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
-  options.search.min_matches = 8;
-  const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
-  EXPECT_EQ(answer.decision, LoopDecision::kNone);
-  EXPECT_THAT(answer.reason, testing::StartsWith("7 objects are too few"));
-}
-
-TEST(MatchLayouts, EachBarAloneRefuses) {
-  const LayoutAnswer accepted = MatchMaps(UnevenLine(), UnevenLine());
-  ASSERT_EQ(accepted.decision, LoopDecision::kAccepted) << accepted.reason;
-  const double evidence = accepted.hypotheses[0].fit.evidence;
-  LayoutMatchOptions options;
-  options.decision.min_evidence = evidence + 0.1;
-  LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
-  EXPECT_EQ(answer.decision, LoopDecision::kNone);
-  EXPECT_THAT(answer.reason, testing::HasSubstr("chance"));
-  options = {};
-  options.decision.min_margin = accepted.score + 0.1;
-  answer = MatchMaps(UnevenLine(), UnevenLine(), options);
-  EXPECT_EQ(answer.decision, LoopDecision::kAmbiguous);
-  EXPECT_THAT(answer.reason, testing::HasSubstr("other poses"));
-  options.decision.min_margin = accepted.score - 0.1;
-  EXPECT_EQ(MatchMaps(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
-}
-
-// A line lies on its own mirror image, so only the headings tell which of the two was seen.
-TEST(MatchLayouts, TheMirrorImageTurnsHeadingsToo) {
-  std::vector<LayoutObject> map = UnevenLine();
-  for (std::size_t i = 0; i < map.size(); ++i)
-    map[i].yaw = 0.6 + 0.3 * static_cast<double>(i % 4);  // to the left of the line, all of them
-  std::vector<LayoutObject> mirrored = map;
-  for (LayoutObject& object : mirrored) object.yaw *= -1;
-  LayoutMatchOptions options;
-  options.decision.min_evidence = -1000;  // nothing but the mirror image refuses
-  options.decision.min_margin = -1000;
-  EXPECT_EQ(MatchMaps(map, map, options).decision, LoopDecision::kAccepted);
-  LayoutAnswer answer = MatchMaps(mirrored, map, options);
-  EXPECT_EQ(answer.decision, LoopDecision::kNone);
-  EXPECT_THAT(answer.reason, testing::HasSubstr("mirror"));
-  options.decision.mirror_gain = 1000;
-  answer = MatchMaps(mirrored, map, options);
-  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+TEST(IsWithdrawn, WhereTheTrajectoryIsOffByDistanceOrAngle) {
+  LoopClosure loop;
+  loop.T_match_query = Pose::Trans(3, 0, 40);
+  LoopAcceptanceOptions options;
+  options.withdraw_m = 2;
+  options.withdraw_rad = 0.1;
+  const auto off = [&](double metres, double rad) {
+    const Pose error(lie::SO3<double>::RotY(rad), Vec3(0, 0, metres));
+    return IsWithdrawn(loop, loop.T_match_query * error, options);
+  };
+  EXPECT_FALSE(off(0, 0));
+  EXPECT_FALSE(off(1.99, 0.099));
+  EXPECT_TRUE(off(2.01, 0));
+  EXPECT_TRUE(off(0, 0.101));
+  EXPECT_TRUE(IsWithdrawn(loop, Pose::Trans(std::nan(""), 0, 0), options));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "sslcd/loop/decision.h"
+#include "sslcd/loop/layout_match.h"
 
 namespace sslcd {
 
@@ -50,8 +50,10 @@ inline std::vector<LayoutObject> SeenFrom(const std::vector<LayoutObject>& objec
 
 inline LayoutAnswer MatchMaps(const std::vector<LayoutObject>& local,
                               const std::vector<LayoutObject>& global,
-                              const LayoutMatchOptions& options = {}) {
-  return MatchLayouts(local, LayoutIndex(global, options.max_pair_m, options.reach_m), options);
+                              const LayoutMatchOptions& options = {},
+                              const SingleLookOptions& decision = {}) {
+  return MatchLayouts(local, LayoutIndex(global, options.max_pair_m, options.reach_m), options,
+                      decision);
 }
 
 /// How far two poses take a point apart. [m]

@@ -292,12 +292,13 @@ TEST(LayoutLikelihood, TurnsAndShiftsWithTheMap) {
 TEST(LayoutLikelihood, BeyondTheRimOfTheMapNothingIsUnmapped) {
   std::vector<LayoutObject> local = Square();
   const LayoutIndex index(Square(), 50, 2);
-  LayoutLikelihoodOptions options;
+  LayoutLikelihoodOptions options, finished;
   options.leave_map = true;
+  finished.leave_map = false;
   const double score = LayoutLikelihood(local, index, options).Evaluate({}).score;
   local.push_back(ObjectAt({200, 5, 0}));
   EXPECT_NEAR(LayoutLikelihood(local, index, options).Evaluate({}).score, score, 1e-9);
-  EXPECT_LT(LayoutLikelihood(local, index, {}).Evaluate({}).score, score - 0.5)
+  EXPECT_LT(LayoutLikelihood(local, index, finished).Evaluate({}).score, score - 0.5)
       << "a map of all there is";
   local.back().position = {5, 4, 0};
   EXPECT_LT(LayoutLikelihood(local, index, options).Evaluate({}).score, score - 0.5)

@@ -18,7 +18,7 @@ TEST(Drift, CovarianceIsHonestFarFromTheOrigin) {
     scene.middle = Vec3(180, 3, 240);
     scene.position_noise_m = 0.2;
     scene.yaw_noise_rad = 0.05;
-    DriftOptions options;
+    DriftOptions options = FourDof();
     options.six_dof = six_dof;
     options.tilt_sigma_rad = 0.03;
     double nees = 0;
@@ -77,7 +77,6 @@ TEST(Drift, IsAMinimumOfTheCauchyLoss) {
       options.tilt_sigma_rad = 0.05;
       options.max_iterations = 300;
       options.loss_scale = loss_scale;
-      options.loss_scale = loss_scale;
       const DriftResult result = SolveDrift(pairs, scene.gravity(), options);
       ASSERT_TRUE(result.converged);
       const double least = RobustCost(pairs, result.T_global_local, options);
@@ -104,7 +103,7 @@ std::vector<DriftPair> Corners(double outwards_m) {
 }
 
 TEST(Drift, ResidualsWithinTheSigmasLeaveTheCovarianceToThem) {
-  const double sigma = DriftPair().sigma_horizontal_m, tilt = DriftOptions().tilt_sigma_rad;
+  const double sigma = DriftPair().sigma_horizontal_m, tilt = FourDof().tilt_sigma_rad;
   const DriftResult result = Solve(Corners(0));
   ASSERT_TRUE(result.usable);
   for (const int axis : {0, 1, 2})
@@ -115,7 +114,7 @@ TEST(Drift, ResidualsWithinTheSigmasLeaveTheCovarianceToThem) {
 
 TEST(Drift, LargerResidualsTakeTheSigmasPlaceInTheCovariance) {
   constexpr double kOff = 0.9;  // three sigmas
-  DriftOptions options;
+  DriftOptions options = FourDof();
   options.loss_scale = 0;
   const DriftResult result =
       SolveDrift(Corners(kOff), GravityFrame::FromUp(Vec3::UnitZ()), options);
@@ -141,7 +140,7 @@ TEST(Drift, AYawLessSureThanMaxYawSigmaIsNotUsable) {
 
 TEST(Drift, InliersEndAtInlierSigmas) {
   const double sigma = DriftPair().sigma_horizontal_m;
-  DriftOptions options;
+  DriftOptions options = FourDof();
   for (const auto& [sigmas, inliers] : {std::pair<double, int>{3.4, 4}, {3.6, 0}}) {
     const DriftResult result =
         SolveDrift(Corners(sigmas * sigma), GravityFrame::FromUp(Vec3::UnitZ()), options);

@@ -67,6 +67,14 @@ struct Scene {
   }
 };
 
+/// Yaw and shift only; the vertical of the local map is known to .01 rad.
+inline DriftOptions FourDof() {
+  DriftOptions options;
+  options.six_dof = false;
+  options.tilt_sigma_rad = 0.01;
+  return options;
+}
+
 /// A drift that turns about `centre`.
 inline Pose TurnAndShift(const Vec3& up, double yaw, const Vec3& centre, const Vec3& shift) {
   const Pose turn(lie::SO3<double>::Exp(yaw * up), Vec3(Vec3::Zero()));
@@ -87,7 +95,7 @@ inline DriftPair At(const Vec3& local, const Vec3& global, double yaw_local, dou
 }
 
 inline DriftResult Solve(const std::vector<DriftPair>& pairs) {
-  return SolveDrift(pairs, GravityFrame::FromUp(Vec3::UnitZ()), DriftOptions());
+  return SolveDrift(pairs, GravityFrame::FromUp(Vec3::UnitZ()), FourDof());
 }
 
 }  // namespace sslcd

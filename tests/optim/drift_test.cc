@@ -27,7 +27,7 @@ TEST(Drift, ExactPairsGiveTheDriftBack) {
         scene.D = TurnAndShift(up, random.Uniform(-M_PI, M_PI), scene.middle,
                                Vec3(random.Uniform(-9, 9), 2, 30));
         for (const bool six_dof : {false, true}) {
-          DriftOptions options;
+          DriftOptions options = FourDof();
           options.six_dof = six_dof;
           const DriftResult result = SolveDrift(scene.Pairs(random), scene.gravity(), options);
           ASSERT_TRUE(result.usable) << result.reason;
@@ -70,10 +70,9 @@ Leftover CorrectDrift(const Vec3& middle) {
       pair.T_world_global = pair.T_world_global.inverse();
     }
     sum.repaired += left(SolveDriftAsPrinted(swapped)->inverse() * T_world_cam);
-    sum.ours +=
-        left(SolveDrift(pairs, scene.gravity(), DriftOptions()).T_global_local * T_world_cam);
+    sum.ours += left(SolveDrift(pairs, scene.gravity(), FourDof()).T_global_local * T_world_cam);
     scene.flipped = 0.2;
-    const DriftResult flipped = SolveDrift(scene.Pairs(random), scene.gravity(), DriftOptions());
+    const DriftResult flipped = SolveDrift(scene.Pairs(random), scene.gravity(), FourDof());
     sum.ours_flipped += left(flipped.T_global_local * T_world_cam);
   }
   for (const auto& [name, value] : {std::pair<const char*, double>{"printed_m", sum.printed},
@@ -108,7 +107,7 @@ TEST(Drift, FlippedHeadingsAndAStrayPairDoNoHarm) {
   scene.flipped = 0.4;
   std::vector<DriftPair> pairs = scene.Pairs(random);
   pairs[3].T_world_global.translation() += Vec3(20, 0, 10);
-  const DriftResult result = SolveDrift(pairs, scene.gravity(), DriftOptions());
+  const DriftResult result = SolveDrift(pairs, scene.gravity(), FourDof());
   ASSERT_TRUE(result.usable) << result.reason;
   EXPECT_LT(Difference(result.T_global_local, scene.D), 0.01);
   EXPECT_EQ(result.inliers, scene.objects - 1);
@@ -119,7 +118,7 @@ TEST(Drift, FourDofLeavesTheVerticalAlone) {
   Random random(5);
   Scene scene;
   scene.position_noise_m = 0.5;
-  const DriftResult result = SolveDrift(scene.Pairs(random), scene.gravity(), DriftOptions());
+  const DriftResult result = SolveDrift(scene.Pairs(random), scene.gravity(), FourDof());
   ASSERT_TRUE(result.usable);
   EXPECT_LT((result.T_global_local.so3() * kKittiUp - kKittiUp).norm(), 1e-12);
 }
@@ -163,7 +162,7 @@ TEST(Drift, TwoPolesAndACollinearRow) {
     ASSERT_EQ(result.usable, i > 0) << result.reason;
     if (!result.usable) continue;
     EXPECT_LT(Difference(result.T_global_local, D), 1e-6);
-    DriftOptions six_dof;  // the turn about the row's own axis is left to the prior
+    DriftOptions six_dof = FourDof();  // the turn about the row's own axis is left to the prior
     six_dof.six_dof = true;
     const DriftResult six = SolveDrift(pairs, GravityFrame::FromUp(Vec3::UnitZ()), six_dof);
     ASSERT_TRUE(six.usable) << six.reason;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "pose_graph_world.h"
+#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {
@@ -313,13 +314,6 @@ TEST(RobustPoseGraph, GraduationBeginsConvexAndEndsWhereTheLoopIsDecided) {
       EXPECT_EQ(summary.rounds, 2 * updates) << "from all loops and from none; k " << k;
     }
   }
-}
-
-TEST(Chi2Quantile, MatchesTables) {
-  EXPECT_NEAR(Chi2Quantile(0.99, 6), 16.812, 0.08);
-  EXPECT_NEAR(Chi2Quantile(0.99, 4), 13.277, 0.07);
-  EXPECT_NEAR(Chi2Quantile(0.99, 3), 11.345, 0.06);
-  EXPECT_NEAR(Chi2Quantile(0.95, 6), 12.592, 0.06);
 }
 
 }  // namespace

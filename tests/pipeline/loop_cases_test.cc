@@ -168,9 +168,7 @@ TEST(LoopCases, RefiningAgainRepeatsNoLoop) {
 // down in full.
 TEST(LoopCases, AsPrinted) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
-  Options options;
-  options.mode = Options::Mode::kPaper;
-  const RunResult result = drives.Run(options);
+  const RunResult result = drives.Run(DefaultOptions(Mode::kPaper));
   EXPECT_GT(result.loops.size(), 10u);
   EXPECT_EQ(result.trajectory.size(), drives.frames.size());
   EXPECT_EQ(Accepted(result), static_cast<int>(result.loops.size())) << "it knows no refusal";

@@ -171,8 +171,7 @@ TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
 
 TEST(RunSequence, PaperModeRuns) {
   const Scene scene = Street(1, 1., 100);
-  const RunResult result =
-      RunSequence(scene.frames, scene.context, DefaultOptions(Options::Mode::kPaper));
+  const RunResult result = RunSequence(scene.frames, scene.context, DefaultOptions(Mode::kPaper));
   EXPECT_EQ(result.scale, 1.) << "the paper has no scale";
   EXPECT_EQ(result.trajectory.size(), 100u);
   EXPECT_TRUE(std::isfinite(Ate(result.trajectory, scene.world)));

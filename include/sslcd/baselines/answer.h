@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/closing/place_matcher.h"
 #include "sslcd/core/layout.h"
-#include "sslcd/pipeline/place_matcher.h"
 
 namespace sslcd::baselines {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "sslcd/closing/place_matcher.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/pipeline/place_matcher.h"
 
 namespace sslcd::baselines {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "sslcd/baselines/options.h"
+#include "sslcd/closing/place_matcher.h"
 #include "sslcd/pipeline/options.h"
-#include "sslcd/pipeline/place_matcher.h"
 
 namespace sslcd::benchmark {
 

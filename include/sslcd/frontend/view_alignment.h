@@ -3,9 +3,9 @@
 
 #include <functional>
 
+#include "sslcd/closing/view_aligner.h"
 #include "sslcd/frontend/options.h"
 #include "sslcd/frontend/stereo_files.h"
-#include "sslcd/pipeline/view_aligner.h"
 
 namespace sslcd {
 

@@ -1,57 +1,80 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "sslcd/core/fields.h"
-#include "sslcd/core/layout.h"
 #include "sslcd/core/loop_closure.h"
-#include "sslcd/loop/layout_index.h"
-#include "sslcd/loop/pose_search.h"
 
+/// Every rule that accepts or refuses a loop, as pure functions: of one pair of finished maps
+/// (DecideSingleLook), of a track of consecutive attempts (DecideTrack), of a solved pose graph
+/// (ApplyGraphVerdict), and of the refined trajectory (IsWithdrawn).
 namespace sslcd {
 
-/// When is the best pose believed? The likelihoods are calibrated: if the place is in the map at
-/// all, the log odds are about those of being right. Where it need not be in the map, ask for more
-/// (docs/results.md has the curve): a score of 5 still refuses what only looks alike 9 times of 10,
-/// of 10 99 times of 100.
-struct DecisionOptions {
-  double min_margin = 0.75;  ///< log odds of the best pose against all others found [nats]
-  /// evidence that chance reaches: competes with the poses found [nats]
-  double min_evidence = -10.;
-  /// a mirror image of the local map that fits better by this refutes the fit [nats]
-  double mirror_gain = 5.;
-};
-void DescribeFields(FieldVisitor& visitor, DecisionOptions& options);
-
-/// Everything that layout matching can be told.
-struct LayoutMatchOptions {
-  double max_pair_m = 50.;  ///< objects further apart than this propose no pose together
-  double reach_m = 2.;      ///< a local object is compared with what the map has within this
-  PoseSearchOptions search;
-  LayoutLikelihoodOptions likelihood;
-  DecisionOptions decision;
-};
-void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
-
-/// Where the local map lies in the global one - or why nobody can know.
-struct LayoutAnswer {
+/// What is decided about a loop, and why.
+struct LoopVerdict {
   LoopDecision decision = LoopDecision::kNone;
   std::string reason;       ///< why it was refused, or what speaks for it; for people
   double score = 0;         ///< log odds that the best pose is the right one [nats]
   double second_score = 0;  ///< the same of the second best
-  /// Distinct poses, best first; may be empty. The answer is the first. Matches are indices into
-  /// the local objects as given and into `index.objects()`.
-  std::vector<PoseHypothesis> hypotheses;
 };
 
-/// Searches all poses of the local map in the global one and decides whether the best of them can
-/// be trusted. Labels, positions and whatever else the objects know take part; there is no prior
-/// pose. Objects whose position is not finite take no part. Before a pose is accepted, the mirror
-/// image of the local map is searched as well: no camera ever sees it, so what it reaches is
-/// chance. Deterministic; never throws for odd layouts, but says so in `reason`.
-LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                          const LayoutMatchOptions& options);
+/// When the best pose of a single look is accepted. The likelihoods are calibrated: if the place is
+/// in the map at all, the log odds are about those of being right. Where it need not be in the map,
+/// ask for more: a score of 5 still refuses what only looks alike 9 times of 10, of 10 99 times of
+/// 100. Chosen on object-pairs of seeds other than 7 (docs/results.md).
+struct SingleLookOptions {
+  double min_margin = 0.75;    ///< log odds of the best pose against all others found [nats]
+  double min_evidence = -10.;  ///< evidence that chance reaches: competes with the poses [nats]
+  double mirror_gain = 5.;     ///< a mirror image that fits better by this refutes the fit [nats]
+};
+void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options);
+
+/// `evidence`: of the distinct poses found, best first, at least one [nats]. `matches`: how many
+/// objects agree under the best. `mirror_evidence`: what the mirror image of the local map reaches;
+/// asked only where everything else speaks for the pose.
+LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t matches,
+                             const std::function<double()>& mirror_evidence,
+                             const SingleLookOptions& options);
+
+/// When the loop of a track is accepted, and when an accepted one is withdrawn. Chosen on HALV-sim
+/// (seeds 1 to 10), Victoria Park and the pole sequences; the same for all.
+struct LoopAcceptanceOptions {
+  /// log odds of its track against all others and against "nowhere" [nats]
+  double min_margin = 13.;
+  double max_heading_sigma_rad = 0.042;  ///< standard deviation of the measured heading, at most
+  double max_apart_m = 30.;              ///< distance between the two cameras, at most
+  /// withdrawn where the refined trajectory differs by this or more ...
+  double withdraw_m = 2.;
+  double withdraw_rad = 0.06;  ///< ... or turns by this or more
+};
+void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options);
+
+/// What is known about the best track of poses when it is decided about.
+struct TrackEvidence {
+  double evidence = 0;           ///< of all its attempts, against chance [nats]
+  double margin = 0;             ///< log odds against all other tracks and "nowhere" [nats]
+  double second_margin = 0;      ///< the same of the second best track
+  double own_evidence = 0;       ///< of the objects of this attempt alone, at the track's pose
+  double heading_sigma_rad = 0;  ///< of the measured loop
+  double apart_m = 0;            ///< between query and match camera
+};
+
+struct TrackVerdict {
+  LoopVerdict loop;
+  /// This attempt is a good measurement; it is accepted as soon as its track is.
+  bool confirmed = false;
+};
+TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions& options);
+
+/// A solve of the pose graph has kept the loop or has refused it; either may change later.
+void ApplyGraphVerdict(bool kept, LoopClosure& loop);
+
+/// Does the refined trajectory, with the query camera at `T_match_query` in the match camera's
+/// frame, contradict the loop as it was measured?
+bool IsWithdrawn(const LoopClosure& loop, const Pose& T_match_query,
+                 const LoopAcceptanceOptions& options);
 
 }  // namespace sslcd

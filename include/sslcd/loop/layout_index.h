@@ -40,6 +40,8 @@ class LayoutIndex {
   /// ones.
   LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
   ~LayoutIndex();
+  LayoutIndex(const LayoutIndex& other);
+  LayoutIndex& operator=(const LayoutIndex& other);
   LayoutIndex(LayoutIndex&&) noexcept;
   LayoutIndex& operator=(LayoutIndex&&) noexcept;
 
@@ -97,6 +99,9 @@ class LayoutIndex {
 
   /// Objects per square metre, as seen from an object: the density of its surroundings.
   double density() const { return density_; }
+  /// Volume of the poses that put a point among the objects: their area times all headings.
+  /// [m^2 rad]
+  double pose_volume() const;
   /// How much the heights of neighbours differ (standard deviation). [m]
   double height_spread() const { return height_spread_; }
 

@@ -22,10 +22,11 @@ struct LayoutLikelihoodOptions {
   /// Beta prior of the share of local objects that the map has: has ...
   double mapped_prior = 10.;
   double unmapped_prior = 2.;  ///< ... and has not
-  /// local objects may lie beyond what the map has seen: these do not count as unmapped
-  bool leave_map = false;
-  double wrong_height = 0.01;  ///< share of objects whose height says nothing
-  double min_gain = -1.5;      ///< a match that says less is none [nats]
+  /// local objects may lie beyond what the map has seen, as on a pass that crosses an older one:
+  /// these do not count as unmapped
+  bool leave_map = true;
+  double wrong_height = 0.1;  ///< share of objects whose height says nothing, e.g. on slopes
+  double min_gain = -1.5;     ///< a match that says less is none [nats]
   /// Beta prior of the share of mapped objects in sight that are seen again: seen ...
   double seen_prior = 3.;
   double unseen_prior = 1.5;  ///< ... and not seen

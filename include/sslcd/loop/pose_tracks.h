@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sslcd/core/fields.h"
-#include "sslcd/loop/decision.h"
+#include "sslcd/loop/pose_search.h"
 
 namespace sslcd {
 

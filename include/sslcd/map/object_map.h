@@ -64,6 +64,10 @@ class ObjectMap {
   const GravityFrame& gravity() const { return gravity_; }
   const NoiseScale& noise_scale() const { return noise_scale_; }
 
+  /// Counts how often sightings were replaced or landmarks fused from outside: what was computed
+  /// from landmarks by their ids before that is out of date.
+  int rewrites() const { return rewrites_; }
+
   /// Puts back what an optimisation has found.
   void SetPose(LandmarkId id, const UprightPose& pose);
   void SetState(LandmarkId id, LandmarkState state);
@@ -114,6 +118,7 @@ class ObjectMap {
   std::vector<int> open_;  ///< tentative and driving ones: the only ones that can grow stale
   SpatialIndex index_;
   int next_id_ = 1;
+  int rewrites_ = 0;
 };
 
 }  // namespace sslcd

@@ -27,8 +27,8 @@ struct DriftPair {
 DriftPair MakeDriftPair(const LayoutObject& local, const LayoutObject& global);
 
 struct DriftOptions {
-  bool six_dof = false;          ///< false: yaw and shift only
-  double tilt_sigma_rad = 0.01;  ///< how far the vertical of the local map may be off
+  bool six_dof = true;           ///< odometry's tilt drifts, too; false: yaw and shift only
+  double tilt_sigma_rad = 0.03;  ///< how far the vertical of the local map may be off
   /// Cauchy loss on each pair's position and heading, in sigmas; 0: none
   double loss_scale = 2.;
   /// whitened position error up to which a pair counts as an inlier

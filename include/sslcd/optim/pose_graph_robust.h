@@ -41,8 +41,4 @@ struct RobustPoseGraphSummary {
 RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
                                    const std::vector<double>& kept_before = {});
 
-/// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's
-/// approximation (within 0.5 % for dof >= 3 and probabilities from .9 to .999).
-double Chi2Quantile(double probability, int dof);
-
 }  // namespace sslcd

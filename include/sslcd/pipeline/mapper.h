@@ -5,15 +5,16 @@
 #include <optional>
 #include <vector>
 
+#include "sslcd/closing/place_matcher.h"
+#include "sslcd/closing/view_aligner.h"
 #include "sslcd/core/detection.h"
+#include "sslcd/core/frame_store.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/core/trajectory.h"
 #include "sslcd/map/object_map.h"
 #include "sslcd/optim/object_ba.h"
 #include "sslcd/pipeline/options.h"
-#include "sslcd/pipeline/place_matcher.h"
-#include "sslcd/pipeline/view_aligner.h"
 
 namespace sslcd {
 
@@ -35,26 +36,6 @@ struct FrameReport {
   BaSummary window;  ///< of the sliding window; not usable where none ran
 };
 
-/// A frame as the mapper remembers it.
-struct FrameRecord {
-  int frame = 0;
-  double stamp = 0;
-  double travelled = 0;  ///< path of the odometry so far [m]
-  Pose T_odom_cam;       ///< levelled, see LevelOptions
-  Pose T_world_cam;
-  std::vector<Detection> detections;  ///< after the filter, without appearance vectors
-  std::vector<LandmarkId> matched;    ///< landmark of each detection
-};
-
-/// Two cameras whose images have been aligned: indices of frames.
-struct ViewTie {
-  int from = 0, to = 0;
-  RelativePose pose;  ///< T_from_to
-};
-
-class Leveller;
-class LoopCloser;
-
 /// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III).
 /// The world is the odometry's frame, made metric: the first camera stays where the odometry has
 /// it. Not thread-safe; one mapper per sequence.
@@ -62,6 +43,13 @@ class Mapper {
  public:
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
+  /// A copy has all of the state and goes its own way, e.g. to Refine() in a thread of its own
+  /// while the original takes in frames. It shares the host's functions (MapperContext). O(frames +
+  /// map).
+  Mapper(const Mapper& other);
+  Mapper& operator=(const Mapper& other);
+  Mapper(Mapper&&) noexcept;
+  Mapper& operator=(Mapper&&) noexcept;
 
   /// Frames in order of time. O(window), whatever the size of the map, but for attempts to close a
   /// loop. Throws Error(kBadInput) on a stamp that does not increase or a pose that is not finite;
@@ -73,38 +61,20 @@ class Mapper {
   /// optimised once more with that. May be called any time, and again.
   BaSummary Refine();
 
-  const ObjectMap& map() const { return map_; }
-  const std::vector<FrameRecord>& frames() const { return frames_; }
+  const ObjectMap& map() const;
+  const FrameStore& frames() const;
   Trajectory CameraTrajectory() const;     ///< one pose a frame
   std::vector<MapObject> Objects() const;  ///< every landmark, by id
   /// every attempt, refused ones too
   std::vector<LoopClosure> LoopClosures() const;
-  const std::vector<ViewTie>& view_ties() const { return view_ties_; }  ///< of the last Refine
+  const std::vector<ViewTie>& view_ties() const;  ///< of the last Refine
   /// metres per odometry metre
   double scale() const;
-  TimingTable& timing() { return timing_; }
+  TimingTable& timing();
 
  private:
-  Pose Predict(const Pose& T_odom_cam) const;
-  bool IsKeyframe(const Pose& T_odom_cam) const;
-  BaSummary OptimiseWindow();
-  void SlideWindow(const BaProblem& problem);
-  BaProblem WindowProblem() const;
-  void ResetWindow();
-  void Propagate(std::size_t from_record);
-
-  Options options_;
-  MapperContext context_;
-  ObjectMap map_;
-  std::vector<FrameRecord> frames_;
-  std::vector<int> window_;  // the keyframes in it: indices into frames_
-  BaPrior prior_;
-  double log_scale_ = 0;
-  std::vector<ViewTie> view_ties_;
-  double refined_log_scale_ = 0;  // what the last full-map optimisation found
-  TimingTable timing_;
-  std::unique_ptr<Leveller> leveller_;
-  std::unique_ptr<LoopCloser> loops_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace sslcd

@@ -81,7 +81,7 @@ sslcd::Mapper MakeMapper(const sslcd::StereoCamera& camera, double camera_height
   source.stereo_odometry = false;  // true: poses of sslcd::StereoOdometry, not of VINS
   source.alignment_range_m =
       sslcd::AlignmentRange(camera.left, camera.left.height, camera_height_m);
-  sslcd::Options options = sslcd::DefaultOptions(sslcd::Options::Mode::kRobust);
+  sslcd::Options options = sslcd::DefaultOptions(sslcd::Mode::kRobust);
   sslcd::AdaptTo(source, options);
   sslcd::MapperContext context;
   context.gravity = sslcd::GravityFrame::FromUp({0, 0, 1});

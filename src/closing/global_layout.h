@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "closing/pass_map.h"
+#include "sslcd/closing/loop_options.h"
+#include "sslcd/loop/layout_index.h"
+
+namespace sslcd {
+
+/// The global map that a local one is compared with: the objects of passes that ended before a
+/// point of the path, indexed. Follows the passes from call to call. Copyable.
+class GlobalLayout {
+ public:
+  explicit GlobalLayout(const LoopOptions& options)
+      : max_pair_m_(options.match.max_pair_m),
+        reach_m_(options.match.reach_m),
+        min_sightings_(options.layout.min_sightings) {}
+
+  /// The index as of now. Holds until the next call. O(what has changed); O(map) if everything has.
+  const LayoutIndex& Update(const MapState& state, const PassMap& passes, double old_until_m);
+
+ private:
+  double max_pair_m_, reach_m_;
+  int min_sightings_;
+  PassMap::Mark mark_;
+  std::optional<LayoutIndex> index_;
+};
+
+}  // namespace sslcd

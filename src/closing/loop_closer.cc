@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_closer.h"
+
+#include <utility>
+
+#include "closing/loop_corrector.h"
+#include "closing/remeasure.h"
+
+namespace sslcd {
+namespace {
+
+std::unique_ptr<LoopFinder> MakeFinder(const LoopOptions& options, const PlaceMatcher& matcher) {
+  if (matcher) return MakeHostFinder(options, matcher);
+  return options.finder == LoopOptions::Finder::kPrinted ? MakePrintedFinder(options)
+                                                         : MakeTrackFinder(options);
+}
+
+}  // namespace
+
+LoopCloser::LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_map,
+                       Gallery::Mode galleries, const PlaceMatcher& matcher)
+    : options_(options),
+      whole_map_(whole_map),
+      passes_(whole_map.noise, options.layout.split_m, galleries),
+      finder_(MakeFinder(options, matcher)) {}
+
+LoopCloser::LoopCloser(const LoopCloser& other)
+    : options_(other.options_),
+      whole_map_(other.whole_map_),
+      passes_(other.passes_),
+      finder_(other.finder_->Clone()),
+      ledger_(other.ledger_),
+      last_attempt_m_(other.last_attempt_m_) {}
+
+void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing) {
+  const double here_m = state.frames.back().travelled;
+  if (here_m - last_attempt_m_ < options_.layout.every_m) return;
+  last_attempt_m_ = here_m;
+  SearchAndCorrect(state, {here_m, options_.lag_m, options_.layout.local_m, 0.}, scale, timing);
+}
+
+void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
+  if (state.frames.empty()) return;
+  const LoopLayoutOptions& o = options_.layout;
+  const double end_m = state.frames.back().travelled;
+  for (double lag_m = options_.lag_m - o.every_m; lag_m > 0; lag_m -= o.every_m)
+    if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
+      SearchAndCorrect(state, {end_m, lag_m, o.local_m, options_.lag_m}, scale, timing);
+  if (ledger_.AnyAccepted() && finder_->CanLookBack() && o.hindsight_m > 0)
+    SearchAgain(state, scale, timing);
+}
+
+void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing) {
+  ledger_.ResetPath(state.frames);
+  finder_->Reset();
+  const std::size_t first_search = ledger_.attempts().size();
+  const LoopLayoutOptions& o = options_.layout;
+  const double lag_m = options_.lag_m;
+  for (double here_m = lag_m; here_m < state.frames.back().travelled; here_m += o.every_m)
+    if (!ledger_.AcceptedNear(state.frames, here_m - lag_m, 0.5 * o.every_m))
+      SearchAndCorrect(state, {here_m, lag_m, o.hindsight_m, lag_m}, scale, timing);
+  ledger_.DropUnaccepted(first_search);
+}
+
+void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
+                                  TimingTable& timing) {
+  {
+    const ScopedTimer timer(timing, "loop detection");
+    if (!Search(state, window)) return;
+  }
+  const ScopedTimer timer(timing, "drift correction");
+  const bool moves = !AgreesWithNewLoops(state, ledger_);
+  if (moves) Correct(state, window.here_m, scale);
+  passes_.Rename(FuseMatchedObjects(state, ledger_, options_.fuse_m, whole_map_));
+  if (!moves) return;
+  const int here = state.frames.AtPath(window.here_m);
+  const Pose before = state.frames[here].T_world_cam;
+  AdjustAfterLoop(state, scale, options_, whole_map_);
+  finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
+}
+
+// True: a loop was accepted.
+bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
+  const std::optional<FoundLoop> found = finder_->Find({state, passes_, ledger_.path(), window});
+  if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
+  if (found->loop.row.decision != LoopDecision::kAccepted) return false;
+  ledger_.AcceptNewest(state.frames);
+  return true;
+}
+
+void LoopCloser::Correct(MapState& state, double here_m, double scale) {
+  const int here = state.frames.AtPath(here_m);
+  const Pose before = state.frames[here].T_world_cam;
+  if (!CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise)) return;
+  finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
+}
+
+void LoopCloser::Review(const MapState& state) {
+  passes_.Rebuild(state);
+  finder_->Reset();  // where its poses were everything has moved
+  ReviewLoops(state, passes_, ledger_, options_);
+}
+
+}  // namespace sslcd

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_corrector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "refine/optimise_map.h"
+#include "refine/trajectory_correction.h"
+#include "sslcd/loop/decision.h"
+#include "sslcd/loop/layout_likelihood.h"
+
+namespace sslcd {
+namespace {
+
+// Solves the graph and gives the rows of `loops` its verdict. False: not solvable.
+bool SolveGraph(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
+                const LoopOptions& options) {
+  if (!options.robust) return SolvePoseGraph(graph.graph, options.graph.graph).usable;
+  const RobustPoseGraphSummary summary = SolveRobust(graph.graph, options.graph, graph.kept_before);
+  if (!summary.graph.usable) return false;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    ApplyGraphVerdict(summary.edge_weight[graph.first_loop + i] > 0, loops[i]->row());
+  return true;
+}
+
+}  // namespace
+
+bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger) {
+  constexpr double kProbability = 0.9;
+  const std::vector<LoopAttempt>& attempts = ledger.attempts();
+  return std::all_of(attempts.begin(), attempts.end(), [&](const LoopAttempt& attempt) {
+    if (!attempt.in_graph || attempt.solved) return true;
+    const LoopMeasurement& loop = attempt.found.loop;
+    const Pose T =
+        state.frames[loop.match].T_world_cam.inverse() * state.frames[loop.query].T_world_cam;
+    return Agrees({loop.row.T_match_query, loop.row.covariance}, T, kProbability);
+  });
+}
+
+bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
+                       const LoopOptions& options, const DetectionNoise& noise) {
+  std::vector<LoopAttempt*> loops;
+  std::vector<LoopEdge> edges;
+  for (LoopAttempt& attempt : ledger.attempts()) {
+    if (!attempt.in_graph) continue;
+    attempt.solved = true;
+    loops.push_back(&attempt);
+    edges.push_back({attempt.found.loop.match, attempt.found.loop.query, &attempt.row()});
+  }
+  LoopGraph graph = BuildLoopGraph(state.frames, edges, scale, state.gravity().up, options);
+  if (!SolveGraph(graph, loops, options)) return false;
+  const std::vector<Pose> before = PosesOf(state.frames);
+  MoveKeyframes(state.frames, graph.keyframes, PosesOf(graph.graph));
+  MoveObjects(state, before, noise);
+  return true;
+}
+
+MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
+                             const WholeMapOptions& options) {
+  std::vector<std::pair<LandmarkId, LandmarkId>> pairs;
+  const auto& all = state.map.landmarks();
+  for (const LoopAttempt& attempt : ledger.attempts()) {
+    if (!attempt.accepted()) continue;
+    for (const auto& [local, global] : attempt.pairs) {
+      const auto a = all.find(local.value), b = all.find(global.value);
+      if (local == global || a == all.end() || b == all.end()) continue;
+      if ((a->second.pose.position - b->second.pose.position).norm() <= fuse_m)
+        pairs.push_back({global, local});
+    }
+  }
+  if (pairs.empty()) return {};
+  const MergedIds merged = FuseMatched(state, pairs, options);
+  ledger.Rename(merged);
+  return merged;
+}
+
+BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,
+                          const WholeMapOptions& whole_map) {
+  // From where the pose graph has left everything; more of them change next to nothing.
+  constexpr int kMaxSteps = 4;
+  const std::vector<int> keyframes =
+      SelectKeyframes(state.frames, options.keyframe_m, kGraphKeyframeRad);
+  if (static_cast<int>(keyframes.size()) > options.adjust_keyframes) return {};
+  WholeMapOptions adjust = whole_map;
+  adjust.map.learn_noise = false;
+  adjust.ba.max_iterations = std::min(adjust.ba.max_iterations, kMaxSteps);
+  adjust.ba.odometry = options.odometry;
+  adjust.ba.odometry.scale_prior = 0;  // the scale stays
+  double log_scale = std::log(scale);
+  return OptimiseMap(state, keyframes, log_scale, {}, adjust);
+}
+
+YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity) {
+  const Vec3 forward = (T_now * T_before.inverse()).so3() * gravity.forward;
+  YawShift change;
+  change.yaw = std::atan2(forward.dot(gravity.left), forward.dot(gravity.forward));
+  const Eigen::Matrix3d to_layout = gravity.Basis().transpose();
+  change.t = to_layout * T_now.translation() - Apply(change, to_layout * T_before.translation());
+  change.t.z() = 0;
+  return change;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_graph.h"
+
+#include <cmath>
+#include <set>
+
+#include "refine/trajectory_correction.h"
+#include "sslcd/optim/odometry_edge.h"
+
+namespace sslcd {
+
+LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,
+                         const Vec3& up, const LoopOptions& options) {
+  LoopGraph result;
+  std::set<int> chosen;
+  for (const int keyframe : SelectKeyframes(frames, options.keyframe_m, kGraphKeyframeRad))
+    chosen.insert(keyframe);
+  for (const LoopEdge& loop : loops) chosen.insert({loop.match, loop.query});
+  result.keyframes.assign(chosen.begin(), chosen.end());
+  PoseGraph& graph = result.graph;
+  for (std::size_t k = 0; k < result.keyframes.size(); ++k) {
+    graph.vertices.push_back(
+        {result.keyframes[k], frames[result.keyframes[k]].T_world_cam, k == 0});
+    if (k == 0) continue;
+    PoseGraph::Edge& edge = graph.edges.emplace_back();
+    edge.from = result.keyframes[k - 1];
+    edge.to = result.keyframes[k];
+    const OdometryEdge step =
+        OdometryBetween(frames, edge.from, edge.to, options.odometry, up, scale);
+    edge.T_from_to = step.T_from_to;
+    edge.information = step.information;
+  }
+  result.first_loop = graph.edges.size();
+  result.kept_before.assign(graph.edges.size(), 1.);
+  for (const LoopEdge& loop : loops) {
+    const Eigen::Matrix<double, 6, 6> covariance = loop.closure->covariance;
+    graph.edges.push_back(
+        {loop.match, loop.query, loop.closure->T_match_query, covariance.inverse(), true});
+    result.kept_before.push_back(loop.closure->decision == LoopDecision::kAccepted ? 1. : 0.);
+  }
+  return result;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sslcd {
+
+bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int newest_frame) {
+  const bool known =
+      std::any_of(attempts_.begin(), attempts_.end(), [&](const LoopAttempt& attempt) {
+        const LoopMeasurement& loop = attempt.found.loop;
+        return loop.query == found.loop.query && loop.match == found.loop.match &&
+               loop.row.newest_frame == newest_frame;
+      });
+  if (known) return false;
+  LoopAttempt& attempt = attempts_.emplace_back();
+  attempt.found = found;
+  attempt.row().newest_frame = newest_frame;
+  attempt.pairs = attempt.row().pairs;
+  attempt.window = window;
+  return true;
+}
+
+void LoopLedger::AcceptNewest(const FrameStore& frames) {
+  LoopAttempt& newest = attempts_.back();
+  const std::string settled = "settled by frame " + std::to_string(newest.row().query_frame);
+  for (LoopAttempt& earlier : attempts_) {
+    const FoundLoop& found = earlier.found;
+    if (&earlier == &newest || found.track < 0 || found.track != newest.found.track) continue;
+    if (!found.confirmed || earlier.in_graph) continue;
+    earlier.row().reason = settled;
+    Enter(earlier, frames);
+  }
+  Enter(newest, frames);
+}
+
+void LoopLedger::Enter(LoopAttempt& attempt, const FrameStore& frames) {
+  const LoopMeasurement& loop = attempt.found.loop;
+  attempt.in_graph = true;
+  attempt.row().decision = LoopDecision::kAccepted;
+  path_.AddShortcut(frames[loop.query].travelled, frames[loop.match].travelled);
+}
+
+void LoopLedger::DropUnaccepted(std::size_t first) {
+  attempts_.erase(
+      std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first), attempts_.end(),
+                     [](const LoopAttempt& attempt) { return !attempt.in_graph; }),
+      attempts_.end());
+}
+
+void LoopLedger::Rename(const MergedIds& merged) {
+  for (LoopAttempt& attempt : attempts_) {
+    for (auto& [local, global] : attempt.pairs) {
+      local = Resolve(local, merged);
+      global = Resolve(global, merged);
+    }
+  }
+}
+
+bool LoopLedger::AnyAccepted() const {
+  return std::any_of(attempts_.begin(), attempts_.end(),
+                     [](const LoopAttempt& attempt) { return attempt.accepted(); });
+}
+
+bool LoopLedger::AcceptedNear(const FrameStore& frames, double path_m, double within_m) const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [&](const LoopAttempt& attempt) {
+    return attempt.accepted() &&
+           std::abs(frames[attempt.found.loop.query].travelled - path_m) < within_m;
+  });
+}
+
+std::vector<LoopEdge> LoopLedger::AcceptedEdges() const {
+  std::vector<LoopEdge> edges;
+  for (const LoopAttempt& attempt : attempts_)
+    if (attempt.accepted())
+      edges.push_back({attempt.found.loop.match, attempt.found.loop.query, &attempt.row()});
+  return edges;
+}
+
+PathGraph LoopLedger::AcceptedPath(const FrameStore& frames) const {
+  PathGraph path;
+  for (const LoopEdge& loop : AcceptedEdges())
+    path.AddShortcut(frames[loop.query].travelled, frames[loop.match].travelled);
+  return path;
+}
+
+std::vector<LoopClosure> LoopLedger::Rows() const {
+  std::vector<LoopClosure> rows;
+  for (const LoopAttempt& attempt : attempts_) {
+    LoopClosure& row = rows.emplace_back(attempt.row());
+    if (!attempt.remeasured || !attempt.accepted()) continue;
+    row.T_match_query = attempt.remeasured->T_match_query;
+    row.covariance = attempt.remeasured->covariance;
+    row.viewpoint_change_rad = attempt.remeasured->viewpoint_change_rad;
+    row.by_views = attempt.remeasured->by_views;
+  }
+  return rows;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_meter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace sslcd {
+namespace {
+
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's heading [rad]
+
+// Where on the path the first and the last of the common objects were seen. [m]
+std::pair<double, double> SeenBetween(const CommonObjects& common) {
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const auto& pair : common.pairs) {
+    first = std::min(first, common.local.seen_m[pair.first]);
+    last = std::max(last, common.local.seen_m[pair.first]);
+  }
+  return {first, last};
+}
+
+}  // namespace
+
+std::vector<std::pair<int, LandmarkId>> OldLandmarks(
+    const std::vector<std::pair<int, int>>& matches, const LayoutIndex& global) {
+  std::vector<std::pair<int, LandmarkId>> pairs;
+  for (const auto& [i, j] : matches) pairs.push_back({i, {global.objects()[j].id}});
+  return pairs;
+}
+
+std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m,
+                                                  double beyond_m) const {
+  constexpr double kFurtherBack = 10.;  // [m]
+  const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+  const auto [first_m, last_m] = SeenBetween(common);
+  std::optional<LoopMeasurement> best;
+  for (int i = 0; i < 3; ++i) {
+    const int query = frames_.AtPath(
+        std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
+    const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
+    auto now = match < 0 ? std::nullopt : MeasureBetween(query, match, common);
+    if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
+    if (best && best->heading_sigma < options_.acceptance.max_heading_sigma_rad) break;
+  }
+  return best;
+}
+
+std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
+  std::vector<DriftPair> pairs;
+  for (const auto& [i, old] : common.pairs) {
+    DriftPair& pair = pairs.emplace_back();
+    pair.T_world_local = ToPose(common.local.places[i], gravity_);
+    const auto place =
+        passes_.PlaceBefore(state_, old, common.old_until_m, options_.layout.min_sightings);
+    pair.T_world_global = ToPose(place.value(), gravity_);
+    pair.symmetry = common.local.objects[i].symmetry;
+    pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;
+    pair.sigma_yaw_rad = kYawSigma;
+  }
+  return pairs;
+}
+
+std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
+                                                         const CommonObjects& common) const {
+  const Pose level_query = LevelFrame(query), level_match = LevelFrame(match);
+  std::vector<DriftPair> pairs = Pairs(common);
+  LoopMeasurement loop;
+  LoopClosure& row = loop.row;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto& [i, old] = common.pairs[k];
+    const double old_seen_m = passes_.NearestPass(frames_, old, frames_[match].travelled);
+    const double bent =
+        std::hypot(OdometrySigma(query, common.local.seen_m[i]), OdometrySigma(match, old_seen_m));
+    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(common.sigma_m, bent);
+    pairs[k].T_world_local = level_query * pairs[k].T_world_local;
+    pairs[k].T_world_global = level_match * pairs[k].T_world_global;
+    row.pairs.push_back({{common.local.objects[i].id}, old});
+  }
+  const DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
+  if (!drift.usable) return std::nullopt;
+
+  const Pose &T_world_query = frames_[query].T_world_cam,
+             &T_world_match = frames_[match].T_world_cam;
+  const Pose corrected = level_match.inverse() * drift.T_global_local * level_query * T_world_query;
+  loop.query = query;
+  loop.match = match;
+  row.query_frame = frames_[query].frame;
+  row.match_frame = frames_[match].frame;
+  row.T_match_query = T_world_match.inverse() * corrected;
+  row.viewpoint_change_rad = ViewpointChange(T_world_match, corrected, gravity_);
+  const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
+  row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
+  row.covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
+  row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
+  const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
+  loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
+  // Before or after the common objects were in sight the camera stands where odometry has it.
+  const auto [first_m, last_m] = SeenBetween(common);
+  const int in_sight = frames_.AtPath(std::clamp(frames_[query].travelled, first_m, last_m));
+  if (query != in_sight) {
+    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[query].T_odom_cam;
+    row.covariance += InformationOf(SigmasOf(walked, options_.odometry), up).inverse();
+  }
+  return loop;
+}
+
+// Among the frames of the passes on which the matched old objects were seen; -1: none.
+int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const {
+  std::set<LandmarkId> ids;
+  for (const auto& pair : common.pairs) ids.insert(pair.second);
+  int best = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const LandmarkId id : ids) {
+    for (const int i : passes_.PassesOf(id)) {
+      const PassObject& pass = passes_.passes()[i];
+      if (pass.last_m >= common.old_until_m) continue;
+      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
+        const double distance =
+            (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        best = f;
+      }
+    }
+  }
+  return best;
+}
+
+// How far odometry may have moved what was seen at `seen_m` of the path, relative to a frame. [m]
+double LoopMeter::OdometrySigma(int frame, double seen_m) const {
+  constexpr double kRange = 10.;  // from which an object is seen [m]
+  const Pose step =
+      frames_[frame].T_odom_cam.inverse() * frames_[frames_.AtPath(seen_m)].T_odom_cam;
+  const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
+  return std::hypot(sigmas.horizontal,
+                    sigmas.rotation * (0.5 * step.translation().norm() + kRange));
+}
+
+// Turns the world about a camera so that the cameras around it stand upright on average.
+Pose LoopMeter::LevelFrame(int frame) const {
+  constexpr double kReach = 20.;  // of path [m]
+  const Vec3 up_in_cam = frames_.front().T_world_cam.so3().inverse() * gravity_.up;
+  Vec3 up = Vec3::Zero();
+  for (const int step : {-1, 1})
+    for (int f = frame; f >= 0 && f < frames_.size(); f += step) {
+      if (std::abs(frames_[f].travelled - frames_[frame].travelled) > kReach) break;
+      up += frames_[f].T_world_cam.so3() * up_in_cam;
+    }
+  const Vec3 axis = up.cross(gravity_.up);
+  if (axis.norm() < 1e-9) return {};
+  const auto turn =
+      lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
+  const Vec3 pivot = frames_[frame].T_world_cam.translation();
+  return {turn, pivot - turn * pivot};
+}
+
+double ViewpointChange(const Pose& T_world_a, const Pose& T_world_b, const GravityFrame& gravity) {
+  const auto heading = [&](const Pose& T_world_cam) {
+    const Vec3 axis = T_world_cam.so3() * Vec3::UnitZ();
+    return std::atan2(axis.dot(gravity.left), axis.dot(gravity.forward));
+  };
+  return std::abs(WrapAngle(heading(T_world_b) - heading(T_world_a)));
+}
+
+}  // namespace sslcd

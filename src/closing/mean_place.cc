@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/mean_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace sslcd {
+
+std::optional<MeanSighting> MeanPlace(const PassObject& pass, const MapState& state,
+                                      const DetectionNoise& noise, const PathRange& range) {
+  const FrameStore& frames = state.frames;
+  const GravityFrame& gravity = state.gravity();
+  const Vec3 up_in_cam = frames.front().T_world_cam.so3().inverse() * gravity.up;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  Vec3 weighted = Vec3::Zero();
+  std::vector<double> yaws;
+  double path = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  Pose T_cam_world;  // of the nearest camera
+  for (const auto& [f, d] : pass.sightings) {
+    const FrameRecord& frame = frames[f];
+    if (frame.travelled < range.from_m || frame.travelled > range.to_m) continue;
+    const Pose& T_cam_object = frame.detections[d].T_cam_object;
+    const Vec3 p = T_cam_object.translation();
+    const Eigen::Matrix3d R = frame.T_world_cam.so3().matrix();
+    const DetectionSigmas sigmas = SigmasAt(p.norm(), noise, {});
+    const Eigen::Matrix3d I = R * PositionCovariance(p, sigmas).inverse() * R.transpose();
+    information += I;
+    path += frame.travelled;
+    if (p.norm() < nearest) {
+      nearest = p.norm();
+      T_cam_world = frame.T_world_cam.inverse();
+    }
+    weighted += I * (frame.T_world_cam * p);
+    yaws.push_back(gravity.YawOf((frame.T_world_cam * T_cam_object).so3()));
+  }
+  if (static_cast<int>(yaws.size()) < std::max(1, range.min_sightings)) return std::nullopt;
+  Vec2 axis(0, 0);  // of doubled angles: a heading may be turned round by mistake
+  for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
+  const Vec3 position = information.ldlt().solve(weighted);
+  return MeanSighting{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},
+                      (T_cam_world * position).dot(up_in_cam),
+                      path / static_cast<double>(yaws.size())};
+}
+
+}  // namespace sslcd

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/remeasure.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "sslcd/loop/decision.h"
+#include "sslcd/optim/odometry_edge.h"
+#include "sslcd/optim/odometry_factors.h"
+
+namespace sslcd {
+namespace {
+
+// The loop as the refined map measures it; none where its objects fix it too badly.
+std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& passes,
+                                        const LoopAttempt& attempt, const LoopOptions& options) {
+  if (attempt.found.sigma_m <= 0) return std::nullopt;
+  const LoopLayoutOptions& o = options.layout;
+  const SearchWindow& window = attempt.window;
+  const PassLayout local =
+      passes.Between(state, window.here_m - window.local_m, window.here_m, o.min_sightings);
+  CommonObjects common{local, {}, attempt.found.sigma_m, window.OldUntil(o.gap_m)};
+  for (std::size_t i = 0; i < local.objects.size(); ++i) {
+    const LandmarkId id{local.objects[i].id};
+    if (passes.PlaceBefore(state, id, common.old_until_m, o.min_sightings))
+      common.pairs.push_back({static_cast<int>(i), id});
+  }
+  const LoopMeasurement& loop = attempt.found.loop;
+  auto now = LoopMeter(state, passes, options).MeasureBetween(loop.query, loop.match, common);
+  if (!now || now->heading_sigma >= options.acceptance.max_heading_sigma_rad) return std::nullopt;
+  return std::move(now->row);
+}
+
+double Uncertainty(const Pose::Matrix6& covariance) {
+  return covariance.topLeftCorner<3, 3>().trace();
+}
+
+}  // namespace
+
+void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledger,
+                 const LoopOptions& options) {
+  for (LoopAttempt& attempt : ledger.attempts()) {
+    if (!attempt.accepted()) continue;
+    const LoopMeasurement& loop = attempt.found.loop;
+    const Pose T_match_query =
+        state.frames[loop.match].T_world_cam.inverse() * state.frames[loop.query].T_world_cam;
+    if (IsWithdrawn(loop.row, T_match_query, options.acceptance)) {
+      attempt.row().decision = LoopDecision::kAmbiguous;
+      attempt.row().reason = "the refined trajectory disagrees";
+    } else {
+      attempt.remeasured = MeasureAgain(state, passes, attempt, options);
+    }
+  }
+}
+
+void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, double scale,
+                    const OdometryNoise& noise, LoopLedger& ledger) {
+  constexpr double kNear = 30;  // path on both passes together, at most [m]
+  const FrameStore& frames = state.frames;
+  const auto path = [&](int a, int b) {
+    return std::abs(frames[a].travelled - frames[b].travelled);
+  };
+  const auto walk = [&](int from, int to) {
+    return OdometryBetween(frames, from, to, noise, state.gravity().up, scale).Measurement();
+  };
+  for (LoopAttempt& attempt : ledger.attempts()) {
+    if (!attempt.accepted()) continue;
+    const int match = attempt.found.loop.match, query = attempt.found.loop.query;
+    const LoopClosure& by_objects = attempt.remeasured ? *attempt.remeasured : attempt.row();
+    RelativePose best{by_objects.T_match_query, by_objects.covariance};
+    bool better = false;
+    for (const ViewTie& tie : ties) {
+      if (path(match, tie.from) + path(query, tie.to) > kNear) continue;
+      const RelativePose by_views =
+          Compose(Compose(walk(match, tie.from), tie.pose), walk(tie.to, query));
+      if (!(Uncertainty(by_views.covariance) < Uncertainty(best.covariance))) continue;
+      best = by_views;
+      better = true;
+    }
+    if (!better) continue;
+    LoopClosure row = by_objects;
+    row.T_match_query = best.T_a_b;
+    row.covariance = best.covariance;
+    row.by_views = true;
+    const Pose& T_world_match = frames[match].T_world_cam;
+    row.viewpoint_change_rad =
+        ViewpointChange(T_world_match, T_world_match * best.T_a_b, state.gravity());
+    attempt.remeasured = std::move(row);
+  }
+}
+
+OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
+                              const LoopOptions& options) {
+  if (!options.learn_odometry) return {};
+  const Vec3 up = state.gravity().up;
+  return LearnOdometryFactors(
+      BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options).graph, up);
+}
+
+}  // namespace sslcd

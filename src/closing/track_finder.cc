@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "closing/global_layout.h"
+#include "closing/loop_finder.h"
+#include "closing/loop_prior.h"
+#include "sslcd/loop/decision.h"
+#include "sslcd/loop/pose_tracks.h"
+
+namespace sslcd {
+namespace {
+
+constexpr int kRefineRounds = 4;  // of one pose (LayoutLikelihood::Refine)
+// The evidence of a fit is against poses anywhere on the map; a track leaves about this much of
+// them: 1.5 m about the pose and .35 rad of heading. [m^2 rad]
+constexpr double kTrackVolume = 2.5;
+
+class TrackFinder : public LoopFinder {
+ public:
+  explicit TrackFinder(const LoopOptions& options)
+      : options_(options), global_(options), tracks_(options.tracks) {}
+
+  std::unique_ptr<LoopFinder> Clone() const override {
+    return std::make_unique<TrackFinder>(*this);
+  }
+
+  std::optional<FoundLoop> Find(const FinderInput& input) override {
+    const SearchWindow& window = input.window;
+    const double old_until = window.OldUntil(options_.layout.gap_m);
+    const PassLayout local = input.passes.Between(input.state, window.here_m - window.local_m,
+                                                  window.here_m, options_.layout.min_sightings);
+    const LayoutIndex& index = global_.Update(input.state, input.passes, old_until);
+    const std::size_t few = static_cast<std::size_t>(options_.match.search.min_matches);
+    if (std::min(local.objects.size(), index.objects().size()) < few) return std::nullopt;
+    UpdateTracks(input, local, index);
+    if (tracks_.tracks().empty()) return std::nullopt;
+
+    const PoseTrack& best = tracks_.tracks()[0];
+    const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma,
+                               old_until};
+    const LoopMeter meter(input.state, input.passes, options_);
+    auto loop = meter.Measure(common, window.here_m - window.lag_m, window.beyond_m);
+    if (!loop) return std::nullopt;
+    return Decide(std::move(*loop), best, index.pose_volume());
+  }
+
+  void MoveLocalMap(const YawShift& change) override { tracks_.Move(change); }
+  void Reset() override { tracks_.Forget(); }
+
+ private:
+  void UpdateTracks(const FinderInput& input, const PassLayout& local, const LayoutIndex& index) {
+    const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood);
+    PoseSearchOptions search = options_.match.search;
+    // the tracks of earlier attempts need not be found again
+    search.refine = std::min(search.refine, options_.tracks.max_tracks);
+    std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
+    PoseHypothesis no_drift;  // the camera may stand where the trajectory has it
+    no_drift.fit = likelihood.Refine(no_drift.pose, kRefineRounds);
+    if (static_cast<int>(no_drift.fit.matches.size()) >= search.min_matches)
+      found.insert(found.begin(), no_drift);
+    const double here_m = input.window.here_m;
+    tracks_.Update(
+        likelihood, found, search, here_m,
+        OdometryPrior(input.passes, input.path.From(here_m), local, index, options_.prior));
+  }
+
+  FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double searched) const {
+    TrackEvidence evidence;
+    evidence.evidence = best.evidence;
+    evidence.margin = tracks_.Margin(0);
+    evidence.second_margin = tracks_.tracks().size() > 1 ? tracks_.Margin(1) : -evidence.margin;
+    evidence.own_evidence = best.fit.evidence + std::log(searched / kTrackVolume);
+    evidence.heading_sigma_rad = loop.heading_sigma;
+    evidence.apart_m = loop.row.T_match_query.translation().norm();
+    const TrackVerdict verdict = DecideTrack(evidence, options_.acceptance);
+    FoundLoop found{std::move(loop), best.fit.sigma, best.id, verdict.confirmed};
+    LoopClosure& row = found.loop.row;
+    row.decision = verdict.loop.decision;
+    row.score = verdict.loop.score;
+    row.second_score = verdict.loop.second_score;
+    row.reason = row.decision == LoopDecision::kAccepted
+                     ? std::to_string(row.pairs.size()) + " objects agree"
+                     : verdict.loop.reason;
+    return found;
+  }
+
+  LoopOptions options_;
+  GlobalLayout global_;
+  PoseTracks tracks_;
+};
+
+}  // namespace
+
+std::unique_ptr<LoopFinder> MakeTrackFinder(const LoopOptions& options) {
+  return std::make_unique<TrackFinder>(options);
+}
+
+}  // namespace sslcd

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/loop/layout_match.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace sslcd {
+namespace {
+
+// What the mirror image of the local map reaches. Coarse poses tell nearly all of it: a few are
+// refined.
+double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
+                      const LayoutMatchOptions& options) {
+  for (LayoutObject& object : local) {
+    object.position.y() *= -1;
+    object.yaw *= -1;
+  }
+  PoseSearchOptions search = options.search;
+  search.refine = std::max(1, search.refine / 10);
+  const std::vector<PoseHypothesis> found =
+      SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
+  return found.empty() ? -std::numeric_limits<double>::infinity() : found[0].fit.evidence;
+}
+
+}  // namespace
+
+void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
+  visitor.Real("max_pair_m", options.max_pair_m, 1, 1000,
+               "objects further apart propose no pose together");
+  visitor.Real("reach_m", options.reach_m, 0.1, 20,
+               "a local object is compared with what the map has within this");
+  visitor.Nested("search", options.search, "which poses are tried");
+  visitor.Nested("likelihood", options.likelihood, "how a pose is scored");
+}
+
+LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
+                          const LayoutMatchOptions& options, const SingleLookOptions& decision) {
+  LayoutAnswer answer;
+  std::vector<LayoutObject> usable;
+  std::vector<int> origin;
+  for (std::size_t i = 0; i < local.size(); ++i) {
+    if (!local[i].position.allFinite()) continue;
+    usable.push_back(local[i]);
+    origin.push_back(static_cast<int>(i));
+  }
+  const std::string needed = std::to_string(options.search.min_matches);
+  const std::size_t fewest = std::min(usable.size(), index.objects().size());
+  if (fewest < static_cast<std::size_t>(options.search.min_matches)) {
+    answer.reason = std::to_string(fewest) + " objects are too few: " + needed + " have to agree";
+    return answer;
+  }
+  std::vector<PoseHypothesis>& found = answer.hypotheses;
+  found = SearchPoses(LayoutLikelihood(usable, index, options.likelihood), options.search);
+  if (found.empty()) {
+    answer.reason = "no pose brings " + needed + " objects together";
+    return answer;
+  }
+  std::vector<double> evidence;
+  for (PoseHypothesis& hypothesis : found) {
+    evidence.push_back(hypothesis.fit.evidence);
+    for (auto& [i, j] : hypothesis.fit.matches) i = origin[i];
+  }
+  static_cast<LoopVerdict&>(answer) = DecideSingleLook(
+      evidence, found[0].fit.matches.size(), [&] { return MirrorEvidence(usable, index, options); },
+      decision);
+  return answer;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sslcd/core/error.h"
+#include "two_passes.h"
+
+namespace sslcd {
+namespace {
+
+// The local map ends `back_m` before the end of the second pass.
+std::optional<FoundLoop> Find(LoopFinder& finder, const TwoPasses& world, double back_m = 0,
+                              double lag_m = 25) {
+  static const PathGraph kNoLoops;
+  return finder.Find({world.state, world.passes, kNoLoops, {world.end_m() - back_m, lag_m, 75, 0}});
+}
+
+double Apart(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
+
+TEST(TrackFinder, FindsThePlaceFromBothDirections) {
+  for (const bool opposite : {false, true}) {
+    const TwoPasses world(Pose::Trans(5, 0, -3) * Pose::RotY(0.1), opposite);
+    const auto finder = MakeTrackFinder(LoopOptions());
+    const auto found = Find(*finder, world);
+    ASSERT_TRUE(found);
+    const LoopMeasurement& loop = found->loop;
+    EXPECT_EQ(loop.row.decision, LoopDecision::kAccepted) << loop.row.reason;
+    EXPECT_TRUE(found->confirmed);
+    EXPECT_GE(found->track, 0);
+    EXPECT_LT(Apart(loop.row.T_match_query, world.TrueLoop(loop.match, loop.query)), 0.05);
+    for (const auto& [local, global] : loop.row.pairs)
+      EXPECT_EQ(local.value, global.value + 1) << "a tree with itself";
+  }
+}
+
+TEST(TrackFinder, AHigherBarLeavesItAmbiguous) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  LoopOptions options;
+  options.acceptance.min_margin = 1000;
+  const auto found = Find(*MakeTrackFinder(options), world);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->loop.row.decision, LoopDecision::kAmbiguous);
+  EXPECT_TRUE(found->confirmed) << "its own objects say enough";
+  EXPECT_EQ(found->loop.row.reason, "another pose fits nearly as well");
+}
+
+TEST(TrackFinder, ATrackGoesOnFromAttemptToAttempt) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  const auto finder = MakeTrackFinder(LoopOptions());
+  const auto first = Find(*finder, world, 20);
+  const auto second = Find(*finder, world, 10);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->track, second->track);
+  finder->Reset();
+  const auto third = Find(*finder, world, 5);
+  ASSERT_TRUE(third);
+  EXPECT_NE(third->track, second->track);
+}
+
+TEST(TrackFinder, ACloneGoesItsOwnWay) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  const auto finder = MakeTrackFinder(LoopOptions());
+  ASSERT_TRUE(Find(*finder, world, 20));
+  const auto clone = finder->Clone();
+  const auto a = Find(*finder, world), b = Find(*clone, world);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->loop.row.score, b->loop.row.score);
+  EXPECT_EQ(a->track, b->track);
+}
+
+TEST(TrackFinder, NoneBeforeThereIsAnOldMapOrWithTooFewObjects) {
+  const TwoPasses world;
+  const auto finder = MakeTrackFinder(LoopOptions());
+  EXPECT_FALSE(Find(*finder, world, world.end_m() - 60)) << "the first pass";
+  const TwoPasses sparse(Pose(), false, 3);
+  EXPECT_FALSE(Find(*MakeTrackFinder(LoopOptions()), sparse));
+}
+
+TEST(PrintedFinder, TiesTheNewestCameraToTheFirstThatSawAMatchedObject) {
+  const TwoPasses world;
+  LoopOptions options;
+  const auto found = Find(*MakePrintedFinder(options), world);
+  ASSERT_TRUE(found);
+  const LoopMeasurement& loop = found->loop;
+  EXPECT_EQ(loop.row.decision, LoopDecision::kAccepted) << "it knows no refusal";
+  EXPECT_EQ(loop.query, world.state.frames.size() - 1);
+  int first = loop.query;
+  for (const auto& pair : loop.row.pairs)
+    for (const PassObject& pass : world.passes.passes())
+      if (pass.id == pair.second) first = std::min(first, pass.sightings.front().first);
+  EXPECT_EQ(loop.match, first);
+  EXPECT_EQ(found->track, -1);
+}
+
+TEST(PrintedFinder, NoneWhereTooFewObjectsMatch) {
+  const TwoPasses world;
+  LoopOptions options;
+  options.paper.min_matches = 1000;
+  EXPECT_FALSE(Find(*MakePrintedFinder(options), world));
+}
+
+// A host that knows which trees are the same.
+PlaceMatcher Knowing(const TwoPasses& world, bool sure) {
+  return [&world, sure](const PlaceQuery& query) {
+    PlaceAnswer answer;
+    for (std::size_t i = 0; i < query.local.size(); ++i)
+      for (std::size_t j = 0; j < query.global.size(); ++j)
+        for (const auto& [early, late] : world.trees)
+          if (query.local[i].id == late.value && query.global[j].id == early.value)
+            answer.matches.push_back({static_cast<int>(i), static_cast<int>(j)});
+    answer.score = 4;
+    answer.accepted = sure;
+    return std::optional<PlaceAnswer>(answer);
+  };
+}
+
+TEST(HostFinder, MeasuresWhatTheHostMatchesAndLeavesTheDecisionToIt) {
+  const TwoPasses world(Pose::Trans(5, 0, -3) * Pose::RotY(0.1));
+  for (const bool sure : {true, false}) {
+    const auto finder = MakeHostFinder(LoopOptions(), Knowing(world, sure));
+    const auto found = Find(*finder, world);
+    ASSERT_TRUE(found);
+    const LoopMeasurement& loop = found->loop;
+    EXPECT_EQ(loop.row.decision, sure ? LoopDecision::kAccepted : LoopDecision::kAmbiguous);
+    EXPECT_EQ(loop.row.score, 4);
+    EXPECT_LT(Apart(loop.row.T_match_query, world.TrueLoop(loop.match, loop.query)), 0.05);
+    EXPECT_FALSE(finder->CanLookBack()) << "a host is asked in order of time";
+  }
+}
+
+TEST(HostFinder, ImagesTieTheNewestCamera) {
+  const TwoPasses world;
+  const Pose T_match_query = Pose::Trans(0.5, 0, 1);
+  const auto images = [&](const PlaceQuery& query) {
+    PlaceAnswer answer;
+    answer.match_frame = query.old_frame;
+    answer.T_match_query = T_match_query;
+    answer.accepted = true;
+    return std::optional<PlaceAnswer>(answer);
+  };
+  LoopOptions options;
+  const auto found = Find(*MakeHostFinder(options, images), world);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->loop.query, world.state.frames.size() - 1);
+  EXPECT_EQ(Apart(found->loop.row.T_match_query, T_match_query), 0);
+  EXPECT_EQ(found->sigma_m, 0) << "no objects to measure by again";
+  EXPECT_NEAR(found->loop.row.covariance(0, 0), options.sigma_m * options.sigma_m, 1e-12);
+  EXPECT_FALSE(Find(*MakeHostFinder(options, images), world, 0, options.lag_m - 5))
+      << "was asked before";
+}
+
+TEST(HostFinder, RefusesAnswersThatNameNothing) {
+  const TwoPasses world;
+  const auto answering = [&](const PlaceAnswer& answer) {
+    const auto finder = MakeHostFinder(
+        LoopOptions(), [answer](const PlaceQuery&) { return std::optional<PlaceAnswer>(answer); });
+    return Find(*finder, world);
+  };
+  PlaceAnswer answer;
+  answer.matches = {{1000, 0}};
+  EXPECT_THROW(answering(answer), Error);
+  answer.matches = {{0, -1}};
+  EXPECT_THROW(answering(answer), Error);
+  answer.matches.clear();
+  answer.match_frame = world.state.frames.back().frame;  // not an old one
+  EXPECT_THROW(answering(answer), Error);
+}
+
+}  // namespace
+}  // namespace sslcd

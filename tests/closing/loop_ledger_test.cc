@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/loop_ledger.h"
+
+#include <gtest/gtest.h>
+
+namespace sslcd {
+namespace {
+
+FrameStore Line(int count) {
+  FrameStore frames;
+  for (int i = 0; i < count; ++i) {
+    FrameRecord record;
+    record.frame = i;
+    record.T_odom_cam = Pose::Trans(0, 0, i);
+    frames.Append(record);
+  }
+  return frames;
+}
+
+FoundLoop Loop(int match, int query, LoopDecision decision, int track = -1,
+               bool confirmed = false) {
+  FoundLoop found;
+  found.loop.match = match;
+  found.loop.query = query;
+  found.loop.row.query_frame = query;
+  found.loop.row.decision = decision;
+  found.loop.row.reason = "as found";
+  found.track = track;
+  found.confirmed = confirmed;
+  return found;
+}
+
+constexpr LoopDecision kOpen = LoopDecision::kAmbiguous, kAccepted = LoopDecision::kAccepted;
+
+TEST(LoopLedger, TwoCamerasAreEnteredOncePerNewestFrame) {
+  LoopLedger ledger;
+  EXPECT_TRUE(ledger.Add(Loop(3, 50, kOpen), {}, 60));
+  EXPECT_FALSE(ledger.Add(Loop(3, 50, kOpen), {}, 60));
+  EXPECT_TRUE(ledger.Add(Loop(4, 50, kOpen), {}, 60));
+  EXPECT_TRUE(ledger.Add(Loop(3, 51, kOpen), {}, 60));
+  EXPECT_TRUE(ledger.Add(Loop(3, 50, kOpen), {}, 65));
+  EXPECT_EQ(ledger.Rows().size(), 4u);
+  EXPECT_EQ(ledger.Rows()[3].newest_frame, 65);
+}
+
+TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 50, kOpen, 7, true), {}, 50);
+  ledger.Add(Loop(2, 55, kOpen, 7, false), {}, 55);  // a poor measurement
+  ledger.Add(Loop(3, 60, kOpen, 8, true), {}, 60);   // another track
+  ledger.Add(Loop(4, 65, kAccepted, 7, true), {}, 65);
+  EXPECT_FALSE(ledger.attempts()[0].accepted()) << "not before AcceptNewest";
+  ledger.AcceptNewest(frames);
+  const std::vector<LoopClosure> rows = ledger.Rows();
+  EXPECT_EQ(rows[0].decision, kAccepted);
+  EXPECT_EQ(rows[0].reason, "settled by frame 65");
+  EXPECT_EQ(rows[1].decision, kOpen);
+  EXPECT_EQ(rows[2].decision, kOpen);
+  EXPECT_EQ(rows[3].decision, kAccepted);
+  EXPECT_EQ(rows[3].reason, "as found");
+  EXPECT_EQ(ledger.AcceptedEdges().size(), 2u);
+}
+
+TEST(LoopLedger, LoopsWithoutATrackSettleNoOther) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 50, kOpen, -1, true), {}, 50);
+  ledger.Add(Loop(4, 65, kAccepted, -1, true), {}, 65);
+  ledger.AcceptNewest(frames);
+  EXPECT_EQ(ledger.Rows()[0].decision, kOpen);
+}
+
+TEST(LoopLedger, WhatTheGraphRefusesStaysInItButIsNoShortcutAfterAReset) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(10, 90, kAccepted), {}, 95);
+  ledger.AcceptNewest(frames);
+  EXPECT_EQ(ledger.path().From(90).To(12), 2) << "across the loop";
+  ledger.attempts()[0].row().decision = kOpen;
+  EXPECT_FALSE(ledger.AnyAccepted());
+  EXPECT_TRUE(ledger.attempts()[0].in_graph) << "may come back";
+  EXPECT_EQ(ledger.path().From(90).To(12), 2);
+  ledger.ResetPath(frames);
+  EXPECT_EQ(ledger.path().From(90).To(12), 78);
+}
+
+TEST(LoopLedger, DropsWhatTheSecondSearchHasNotAccepted) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 50, kOpen), {}, 50);  // of the first search
+  const std::size_t first = ledger.attempts().size();
+  ledger.Add(Loop(2, 60, kOpen), {}, 99);
+  ledger.Add(Loop(3, 70, kAccepted), {}, 99);
+  ledger.AcceptNewest(frames);
+  ledger.DropUnaccepted(first);
+  ASSERT_EQ(ledger.attempts().size(), 2u);
+  EXPECT_EQ(ledger.attempts()[0].found.loop.query, 50);
+  EXPECT_EQ(ledger.attempts()[1].found.loop.query, 70);
+}
+
+TEST(LoopLedger, AcceptedNearLooksAtQueryCameras) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(10, 90, kAccepted), {}, 95);
+  ledger.AcceptNewest(frames);
+  EXPECT_TRUE(ledger.AcceptedNear(frames, 92, 2.5));
+  EXPECT_FALSE(ledger.AcceptedNear(frames, 93, 2.5));
+  EXPECT_FALSE(ledger.AcceptedNear(frames, 10, 2.5)) << "that is the match camera";
+}
+
+TEST(LoopLedger, FollowsFusedLandmarksButKeepsTheRow) {
+  LoopLedger ledger;
+  FoundLoop found = Loop(1, 50, kOpen);
+  found.loop.row.pairs = {{{20}, {3}}, {{21}, {4}}};
+  ledger.Add(found, {}, 50);
+  ledger.Rename({{20, {9}}, {9, {3}}});
+  EXPECT_EQ(ledger.attempts()[0].pairs[0].first.value, 3);
+  EXPECT_EQ(ledger.attempts()[0].pairs[1].first.value, 21);
+  EXPECT_EQ(ledger.Rows()[0].pairs[0].first.value, 20);
+}
+
+TEST(LoopLedger, RowsAreAsMeasuredLastWhereAccepted) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 50, kAccepted), {}, 50);
+  ledger.AcceptNewest(frames);
+  LoopClosure again = ledger.attempts()[0].row();
+  again.T_match_query = Pose::Trans(1, 0, 0);
+  again.reason = "not taken over";
+  ledger.attempts()[0].remeasured = again;
+  EXPECT_EQ(ledger.Rows()[0].T_match_query.translation().x(), 1);
+  EXPECT_EQ(ledger.Rows()[0].reason, "as found");
+  ledger.attempts()[0].row().decision = kOpen;
+  EXPECT_EQ(ledger.Rows()[0].T_match_query.translation().x(), 0);
+}
+
+}  // namespace
+}  // namespace sslcd

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/fuse.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "refine/path_segments.h"
+
+namespace sslcd {
+namespace {
+
+// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309,
+// a metre a frame.
+struct TwoVisits {
+  WholeMapOptions options;
+  MapState state{ObjectMap(GravityFrame{}, LabelTable{}, {}, {}, {}), {}};
+  ObjectMap& map = state.map;
+  FrameStore& frames = state.frames;
+
+  TwoVisits() {
+    for (const int first : {0, 300}) {
+      for (int i = 0; i < 10; ++i) {
+        FrameRecord record;
+        record.frame = first + i;
+        record.stamp = record.frame;
+        record.T_odom_cam = Pose::Trans(0, 0, record.frame);
+        record.T_world_cam = Pose::Trans(0, 0, i);
+        frames.Append(record);
+      }
+    }
+  }
+
+  // Seen by `count` frames from frame number `first` on, without error.
+  LandmarkId Add(const Vec3& position, int first, int count, const std::string& label = "Tree",
+                 double yaw = 0) {
+    MapLandmark landmark;
+    landmark.label = label;
+    landmark.symmetry = label == "Tree" ? Symmetry::kFull : Symmetry::kNone;
+    landmark.state = LandmarkState::kConfirmed;
+    landmark.pose = {position, yaw};
+    landmark.dims = label == "Tree" ? Vec3(0.5, 0.5, 3) : Vec3(4, 1.8, 1.5);
+    const LandmarkId id{next_id++};
+    for (int f = 0; f < frames.size(); ++f) {
+      const FrameRecord& record = frames[f];
+      if (record.frame < first || record.frame >= first + count) continue;
+      const Pose T_cam_object = record.T_world_cam.inverse() * ToPose(landmark.pose, map.gravity());
+      landmark.sightings.push_back(
+          {record.frame, record.stamp, 0, 1., T_cam_object, landmark.dims});
+      std::vector<LandmarkId> matched = record.matched;
+      matched.push_back(id);
+      frames.SetMatched(f, matched);
+    }
+    EXPECT_EQ(map.Insert(landmark).value, id.value);
+    return id;
+  }
+  bool Gone(LandmarkId id) const { return map.landmarks().count(id.value) == 0; }
+
+  int next_id = 1;
+};
+
+TEST(FuseMatched, MatchedPairsBecomeOneAndFramesFollow) {
+  TwoVisits world;
+  const LandmarkId early = world.Add({4, 1, 12}, 0, 8), late = world.Add({4, 1, 13}, 300, 4);
+  const MergedIds merged = FuseMatched(world.state, {{late, early}}, world.options);
+  EXPECT_EQ(merged.size(), 1u);
+  EXPECT_EQ(Resolve(late, merged).value, early.value);
+  ASSERT_TRUE(world.Gone(late));
+  EXPECT_EQ(world.map.at(early).sightings.size(), 12u);
+  const double z = world.map.at(early).pose.position.z();
+  EXPECT_GT(z, 12.1) << "the mean of both ...";
+  EXPECT_LT(z, 12.5) << "... and nearer to the one seen more often";
+  for (const FrameRecord& record : world.frames)
+    for (const LandmarkId id : record.matched) EXPECT_EQ(id.value, early.value);
+}
+
+TEST(FuseMatched, ChainsRepeatsAndNonsense) {
+  TwoVisits world;
+  const LandmarkId a = world.Add({4, 1, 12}, 0, 3), b = world.Add({4, 1, 14}, 300, 5),
+                   c = world.Add({4, 1, 16}, 306, 2);
+  const LandmarkId car = world.Add({-4, 1, 12}, 0, 5, "Car");
+  const MergedIds merged =
+      FuseMatched(world.state, {{a, b}, {b, c}, {c, a}, {a, a}, {a, {77}}, {{-1}, {}}, {a, car}},
+                  world.options);
+  EXPECT_EQ(merged.size(), 2u);
+  EXPECT_EQ(Resolve(a, merged).value, b.value);
+  EXPECT_EQ(Resolve(c, merged).value, b.value);
+  EXPECT_EQ(Resolve(car, merged).value, car.value);
+  EXPECT_EQ(world.map.landmarks().size(), 2u);
+  EXPECT_TRUE(FuseMatched(world.state, {}, world.options).empty());
+}
+
+TEST(FuseMatched, SeenTogetherOrDrivingIsRefused) {
+  TwoVisits world;
+  const LandmarkId a = world.Add({4, 1, 12}, 0, 6), b = world.Add({4, 1, 15}, 3, 6);
+  const LandmarkId car = world.Add({-4, 1, 12}, 0, 5, "Car"),
+                   twin = world.Add({-4, 1, 14}, 300, 5, "Car");
+  world.map.SetState(twin, LandmarkState::kDynamic);
+  EXPECT_TRUE(FuseMatched(world.state, {{a, b}, {car, twin}}, world.options).empty());
+}
+
+TEST(FuseMatched, HeadingsMeetHalfATurnApart) {
+  TwoVisits world;
+  const LandmarkId a = world.Add({-4, 1, 12}, 0, 5, "Car", 0.1);
+  const LandmarkId b = world.Add({-4, 1, 12}, 300, 5, "Car", 0.3 + M_PI);
+  FuseMatched(world.state, {{a, b}}, world.options);
+  EXPECT_NEAR(world.map.at(a).pose.yaw, 0.2, 1e-6);
+}
+
+TEST(FuseMatched, APairTiesItsSurroundings) {
+  TwoVisits world;
+  const LandmarkId tree = world.Add({4, 1, 12}, 0, 8), again = world.Add({4.1, 1, 12}, 300, 4);
+  const LandmarkId next = world.Add({-4, 1, 15}, 0, 8),
+                   next_again = world.Add({-4, 1, 15.1}, 300, 4);
+  EXPECT_TRUE(FuseDuplicates(world.state, world.options).empty())
+      << "drift may have put them there";
+  EXPECT_EQ(FuseMatched(world.state, {{tree, again}}, world.options).size(), 2u);
+  EXPECT_TRUE(world.Gone(next_again));
+  EXPECT_FALSE(world.Gone(next));
+}
+
+TEST(FuseDuplicates, NeighboursAreNotTwins) {
+  TwoVisits world;
+  const LandmarkId tree = world.Add({4, 1, 12}, 0, 4), twin = world.Add({4.2, 1, 12}, 4, 3);
+  const LandmarkId neighbour = world.Add({4, 1, 13.5}, 4, 3), stick = world.Add({4, 1, 12.3}, 0, 3);
+  const LandmarkId other_kind = world.Add({4, 1, 12}, 4, 3, "Car");
+  FuseDuplicates(world.state, world.options);
+  EXPECT_TRUE(world.Gone(twin));
+  EXPECT_FALSE(world.Gone(tree));
+  EXPECT_FALSE(world.Gone(neighbour)) << "1.5 m off: another tree";
+  EXPECT_FALSE(world.Gone(stick)) << "seen together with the tree";
+  EXPECT_FALSE(world.Gone(other_kind));
+}
+
+TEST(FuseDuplicates, NothingAndNonFiniteDoNoHarm) {
+  TwoVisits world;
+  EXPECT_TRUE(FuseDuplicates(world.state, world.options).empty());
+  MapState no_frames{world.map, {}};
+  EXPECT_TRUE(FuseDuplicates(no_frames, world.options).empty());
+  const LandmarkId a = world.Add({4, 1, 12}, 0, 4), b = world.Add({4, 1, 12}, 4, 3);
+  world.map.SetPose(b, {Vec3(4, 1, std::numeric_limits<double>::quiet_NaN()), 0});
+  FuseDuplicates(world.state, world.options);
+  EXPECT_FALSE(world.Gone(a));
+  EXPECT_TRUE(world.map.at(a).pose.position.allFinite());
+}
+
+MapLandmark SeenIn(int first, int count) {
+  MapLandmark landmark;
+  for (int frame = first; frame < first + count; ++frame) {
+    landmark.sightings.emplace_back();
+    landmark.sightings.back().frame = frame;
+  }
+  return landmark;
+}
+
+TEST(SeenTogether, InMoreThanATenthOfTheSightingsOfTheOneSeenLess) {
+  const MapLandmark often = SeenIn(0, 100), seldom = SeenIn(95, 20), slip = SeenIn(98, 20);
+  EXPECT_TRUE(SeenTogether(often, seldom)) << "5 of 20";
+  EXPECT_TRUE(SeenTogether(seldom, often));
+  EXPECT_FALSE(SeenTogether(often, slip)) << "2 of 20";
+  EXPECT_FALSE(SeenTogether(slip, often));
+  EXPECT_TRUE(SeenTogether(often, SeenIn(97, 20))) << "3 of 20";
+  EXPECT_FALSE(SeenTogether(often, SeenIn(200, 5)));
+  EXPECT_FALSE(SeenTogether(often, MapLandmark()));
+}
+
+TEST(FuseMatched, TheConfirmedOneKeepsItsNameElseTheOneSeenMoreOften) {
+  for (const bool swapped : {false, true}) {
+    TwoVisits world;
+    const LandmarkId once = world.Add({4, 1, 12}, 0, 2), again = world.Add({4, 1, 12}, 300, 8);
+    const auto pair = swapped ? std::make_pair(again, once) : std::make_pair(once, again);
+    world.map.SetState(again, LandmarkState::kTentative);
+    FuseMatched(world.state, {pair}, world.options);
+    EXPECT_TRUE(world.Gone(again)) << "confirmed counts before often";
+    EXPECT_FALSE(world.Gone(once));
+    EXPECT_EQ(world.map.at(once).sightings.size(), 10u);
+  }
+  TwoVisits world;
+  const LandmarkId once = world.Add({4, 1, 12}, 0, 2), again = world.Add({4, 1, 12}, 300, 8);
+  FuseMatched(world.state, {{once, again}}, world.options);
+  EXPECT_TRUE(world.Gone(once));
+}
+
+// Sightings that are all as exact: means weighted by how often each was seen.
+TEST(FuseMatched, PoseIsTheMeanWeightedByInformation) {
+  TwoVisits world;
+  world.options.noise.yaw_per_m = world.options.noise.lateral_per_m = 0;
+  world.options.noise.radial_per_m = world.options.noise.vertical_per_m = 0;
+  world.options.noise.radial_m = world.options.noise.lateral_m = world.options.noise.vertical_m = 1;
+  const LandmarkId a = world.Add({-4, 1, 12}, 0, 8, "Car", 0.1),
+                   b = world.Add({-4, 1.5, 13}, 300, 2, "Car", 0.3);
+  FuseMatched(world.state, {{b, a}}, world.options);
+  const UprightPose& pose = world.map.at(a).pose;
+  EXPECT_NEAR(pose.yaw, (8 * 0.1 + 2 * 0.3) / 10, 1e-9);
+  EXPECT_LT((pose.position - Vec3(-4, 1 + 0.5 * 2 / 10, 12 + 1. * 2 / 10)).norm(), 1e-9);
+}
+
+TEST(FuseMatched, WhatIsRoundSaysNothingOfTheYaw) {
+  TwoVisits world;
+  const LandmarkId a = world.Add({4, 1, 12}, 0, 8, "Tree", 0.1),
+                   b = world.Add({4, 1, 12}, 300, 2, "Tree", 0.3);
+  FuseMatched(world.state, {{a, b}}, world.options);
+  EXPECT_EQ(world.map.at(a).pose.yaw, 0.1);
+}
+
+// With a detector that is next to exact, bodies alone decide: two trees of 0.5 m overlap by more
+// than half where their centres are within 0.25 m.
+TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
+  for (const auto& [apart, one] : {std::pair<double, bool>{0.24, true}, {0.26, false}}) {
+    TwoVisits world;
+    for (double* sigma : {&world.options.noise.radial_m, &world.options.noise.radial_per_m,
+                          &world.options.noise.lateral_m, &world.options.noise.lateral_per_m})
+      *sigma = 1e-4;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4 + apart, 1, 12}, 4, 3);
+    FuseDuplicates(world.state, world.options);
+    EXPECT_EQ(world.Gone(twin), one) << apart;
+  }
+}
+
+// Two trees, each seen once, by a detector that is as exact in all directions. Their distance is
+// explained where its square is within the 99 % quantile (two components) of both variances.
+TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
+  constexpr double kSigma = 0.05, kQuantile = 9.21;
+  for (const double share : {0.98, 1.02}) {
+    TwoVisits world;
+    DetectionNoise& noise = world.options.noise;
+    noise.radial_m = noise.lateral_m = noise.vertical_m = kSigma;
+    noise.radial_per_m = noise.lateral_per_m = noise.vertical_per_m = 0;
+    const double scale = std::hypot(world.options.map.caution * world.map.noise_scale().radial,
+                                    world.options.map.min_noise_scale);
+    const double apart = share * std::sqrt(kQuantile * 2) * scale * kSigma;
+    ASSERT_GT(apart, 0.26) << "beyond their bodies";
+    ASSERT_LT(apart, world.options.refine.duplicate_m);
+    world.Add({4, 1, 12}, 0, 1);
+    const LandmarkId twin = world.Add({4, 1, 12 + apart}, 4, 1);
+    FuseDuplicates(world.state, world.options);
+    EXPECT_EQ(world.Gone(twin), share < 1) << apart;
+  }
+}
+
+TEST(FuseDuplicates, FurtherThanDuplicateIsNotOnePlace) {
+  for (const double duplicate_m : {0.15, 0.25}) {
+    TwoVisits world;
+    world.options.refine.duplicate_m = duplicate_m;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4.2, 1, 12}, 4, 3);
+    FuseDuplicates(world.state, world.options);
+    EXPECT_EQ(world.Gone(twin), duplicate_m > 0.2);
+  }
+}
+
+TEST(FuseDuplicates, TentativeOnesAndThoseThatDriveAreLeftAlone) {
+  for (const LandmarkState state : {LandmarkState::kTentative, LandmarkState::kDynamic}) {
+    TwoVisits world;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId twin = world.Add({4, 1, 12}, 4, 3);
+    world.map.SetState(twin, state);
+    FuseDuplicates(world.state, world.options);
+    EXPECT_FALSE(world.Gone(twin));
+  }
+}
+
+TEST(PathSegments, NeighboursAndSharedObjectsTie) {
+  TwoVisits world;
+  const LandmarkId early = world.Add({4, 1, 12}, 0, 3), late = world.Add({4, 1, 12}, 300, 3);
+  const LandmarkId soon = world.Add({4, 1, 16}, 5, 3);
+  const PathSegments apart(world.state, 60.);
+  EXPECT_TRUE(apart.Covisible(world.map.at(early), world.map.at(soon)));
+  EXPECT_FALSE(apart.Covisible(world.map.at(early), world.map.at(late)));
+  EXPECT_FALSE(apart.Covisible(world.frames.back(), world.map.at(early)));
+  EXPECT_TRUE(PathSegments(world.state, 0.).Covisible(world.map.at(early), world.map.at(late)));
+  world.map.Fuse(early, late);
+  const PathSegments tied(world.state, 60.);
+  EXPECT_TRUE(tied.Covisible(world.frames.back(), world.map.at(soon)))
+      << "what was seen about there, too";
+  EXPECT_FALSE(tied.Covisible(FrameRecord(), MapLandmark()));
+}
+
+}  // namespace
+}  // namespace sslcd
