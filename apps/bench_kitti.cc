@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
+#include "benchmark/paper_figures.h"
 #include "evaluation.h"
-#include "sslcd/benchmark/paper_figures.h"
 #include "sslcd/core/error.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/pipeline/run.h"

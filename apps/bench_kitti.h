@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/benchmark/table.h"
+#include "benchmark/table.h"
 #include "sslcd/pipeline/options.h"
 
 namespace sslcd::apps {

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "bench_kitti.h"
-#include "sslcd/benchmark/foreign.h"
-#include "sslcd/benchmark/halv_tables.h"
-#include "sslcd/benchmark/results.h"
+#include "benchmark/foreign.h"
+#include "benchmark/halv_tables.h"
+#include "benchmark/results.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/formats/atomic_file.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/viewpoint.h"
 #include "console.h"
-#include "sslcd/benchmark/viewpoint.h"
 
 namespace sslcd::apps {
 

@@ -10,14 +10,14 @@
 #include <string>
 
 #include "option_adder.h"
+#include "render/options.h"
+#include "render/write_images.h"
+#include "sim/calibration.h"
+#include "sim/halv.h"
+#include "sim/sensor.h"
+#include "sim/world.h"
+#include "sim/write_sequence.h"
 #include "sslcd/core/error.h"
-#include "sslcd/render/options.h"
-#include "sslcd/render/write_images.h"
-#include "sslcd/sim/calibration.h"
-#include "sslcd/sim/halv.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
-#include "sslcd/sim/write_sequence.h"
 
 namespace {
 

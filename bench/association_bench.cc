@@ -7,9 +7,9 @@
 #include <chrono>
 #include <vector>
 
+#include "sim/sensor.h"
+#include "sim/world.h"
 #include "sslcd/map/object_map.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd {
 namespace {

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/halv.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/iou3d.h"
 #include "sslcd/formats/boxes.h"
@@ -20,7 +21,6 @@
 #include "sslcd/formats/poses.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/sim/halv.h"
 
 namespace sslcd {
 namespace {

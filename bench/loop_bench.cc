@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "pipeline/pass_map.h"
+#include "sim/random.h"
 #include "sslcd/loop/layout_match.h"
 #include "sslcd/loop/pose_tracks.h"
-#include "sslcd/sim/random.h"
 
 namespace sslcd {
 namespace {

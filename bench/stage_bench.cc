@@ -10,10 +10,10 @@
 #include <limits>
 
 #include "sim/path.h"
+#include "sim/random.h"
+#include "sim/sensor.h"
 #include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/pipeline/mapper.h"
-#include "sslcd/sim/random.h"
-#include "sslcd/sim/sensor.h"
 
 namespace sslcd {
 namespace {

@@ -4,12 +4,10 @@
 include(CMakePackageConfigHelpers)
 set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
-set(left_out sim render baselines benchmark)  # for tests, benchmarks and the demo only
 if(NOT TARGET sslcd_vision)
-  list(APPEND left_out inference detectors stereo ground visual_odometry lifting frontend)
+  set(left_out REGEX "/sslcd/(inference|detectors|ground|visual_odometry|lifting|frontend)$" EXCLUDE)
 endif()
-list(JOIN left_out "|" left_out)
-install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} REGEX "/sslcd/(${left_out})$" EXCLUDE)
+install(DIRECTORY include/sslcd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${left_out})
 install(DIRECTORY third_party/lie/include/lie DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sslcd/third_party)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)

@@ -13,7 +13,6 @@ PROJECT_NAME           = sslcd
 PROJECT_NUMBER         = $version
 OUTPUT_DIRECTORY       = $out
 INPUT                  = include/sslcd docs/api.md
-EXCLUDE_PATTERNS       = */sim/* */render/* */baselines/* */benchmark/*
 USE_MDFILE_AS_MAINPAGE = docs/api.md
 RECURSIVE              = YES
 STRIP_FROM_PATH        = .

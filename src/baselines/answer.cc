@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/answer.h"
+#include "baselines/answer.h"
 
 namespace sslcd::baselines {
 

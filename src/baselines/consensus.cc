@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/consensus.h"
+#include "baselines/consensus.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/edit_distance.h"
+#include "baselines/edit_distance.h"
 
 #include <algorithm>
 #include <cmath>

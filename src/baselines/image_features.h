@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "baselines/appearance.h"
 #include "baselines/bag_of_words.h"
-#include "sslcd/baselines/appearance.h"
 #include "sslcd/core/camera.h"
 
 namespace sslcd::baselines {

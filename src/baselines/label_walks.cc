@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/label_walks.h"
+#include "baselines/label_walks.h"
 
 #include <algorithm>
 #include <cmath>

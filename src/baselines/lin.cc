@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/lin.h"
+#include "baselines/lin.h"
 
+#include "baselines/edit_distance.h"
 #include "sslcd/association/assignment.h"
-#include "sslcd/baselines/edit_distance.h"
 
 namespace sslcd::baselines {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/semantic_histogram.h"
+#include "baselines/semantic_histogram.h"
 
 namespace sslcd::baselines {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/x_view.h"
+#include "baselines/x_view.h"
 
 namespace sslcd::baselines {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/halv_tables.h"
+#include "benchmark/halv_tables.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <functional>
 #include <set>
 
-#include "sslcd/benchmark/paper_figures.h"
+#include "benchmark/paper_figures.h"
 #include "sslcd/eval/wilson.h"
 
 namespace sslcd::benchmark {

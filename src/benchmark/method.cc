@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/method.h"
+#include "benchmark/method.h"
 
 #include <algorithm>
 #include <utility>

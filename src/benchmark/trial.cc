@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/trial.h"
+#include "benchmark/trial.h"
 
 #include <algorithm>
 #include <chrono>

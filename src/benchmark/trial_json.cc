@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nlohmann/json.hpp>
 
-#include "sslcd/benchmark/trial.h"
+#include "benchmark/trial.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/viewpoint.h"
+#include "benchmark/viewpoint.h"
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
 
-#include "sslcd/benchmark/foreign.h"
+#include "benchmark/foreign.h"
 #include "sslcd/core/error.h"
 #include "sslcd/formats/text_rows.h"
 

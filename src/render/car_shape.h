@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/mesh.h"
-#include "sslcd/sim/world.h"
+#include "sim/world.h"
 
 namespace sslcd::render {
 

@@ -6,7 +6,7 @@
 
 #include "render/surface.h"
 #include "render/town.h"
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 namespace sslcd::render {
 

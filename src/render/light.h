@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "render/options.h"
 #include "render/surface.h"
-#include "sslcd/render/options.h"
 
 namespace sslcd::render {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/render/options.h"
+#include "render/options.h"
 
 namespace sslcd::render {
 

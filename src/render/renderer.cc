@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/render/renderer.h"
+#include "render/renderer.h"
 
 #include <string>
 
 #include "render/moment.h"
 #include "render/noise.h"
 #include "render/sensor.h"
+#include "sim/check_fields.h"
 #include "sslcd/core/error.h"
-#include "sslcd/sim/check_fields.h"
 
 namespace sslcd::render {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/moment.h"
-#include "sslcd/render/options.h"
+#include "render/options.h"
 
 namespace sslcd::render {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/surface.h"
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 namespace sslcd::render {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/appearance.h"
+#include "sim/appearance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "sim/check_fields.h"
 #include "sim/streams.h"
 #include "sslcd/perception/colour.h"
-#include "sslcd/sim/check_fields.h"
 
 namespace sslcd::sim {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/calibration.h"
+#include "sim/calibration.h"
 
 #include <cmath>
 #include <cstdio>
 #include <map>
 
+#include "sim/random.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/iou3d.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
 namespace {

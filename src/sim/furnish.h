@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/path.h"
-#include "sslcd/sim/random.h"
-#include "sslcd/sim/world.h"
+#include "sim/random.h"
+#include "sim/world.h"
 
 namespace sslcd::sim {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "sim/check_fields.h"
 #include "sim/halv_course.h"
 #include "sim/streams.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/sim/check_fields.h"
 
 namespace sslcd::sim {
 namespace {

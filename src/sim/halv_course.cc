@@ -6,9 +6,9 @@
 #include <string>
 
 #include "sim/dubins.h"
+#include "sim/random.h"
 #include "sim/streams.h"
 #include "sslcd/core/error.h"
-#include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
 namespace {

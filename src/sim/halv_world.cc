@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/check_fields.h"
 #include "sim/furnish.h"
+#include "sim/halv.h"
 #include "sim/halv_course.h"
 #include "sim/layout_file.h"
 #include "sim/slots.h"
 #include "sim/streams.h"
-#include "sslcd/sim/check_fields.h"
-#include "sslcd/sim/halv.h"
 
 namespace sslcd::sim {
 namespace {

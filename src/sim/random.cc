@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/random.h"
+#include "sim/random.h"
 
 #include <cmath>
 

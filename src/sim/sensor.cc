@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/sensor.h"
+#include "sim/sensor.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "sim/check_fields.h"
+#include "sim/random.h"
 #include "sim/streams.h"
 #include "sim/visibility.h"
 #include "sslcd/perception/projection.h"
-#include "sslcd/sim/check_fields.h"
-#include "sslcd/sim/random.h"
 
 namespace sslcd::sim {
 namespace {

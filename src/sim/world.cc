@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/world.h"
+#include "sim/world.h"
 
 #include <cmath>
 
+#include "sim/check_fields.h"
 #include "sim/furnish.h"
-#include "sslcd/sim/check_fields.h"
-#include "sslcd/sim/random.h"
+#include "sim/random.h"
 
 namespace sslcd::sim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/appearance.h"
+#include "baselines/appearance.h"
 
 #include <gtest/gtest.h>
 

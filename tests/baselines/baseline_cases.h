@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "sslcd/baselines/answer.h"
+#include "baselines/answer.h"
 #include "sslcd/loop/layout_likelihood.h"
 
 namespace sslcd::baselines {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "baseline_cases.h"
-#include "sslcd/baselines/options.h"
+#include "baselines/options.h"
 
 namespace sslcd::baselines {
 namespace {

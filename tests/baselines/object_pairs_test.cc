@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sslcd/baselines/options.h"
+#include "baselines/options.h"
 #include "sslcd/formats/pairs.h"
 #include "sslcd/loop/layout_likelihood.h"
 #include "temp_folder.h"

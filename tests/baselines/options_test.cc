@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/options.h"
+#include "baselines/options.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

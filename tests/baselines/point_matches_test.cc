@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/baselines/point_matches.h"
+#include "baselines/point_matches.h"
 
 #include <gtest/gtest.h>
 

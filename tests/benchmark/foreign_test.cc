@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/foreign.h"
+#include "benchmark/foreign.h"
 
 #include <gtest/gtest.h>
 

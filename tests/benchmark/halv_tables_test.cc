@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/halv_tables.h"
+#include "benchmark/halv_tables.h"
 
 #include <gtest/gtest.h>
 

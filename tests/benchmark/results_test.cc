@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/results.h"
+#include "benchmark/results.h"
 
 #include <gtest/gtest.h>
 

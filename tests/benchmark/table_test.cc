@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/table.h"
+#include "benchmark/table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/benchmark/viewpoint.h"
+#include "benchmark/viewpoint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
+#include "sim/write_sequence.h"
 #include "sslcd/core/error.h"
-#include "sslcd/sim/write_sequence.h"
 
 namespace sslcd::benchmark {
 namespace {

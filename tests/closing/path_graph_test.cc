@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sslcd/sim/random.h"
+#include "sim/random.h"
 
 namespace sslcd {
 namespace {

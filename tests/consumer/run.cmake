@@ -19,7 +19,7 @@ step(${WORK_DIR}/build/consumer_vision ${WORK_DIR}/prefix/share/sslcd/models/yol
 if(EXISTS ${WORK_DIR}/prefix/bin/sslcd_run)
   step(${WORK_DIR}/prefix/bin/sslcd_run version)
 endif()
-file(GLOB_RECURSE private ${WORK_DIR}/prefix/include/sslcd/sim/*)
+file(GLOB private ${WORK_DIR}/prefix/include/sslcd/sim ${WORK_DIR}/prefix/include/sslcd/stereo)
 if(private)
   message(FATAL_ERROR "installed, but not for users: ${private}")
 endif()

@@ -60,20 +60,16 @@ def check_include(include, module, relative, modules, source_dir):
     """None, or what is wrong with this include."""
     public = relative.startswith("include/")
     first = include.split("/")[0]
-    if module in ABOVE:
-        may_include, may_use = {*modules, module, *ABOVE[module]}, set(OUTSIDE)
-    else:
-        may_include, may_use = modules[module]
+    may_include, may_use = modules[module]
     if first == "sslcd":
         target = include.split("/")[1]
         if not (source_dir / "include" / include).exists():
             return f"there is no include/{include}"
         return None if target in may_include else f"{module} is not above {target}"
-    if "/" in include and first in {*modules, *ABOVE}:  # not <map>
+    if "/" in include and first in modules:  # not <map>
         if public:
             return f"a public header includes the private {include}"
-        seen = first == module or (module in modules and first in may_include)
-        return None if seen else f"{include} is private to {first}, which {module} does not link"
+        return None if first in may_include else f"{include} is private to {first}, which {module} does not link"
     if first in OUTSIDE:
         if public:
             return None if first in OPT_IN.get(relative, ()) else f"a public header includes {first}"
@@ -89,10 +85,12 @@ def check(source_dir):
     files = sorted(path for folder in folders for path in folder.glob("*/**/*") if path.suffix in (".h", ".cc"))
     if not modules or not files:
         return [f"{source_dir}: no sslcd_module() or no sources found"]
+    library = set(modules)
+    modules.update({name: ({*library, name, *others}, set(OUTSIDE)) for name, others in ABOVE.items()})
     for path in files:
         relative = path.relative_to(source_dir).as_posix()
         module = relative.split("/")[2 if relative.startswith("include/") else 1]
-        if module not in modules and module not in ABOVE:
+        if module not in modules:
             breaches.append(f"{relative}: CMakeLists.txt has no sslcd_module({module} ...)")
             continue
         for number, include in includes_of(path):

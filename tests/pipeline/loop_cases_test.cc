@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "loop_drives.h"
+#include "sim/halv.h"
 #include "sslcd/core/median.h"
-#include "sslcd/sim/halv.h"
 
 namespace sslcd {
 namespace {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "sim/path.h"
+#include "sim/random.h"
+#include "sim/sensor.h"
 #include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/pipeline/run.h"
-#include "sslcd/sim/random.h"
-#include "sslcd/sim/sensor.h"
 
 namespace sslcd {
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/sensor.h"
+#include "sim/world.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "sslcd/formats/g2o.h"
 #include "sslcd/formats/map_json.h"
 #include "sslcd/formats/poses.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "render/car_shape.h"
 #include "render/marks.h"
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 namespace sslcd::render {
 namespace {

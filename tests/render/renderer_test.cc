@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/render/renderer.h"
+#include "render/renderer.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/render/write_images.h"
+#include "render/write_images.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/appearance.h"
+#include "sim/appearance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/calibration.h"
+#include "sim/calibration.h"
 
 #include <gtest/gtest.h>
 

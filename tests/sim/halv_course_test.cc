@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/dubins.h"
-#include "sslcd/sim/random.h"
+#include "sim/random.h"
 
 namespace sslcd::sim {
 namespace {

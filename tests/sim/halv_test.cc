@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 #include "temp_folder.h"
 
 namespace sslcd::sim {

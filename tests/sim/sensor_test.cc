@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/sensor.h"
+#include "sim/sensor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/world.h"
+#include "sim/world.h"
 
 #include <gtest/gtest.h>
 

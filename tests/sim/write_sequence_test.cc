@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/sim/write_sequence.h"
+#include "sim/write_sequence.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/benchmark/trial.h"
+#include "benchmark/trial.h"
 
 namespace sslcd::benchmark {
 

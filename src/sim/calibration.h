@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/sim/halv.h"
+#include "sim/halv.h"
 
 namespace sslcd::sim {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "sslcd/baselines/answer.h"
-#include "sslcd/baselines/label_walks.h"
+#include "baselines/answer.h"
+#include "baselines/label_walks.h"
 
 namespace sslcd::baselines {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sslcd/baselines/appearance.h"
-#include "sslcd/baselines/lin.h"
-#include "sslcd/baselines/point_matches.h"
-#include "sslcd/baselines/semantic_histogram.h"
-#include "sslcd/baselines/x_view.h"
+#include "baselines/appearance.h"
+#include "baselines/lin.h"
+#include "baselines/point_matches.h"
+#include "baselines/semantic_histogram.h"
+#include "baselines/x_view.h"
 
 namespace sslcd::baselines {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/baselines/options.h"
+#include "baselines/options.h"
 #include "sslcd/closing/place_matcher.h"
 #include "sslcd/pipeline/options.h"
 

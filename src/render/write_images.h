@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "sslcd/render/renderer.h"
+#include "render/renderer.h"
 
 namespace sslcd::render {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/world.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/trajectory.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd::sim {
 

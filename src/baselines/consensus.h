@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "sslcd/baselines/answer.h"
+#include "baselines/answer.h"
 #include "sslcd/core/fields.h"
 
 namespace sslcd::baselines {

@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
+#include "sim/random.h"
+#include "sim/sensor.h"
+#include "sim/world.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/sim/random.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd::sim {
 

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/benchmark/method.h"
+#include "benchmark/method.h"
+#include "sim/halv.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/eval/revisits.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/sim/halv.h"
 
 namespace sslcd::benchmark {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/benchmark/table.h"
-#include "sslcd/benchmark/trial.h"
+#include "benchmark/table.h"
+#include "benchmark/trial.h"
 
 namespace sslcd::benchmark {
 

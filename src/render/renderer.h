@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "sslcd/render/options.h"
-#include "sslcd/sim/halv.h"
+#include "render/options.h"
+#include "sim/halv.h"
 
 namespace sslcd::render {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "sslcd/baselines/consensus.h"
-#include "sslcd/baselines/label_walks.h"
+#include "baselines/consensus.h"
+#include "baselines/label_walks.h"
 
 namespace sslcd::baselines {
 

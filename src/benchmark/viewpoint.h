@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/benchmark/trial.h"
+#include "benchmark/trial.h"
 
 namespace sslcd::benchmark {
 

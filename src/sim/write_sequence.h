@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "sim/sensor.h"
+#include "sim/world.h"
 #include "sslcd/core/trajectory.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd::sim {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/appearance.h"
+#include "sim/sensor.h"
+#include "sim/world.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/trajectory.h"
-#include "sslcd/sim/appearance.h"
-#include "sslcd/sim/sensor.h"
-#include "sslcd/sim/world.h"
 
 namespace sslcd::sim {
 
