@@ -102,6 +102,7 @@ void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("path_m", m.path);
   metrics.emplace_back("loops", m.loops);
   metrics.emplace_back("loops_wrong", m.wrong_loops);
+  metrics.emplace_back("loops_wrong_in_height", m.wrong_in_height);
   for (int bin = 0; bin < kViewpointBins; ++bin)
     metrics.emplace_back(std::string("loops_true_") + kViewpointBinNames[bin] + "_deg",
                          m.true_by_viewpoint[bin]);

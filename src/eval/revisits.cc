@@ -76,6 +76,7 @@ std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
     outcome.score = loop.score;
     outcome.at_m = distance[loop.query_frame];
     outcome.error_m = std::hypot(error.translation().x(), error.translation().z());
+    outcome.height_error_m = std::abs(error.translation().y());
     outcome.error_rad = error.so3().Log().norm();
     outcome.viewpoint_rad = std::abs(WrapAngle(HeadingOf(query) - HeadingOf(match)));
   }

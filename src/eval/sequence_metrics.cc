@@ -53,7 +53,10 @@ void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference,
   for (const LoopOutcome& loop : JudgeLoops(accepted, reference)) {
     errors_m.push_back(loop.error_m);
     errors_rad.push_back(loop.error_rad);
-    if (!(loop.error_m < options.true_loop_m && loop.error_rad < options.true_loop_rad)) {
+    const bool height_right = loop.height_error_m < options.true_loop_height_m;
+    metrics.wrong_in_height += height_right ? 0 : 1;
+    if (!(height_right && loop.error_m < options.true_loop_m &&
+          loop.error_rad < options.true_loop_rad)) {
       ++metrics.wrong_loops;
       continue;
     }

@@ -133,6 +133,7 @@ TEST(SequenceJudge, AgreesInEveryFigure) {
   judge::ExpectSame(verdict, "path", ours.path);
   judge::ExpectSame(verdict, "loops", ours.loops);
   judge::ExpectSame(verdict, "wrong_loops", ours.wrong_loops);
+  judge::ExpectSame(verdict, "wrong_in_height", ours.wrong_in_height);
   judge::ExpectSame(verdict, "revisited_stretches", ours.revisited_stretches);
   judge::ExpectSame(verdict, "recall", ours.recall);
   judge::ExpectSame(verdict, "loop_error_median_m", ours.loop_error_median_m);

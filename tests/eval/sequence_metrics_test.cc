@@ -49,17 +49,28 @@ LoopClosure LoopWithError(const SequenceRun& run, int query, int match, const Po
 TEST(SequenceMetricsTest, LoopsByErrorAndViewpoint) {
   SequenceRun run = OutAndBack();
   run.loops = {
-      LoopWithError(run, 195, 5, Pose()), LoopWithError(run, 196, 4, Pose::Trans(4.9, 30, 0)),
+      LoopWithError(run, 195, 5, Pose()), LoopWithError(run, 196, 4, Pose::Trans(4.9, -1.4, 0)),
       LoopWithError(run, 197, 3, Pose::Trans(3.6, 0, 3.6)),
       LoopWithError(run, 198, 2, Pose::RotX(0.1)), LoopWithError(run, 60, 40, Pose::RotZ(0.05))};
   const SequenceMetrics metrics = ComputeSequenceMetrics(run);
   EXPECT_EQ(metrics.loops, 5);
-  EXPECT_EQ(metrics.wrong_loops, 2);  // 5.1 m, and 5.7 degrees; height does not count
+  EXPECT_EQ(metrics.wrong_loops, 2);  // 5.1 m, and 5.7 degrees
+  EXPECT_EQ(metrics.wrong_in_height, 0);
   EXPECT_EQ(metrics.true_by_viewpoint, (std::array<int, 4>{1, 0, 0, 2}));
   EXPECT_NEAR(metrics.loop_error_median_m.value(), 0, 1e-9);
   EXPECT_NEAR(metrics.loop_error_median_rad.value(), 0, 1e-9);
   EXPECT_NEAR(metrics.ate, 0, 1e-9);
   EXPECT_NEAR(metrics.path, 200, 0.1);
+}
+
+TEST(SequenceMetricsTest, ALoopOnAnotherStoreyIsWrong) {
+  SequenceRun run = OutAndBack();
+  run.loops = {LoopWithError(run, 195, 5, Pose::Trans(0, 1.49, 0)),
+               LoopWithError(run, 196, 4, Pose::Trans(0, 1.51, 0)),
+               LoopWithError(run, 197, 3, Pose::Trans(0, -3, 0))};
+  const SequenceMetrics metrics = ComputeSequenceMetrics(run);
+  EXPECT_EQ(metrics.wrong_loops, 2);
+  EXPECT_EQ(metrics.wrong_in_height, 2);
 }
 
 TEST(SequenceMetricsTest, RefusedLoopsDoNotCount) {

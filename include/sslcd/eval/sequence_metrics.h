@@ -26,8 +26,9 @@ struct SequenceRun {
 };
 
 struct SequenceMetricOptions {
-  /// largest error of a true loop; horizontal
-  double true_loop_m = 5., true_loop_rad = 5. * 0.017453292519943295;
+  double true_loop_m = 5.;          ///< a loop is wrong from this horizontal error on ...
+  double true_loop_height_m = 1.5;  ///< ... from this error in height on ...
+  double true_loop_rad = 5. * 0.017453292519943295;  ///< ... or from this error of rotation on
   // A stretch of path that is revisited: `common` identities of its last `recent_m` were seen more
   // than `old_m` before.
   /// between the marks along the path, the first at old_m; a loop counts for marks this near
@@ -41,6 +42,7 @@ struct SequenceMetrics {
   double ate = 0, ate_odometry = 0;  ///< after SE(3) alignment, RMSE [m]
   double path = 0;                   ///< length of the reference [m]
   int loops = 0, wrong_loops = 0;
+  int wrong_in_height = 0;  ///< of the wrong loops, those that are off in height
   /// true loops per bin of the change of heading
   std::array<int, kViewpointBins> true_by_viewpoint{};
   int revisited_stretches = 0;
