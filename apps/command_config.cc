@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
+#include "sslcd_commit.h"
 
 namespace sslcd::apps {
 namespace {
@@ -117,10 +118,15 @@ Command AddDumpConfigCommand(CLI::App& app, Console&) {
   };
 }
 
+std::string VersionText() {
+  return std::string("sslcd ") + SSLCD_VERSION + " (commit " + SSLCD_COMMIT + ")";
+}
+
 Command AddVersionCommand(CLI::App& app) {
-  app.add_subcommand("version", "print the version");
+  app.set_version_flag("--version", VersionText());
+  app.add_subcommand("version", "print the version and the commit");
   return [] {
-    std::printf("sslcd %s\n", SSLCD_VERSION);
+    std::printf("%s\n", VersionText().c_str());
     return 0;
   };
 }

@@ -33,6 +33,9 @@ struct Configuration {
 };
 void DescribeFields(FieldVisitor& visitor, Configuration& configuration);
 
+/// "sslcd 1.2.3 (commit 0123456789ab)".
+std::string VersionText();
+
 /// "robust" or "paper".
 Mode ParseMode(const std::string& name);
 

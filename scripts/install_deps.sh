@@ -11,8 +11,8 @@ set -euo pipefail
 
 build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
        libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev
-       libopencv-imgproc-dev libopencv-video-dev libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev libpugixml-dev)
-test=(libgtest-dev libgmock-dev python3 ccache clang-format-14 libembree-dev)
+       libopencv-imgproc-dev libopencv-video-dev libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev ccache libpugixml-dev)
+test=(libgtest-dev libgmock-dev python3 clang-format-14 libembree-dev)
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-numpy python3-shapely git)
 
 what=${1:-test}

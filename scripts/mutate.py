@@ -141,7 +141,11 @@ class Bench:
         self.binary, self.limit_s = self.folder / target, None
         commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
         source = (root / source).resolve()
-        entry = next(c for c in commands if Path(c["directory"], c["file"]).resolve() == source)
+        entry = next((c for c in commands if Path(c["directory"], c["file"]).resolve() == source), None)
+        if entry is None:
+            sys.exit(f"{build} does not compile {source} by itself; configure a folder that does, "
+                     "e.g. cmake --preset release -B build/mutate -DCMAKE_UNITY_BUILD=OFF, build it "
+                     "and name it with --build")
         flags = shlex.split(entry["command"].split(" -o ")[0])  # -o OBJECT -c SOURCE come last
         self.compile = [*flags, "-O0", "-w", "-iquote", str(source.parent), "-o", f"{self.copy}.o",
                         "-c", str(self.copy)]

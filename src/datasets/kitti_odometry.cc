@@ -9,9 +9,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool LooksLike(const std::string& folder) { return IsFolder(fs::path(folder) / "sequences"); }
+bool LooksLikeKittiOdometry(const std::string& folder) {
+  return IsFolder(fs::path(folder) / "sequences");
+}
 
-std::set<std::string> Sequences(const std::string& folder) {
+std::set<std::string> KittiOdometrySequences(const std::string& folder) {
   const fs::path sequences = fs::path(folder) / "sequences";
   std::set<std::string> names;
   for (const std::string& name : FileNames(sequences)) {
@@ -20,7 +22,7 @@ std::set<std::string> Sequences(const std::string& folder) {
   return names;
 }
 
-DatasetLayout Find(const std::string& folder, const std::string& sequence) {
+DatasetLayout FindKittiOdometry(const std::string& folder, const std::string& sequence) {
   const fs::path root = folder;
   DatasetLayout layout = FindSequenceFolder(root / "sequences" / sequence);
   layout.groundtruth = IfFile(root / "poses" / (sequence + ".txt"));
@@ -30,7 +32,8 @@ DatasetLayout Find(const std::string& folder, const std::string& sequence) {
 }  // namespace
 
 DatasetReader KittiOdometryReader() {
-  return {"kitti-odometry", "KITTI odometry, with sequences/", LooksLike, Sequences, Find};
+  return {"kitti-odometry", "KITTI odometry, with sequences/", LooksLikeKittiOdometry,
+          KittiOdometrySequences, FindKittiOdometry};
 }
 
 }  // namespace sslcd

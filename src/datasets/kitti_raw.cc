@@ -10,12 +10,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool LooksLike(const std::string& folder) {
+bool LooksLikeKittiRaw(const std::string& folder) {
   const fs::path root = folder;
   return IsFolder(root / "oxts" / "data") || IsFile(root / "tracklet_labels.xml");
 }
 
-DatasetLayout Find(const std::string& folder, const std::string&) {
+DatasetLayout FindKittiRaw(const std::string& folder, const std::string&) {
   const fs::path root = folder;
   DatasetLayout layout;
   layout.name = LastName(folder);
@@ -39,8 +39,8 @@ DatasetLayout Find(const std::string& folder, const std::string&) {
 }  // namespace
 
 DatasetReader KittiRawReader() {
-  return {"kitti-raw", "a KITTI raw drive, with oxts/data/ or tracklet_labels.xml", LooksLike,
-          nullptr, Find};
+  return {"kitti-raw", "a KITTI raw drive, with oxts/data/ or tracklet_labels.xml",
+          LooksLikeKittiRaw, nullptr, FindKittiRaw};
 }
 
 }  // namespace sslcd

@@ -11,11 +11,11 @@ namespace fs = std::filesystem;
 
 constexpr ImageSize kImageSize = {1242, 375};  // a few sequences are some pixels off
 
-bool LooksLike(const std::string& folder) {
+bool LooksLikeKittiTracking(const std::string& folder) {
   return IsFolder(fs::path(folder) / "calib") || IsFolder(fs::path(folder) / "label_02");
 }
 
-std::set<std::string> Sequences(const std::string& folder) {
+std::set<std::string> KittiTrackingSequences(const std::string& folder) {
   std::set<std::string> names;
   for (const char* part : {"calib", "label_02", "oxts", "image_02"}) {
     for (const std::string& name : FileNames(fs::path(folder) / part))
@@ -24,7 +24,7 @@ std::set<std::string> Sequences(const std::string& folder) {
   return names;
 }
 
-DatasetLayout Find(const std::string& folder, const std::string& sequence) {
+DatasetLayout FindKittiTracking(const std::string& folder, const std::string& sequence) {
   const fs::path root = folder;
   const std::string file = sequence + ".txt";
   DatasetLayout layout;
@@ -40,7 +40,8 @@ DatasetLayout Find(const std::string& folder, const std::string& sequence) {
 }  // namespace
 
 DatasetReader KittiTrackingReader() {
-  return {"kitti-tracking", "KITTI tracking, with calib/ or label_02/", LooksLike, Sequences, Find};
+  return {"kitti-tracking", "KITTI tracking, with calib/ or label_02/", LooksLikeKittiTracking,
+          KittiTrackingSequences, FindKittiTracking};
 }
 
 }  // namespace sslcd

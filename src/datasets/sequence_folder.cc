@@ -25,17 +25,13 @@ bool HasImages(const fs::path& folder) {
          (!NumberedFiles(folder, ".png").empty() || !NumberedFiles(folder, ".jpg").empty());
 }
 
-bool LooksLike(const std::string& folder) {
+bool LooksLikeSequenceFolder(const std::string& folder) {
   const fs::path root = folder;
   const auto names = {"odometry.txt", "detections.txt", "times.txt", "sequence.yaml"};
   return std::any_of(kImagePairs.begin(), kImagePairs.end(),
                      [&](const ImagePair& pair) { return IsFolder(root / pair.left); }) ||
          std::any_of(names.begin(), names.end(),
                      [&](const char* name) { return IsFile(root / name); });
-}
-
-DatasetLayout Find(const std::string& folder, const std::string&) {
-  return FindSequenceFolder(folder);
 }
 
 }  // namespace
@@ -73,7 +69,8 @@ DatasetReader SequenceFolderReader() {
       "sequence",
       "a folder with times.txt, odometry.txt, detections.txt, sequence.yaml, image_2/, image_0/ "
       "or image_l/",
-      LooksLike, nullptr, Find};
+      LooksLikeSequenceFolder, nullptr,
+      [](const std::string& folder, const std::string&) { return FindSequenceFolder(folder); }};
 }
 
 }  // namespace sslcd

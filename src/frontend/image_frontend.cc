@@ -18,15 +18,6 @@ constexpr int kGroundEvery = 10;  // frames
 // Frames that wait between two stages: evens out frames that take longer; each holds two images.
 constexpr std::size_t kAhead = 4;
 
-/// A frame on its way through the stages.
-struct Item {
-  Frame frame;
-  Image left, right;
-  std::vector<std::string> warnings;
-  bool complete() const { return !left.empty(); }
-  StereoView view() const { return {left.view(), right.view()}; }
-};
-
 // An error in a frame's images, with their names.
 template <class F>
 void Naming(const Frame& frame, const F& work) {
@@ -40,6 +31,15 @@ void Naming(const Frame& frame, const F& work) {
 }  // namespace
 
 struct ImageFrontend::Impl {
+  /// A frame on its way through the stages.
+  struct Item {
+    Frame frame;
+    Image left, right;
+    std::vector<std::string> warnings;
+    bool complete() const { return !left.empty(); }
+    StereoView view() const { return {left.view(), right.view()}; }
+  };
+
   ~Impl() { Stop(); }
   // Later stages ask earlier ones, so they go first.
   void Stop() {
@@ -168,7 +168,7 @@ ImageFrontend::~ImageFrontend() = default;
 
 std::optional<Frame> ImageFrontend::Next() {
   if (!impl_->stages) return std::nullopt;
-  std::optional<Item> item = impl_->stages();
+  std::optional<Impl::Item> item = impl_->stages();
   if (!item) {
     impl_->stages = {};
     if (impl_->odometry && impl_->loaded.frames > 1 && impl_->followed == 0)

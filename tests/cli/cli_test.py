@@ -91,7 +91,9 @@ class CliTest(CliCase):
         self.assertIn('Submarine', result.stderr)
 
     def test_version(self):
-        self.assertRegex(call('version').stdout, r'^sslcd \d+\.\d+\.\d+\n$')
+        version = call('version').stdout
+        self.assertRegex(version, r'^sslcd \d+\.\d+\.\d+ \(commit \S+\)\n$')
+        self.assertEqual(call('--version').stdout, version)
 
     # files that are not there or not what they should be
     def test_missing_dataset(self):
