@@ -39,8 +39,9 @@ void ResolvePaths(const fs::path& folder, VisionOptions& vision) {
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, Configuration& configuration) {
-  visitor.Enum("mode", configuration.mode, {"robust", "paper"},
-               "which defaults: robust, or the paper's equations as printed");
+  visitor.Everyday("paper: far fewer and less certain loops; for comparison")
+      .Enum("mode", configuration.mode, {"robust", "paper"},
+            "which defaults: robust, or the paper's equations as printed");
   DescribeFields(visitor, configuration.options);
   visitor.Nested("vision", configuration.vision, "frames from images: detections and odometry");
 }
@@ -69,7 +70,9 @@ Configuration ConfigArguments::Load() const {
   Configuration all;
   ApplyTo(all);
   // The mode decides the defaults that the file and the settings then change, wherever it is named.
-  return all.mode == Mode::kRobust ? all : LoadOver(all.mode, {});
+  if (all.mode != Mode::kRobust) return LoadOver(all.mode, {});
+  CheckTogether(all);
+  return all;
 }
 
 Configuration ConfigArguments::LoadOver(Mode defaults,
@@ -77,7 +80,14 @@ Configuration ConfigArguments::LoadOver(Mode defaults,
   Configuration all{defaults, DefaultOptions(defaults), VisionOptions()};
   if (adapt) adapt(all);
   ApplyTo(all);
+  CheckTogether(all);
   return all;
+}
+
+void ConfigArguments::CheckTogether(const Configuration& all) const {
+  std::vector<FieldProblem> problems = Check(all.options);
+  for (FieldProblem& problem : Check(all.vision)) problems.push_back(std::move(problem));
+  ThrowProblems(problems, file, settings);
 }
 
 void ConfigArguments::CheckPath(const std::string& path) const {
@@ -95,8 +105,9 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console) {
   const auto file = std::make_shared<std::string>();
   command->add_option("FILE", *file, "YAML file")->required();
   return [file, &console] {
-    Configuration all;
-    LoadConfigFile(*file, Fields(all));
+    ConfigArguments arguments;
+    arguments.file = *file;
+    arguments.Load();
     console.Say(*file + ": ok");
     return 0;
   };
@@ -106,13 +117,14 @@ Command AddDumpConfigCommand(CLI::App& app, Console&) {
   CLI::App* command =
       app.add_subcommand("dump-config", "print the configuration that a run would use");
   const auto arguments = std::make_shared<ConfigArguments>();
-  const auto markdown = std::make_shared<bool>(false);
+  const auto markdown = std::make_shared<bool>(false), everyday = std::make_shared<bool>(false);
   arguments->AddTo(*command);
   command->add_flag("--markdown", *markdown, "as the tables of docs/configuration.md");
-  return [arguments, markdown] {
+  command->add_flag("--everyday", *everyday, "only the keys that users turn every day");
+  return [arguments, markdown, everyday] {
     Configuration all = arguments->Load();
     const std::string text =
-        *markdown ? ConfigReference(Fields(all)) : DumpConfig(Fields(all), true);
+        *markdown ? ConfigReference(Fields(all)) : DumpConfig(Fields(all), true, *everyday);
     std::fputs(text.c_str(), stdout);
     return 0;
   };

@@ -57,6 +57,8 @@ struct ConfigArguments {
 
  private:
   void ApplyTo(Configuration& configuration) const;
+  /// Options that do not fit together: all problems in one Error(kBadConfig).
+  void CheckTogether(const Configuration& configuration) const;
 };
 
 }  // namespace sslcd::apps

@@ -16,7 +16,7 @@ given with `--config`, then each `--set section.key=value`. What a file leaves o
 and all problems are reported at once, with exit code 4:
 ```
 error: config/mine.yaml:3:3: unknown key 'max_iteratons' in 'ba' - did you mean 'max_iterations'?
-config/mine.yaml:7:12: 'caution' is 1000, must be in [1, 100]
+config/mine.yaml:7:12: 'correlation' is 1000, must be in [1, 100]
 ```
 `sslcd_run check-config FILE` checks a file, `sslcd_run dump-config` prints the configuration that a run would use; every run
 folder holds its own as `config.yaml`. `config/default.yaml` holds all defaults, `config/paper.yaml` what `mode: paper`

@@ -46,17 +46,20 @@ double Geometry(const AssociationQuery& query, const AssociationCandidate& candi
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, AssociationOptions& options) {
-  visitor.Enum("method", options.method, {"robust", "paper"}, "robust, or Eqs. 2-6 as printed");
+  visitor.Enum(
+      "method", options.method, {"robust", "paper"},
+      "robust: gates by distance, geometry counts, one-to-one; paper: Eqs. 2-6 as printed");
   visitor.Real("lambda", options.lambda, 0, 1,
                "Eq. 3: balance between box overlap, colour and embedding");
   visitor.Real("min_score", options.min_score, 0, 1, "pairs with a lower score are never matched");
   visitor.Real("geometry_weight", options.geometry_weight, 0, 1,
-               "robust: share of the 3D distance in the score");
+               "robust: weight of the 3D distance in the score; the rest is that of Eq. 3");
   visitor.Real("gate_sigmas", options.gate_sigmas, 0.1, 100,
-               "robust: horizontal Mahalanobis distance allowed");
-  visitor.Real("gate_m", options.gate_m, 0.01, 1000, "robust: horizontal distance allowed");
+               "robust: largest horizontal Mahalanobis distance of a match");
+  visitor.Everyday("larger: fewer double landmarks, but more detections join a neighbour")
+      .Real("gate_m", options.gate_m, 0.01, 1000, "robust: largest horizontal distance of a match");
   visitor.Real("gate_vertical_m", options.gate_vertical_m, 0.01, 1000,
-               "robust: vertical distance allowed");
+               "robust: largest vertical distance of a match");
 }
 
 Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,

@@ -15,76 +15,91 @@ OdometryNoise LongPathOdometryNoise() {
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
-  visitor.Real("every_m", options.every_m, 0.1, 1000, "an attempt every so many metres of path");
-  visitor.Real("local_m", options.local_m, 1, 10000,
-               "the local map: objects seen on the last so many metres of path");
-  visitor.Real("hindsight_m", options.hindsight_m, 0, 10000,
-               "... when the whole run is looked at again at its end, after a loop was closed; 0: "
-               "it is not");
-  visitor.Real(
-      "gap_m", options.gap_m, 0, 10000,
-      "the global map: objects on passes that ended so many metres before the local map begins");
+  visitor.Everyday("smaller: loops are found sooner, and slower runs")
+      .Real("every_m", options.every_m, 0.1, 1000, "path from one search for a loop to the next");
+  visitor.Everyday("larger: more certain loops; too large: odometry bends the local map")
+      .Real("local_m", options.local_m, 1, 10000,
+            "the local map holds the objects seen on this length of path");
+  visitor.Everyday("0: a run ends sooner, without the loops that a second search finds")
+      .Real(
+          "hindsight_m", options.hindsight_m, 0, 10000,
+          "length of the local map in the second search at the end of a run; 0: no second search");
+  visitor.Everyday("larger: loops between nearby parts of the path are not searched for")
+      .Real("gap_m", options.gap_m, 0, 10000,
+            "the global map holds the objects of passes that ended this length of path before the "
+            "local map begins");
   visitor.Real("split_m", options.split_m, 0, 10000,
-               "an object unseen for so much path is on another pass");
+               "an object that was out of sight for this length of path is on another pass when it "
+               "comes back");
   visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
-                  "objects seen less often on a pass take no part");
+                  "objects with fewer sightings on a pass take no part in loop closure");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options) {
-  visitor.Real("drift_share", options.drift_share, 0, 1,
-               "how far odometry may be off: position, share of the path");
+  visitor.Everyday("larger: loops far from where odometry has the camera get a chance")
+      .Real("drift_share", options.drift_share, 0, 1,
+            "standard deviation of odometry's position, share of the path");
   visitor.Real("drift_yaw", options.drift_yaw, 0, 1,
-               "how far odometry may be off: yaw, rad per sqrt(m)");
-  visitor.Real("surprise", options.surprise, 1e-9, 1, "share of loops for which these do not hold");
+               "random walk of odometry's yaw, rad per sqrt(m) of path");
+  visitor.Real("surprise", options.surprise, 1e-9, 1,
+               "share of loops for which odometry is worse than loop.prior says");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
-  visitor.Flag(
-      "enabled", options.enabled,
-      "where there are stereo images, cameras of different passes are tied by the ground both see");
-  visitor.Real("every_m", options.every_m, 0.1, 1000, "... every so many metres of path");
+  visitor.Everyday("false: faster, but centimetres less exact where stereo images are given")
+      .Flag("enabled", options.enabled,
+            "tie cameras of different passes by the ground that both of their stereo images show");
+  visitor.Real("every_m", options.every_m, 0.1, 1000, "least path from one tie to the next");
   visitor.Real("ahead_m", options.ahead_m, 0, 100,
-               "the two look at one spot, so far ahead of each; for images, the tools choose it by "
-               "the camera ...");
-  visitor.Real("apart_m", options.apart_m, 0, 100, "... to this");
-  visitor.Real("gap_m", options.gap_m, 1, 10000, "so much path lies between the two at least ...");
+               "distance of the ground ahead of a camera that is compared; for images the tools "
+               "choose it by the camera");
+  visitor.Real("apart_m", options.apart_m, 0, 100,
+               "largest distance between the points loop.views.ahead_m ahead of the two cameras");
+  visitor.Real("gap_m", options.gap_m, 1, 10000, "least path between the two cameras of a tie");
   visitor.Real("reach_m", options.reach_m, 0, 10000,
-               "... and with closed loops as shortcuts so much at most, or what a better odometry "
-               "takes ...");
-  visitor.Real("guess_m", options.guess_m, 0, 10, "... to be this far off (loop.odometry)");
+               "most path between the two cameras of a tie, closed loops counted as shortcuts; "
+               "accurate odometry (loop.views.guess_m) raises it");
+  visitor.Real("guess_m", options.guess_m, 0, 10,
+               "error of odometry (loop.odometry) up to which two cameras may be tied, even if "
+               "their path is longer than loop.views.reach_m");
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
-  visitor.Flag("enabled", options.enabled, "close loops");
+  visitor.Everyday("false: the trajectory drifts, as without loop closure")
+      .Flag("enabled", options.enabled, "close loops");
   visitor.Enum("finder", options.finder, {"tracks", "printed"},
-               "how loops are found: by tracks of poses, or as the paper prints it");
-  visitor.Nested("layout", options.layout, "what is compared with what (paper IV-A)");
+               "how loops are found; tracks: poses that agree over several attempts; printed: the "
+               "paper's equations");
+  visitor.Nested("layout", options.layout, "the local and the global map (paper IV-A)");
   visitor.Nested("match", options.match, "layout matching (paper IV-B, IV-C)");
   visitor.Nested("tracks", options.tracks, "agreement of consecutive attempts");
-  visitor.Nested("prior", options.prior, "what odometry says about a loop");
-  visitor.Nested("acceptance", options.acceptance, "when a loop is accepted, and withdrawn");
+  visitor.Nested("prior", options.prior, "expected errors of odometry where a loop closes");
+  visitor.Nested("acceptance", options.acceptance, "rules that accept and withdraw loops");
   visitor.Nested("views", options.views, "ties between images of different passes");
   visitor.Real("lag_m", options.lag_m, 0, 1000,
-               "the query camera stood so far back, amidst the matched objects");
+               "path from the query camera of a loop to the newest camera; the matched objects lie "
+               "around it");
   visitor.Real("sigma_m", options.sigma_m, 0, 100,
-               "error of every loop on top of what its matches say");
+               "standard deviation of each loop's translation, added to that of its matches");
   visitor.Real("sigma_rad", options.sigma_rad, 0, 3,
-               "error of every loop on top of what its matches say");
+               "standard deviation of each loop's rotation, added to that of its matches");
   visitor.Real("fuse_m", options.fuse_m, 0, 100,
-               "matched landmarks further apart than this do not become one");
+               "matched landmarks that are farther apart than this after the correction do not "
+               "become one");
   visitor.Nested("drift", options.drift, "drift of the matched objects (paper IV-D, Eq. 17)");
   visitor.Real("keyframe_m", options.keyframe_m, 0, 1000,
-               "a vertex of the pose graph every so many metres of path");
-  visitor.Nested("odometry", options.odometry, "how far the odometry between these is off");
+               "path from one vertex of the pose graph to the next");
+  visitor.Nested("odometry", options.odometry, "errors of odometry between two vertices");
   visitor.Flag("learn_odometry", options.learn_odometry,
-               "at the end of a run its closed loops tell how far the odometry is off");
-  visitor.Flag("robust", options.robust,
-               "the pose graph may refuse accepted loops; false: it keeps all of them");
+               "at the end of a run, learn the errors of odometry from the closed loops");
+  visitor.Everyday("false: one wrong loop bends the whole trajectory")
+      .Flag("robust", options.robust,
+            "the pose graph may refuse accepted loops; false: it keeps all of them");
   visitor.Nested("graph", options.graph, "pose graph (paper IV-D, Eqs. 20, 21)");
   visitor.Integer("adjust_keyframes", options.adjust_keyframes, 0, 1000000,
-                  "runs of so many keyframes at most have all cameras and objects adjusted after "
-                  "each correction");
-  visitor.Nested("paper", options.paper, "the matching of finder: printed");
+                  "up to this number of keyframes all cameras and objects are adjusted after each "
+                  "correction; in longer runs only at the end");
+  visitor.Nested("paper", options.paper, "the paper's matching (loop.finder: printed)");
 }
 
 }  // namespace sslcd

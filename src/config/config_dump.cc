@@ -13,7 +13,7 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
-// What both printers need of a field: its value as YAML, its type and its range.
+// What the printers need of a field: its value as YAML, its type and its range.
 class Printer : public FieldVisitor {
  public:
   void Real(const char* key, double& value, double low, double high, const char* meaning) override {
@@ -57,25 +57,35 @@ class Printer : public FieldVisitor {
                      const std::string& range, const std::string& meaning) = 0;
 };
 
+std::string Joined(const std::string& path, const char* key) {
+  return path.empty() ? key : path + "." + key;
+}
+
 class YamlPrinter final : public Printer {
  public:
-  explicit YamlPrinter(bool with_comments) : with_comments_(with_comments) {}
+  YamlPrinter(bool with_comments, bool everyday_only)
+      : with_comments_(with_comments), everyday_only_(everyday_only) {}
 
   void Section(const char* key, const char* meaning,
                const std::function<void(FieldVisitor&)>& describe) override {
+    const std::string before = text;
     text += indent_ + key + ":" + (with_comments_ ? "  # " + std::string(meaning) : "") + "\n";
+    const std::string head = text;
     indent_ += "  ";
     describe(*this);
     indent_.resize(indent_.size() - 2);
+    if (text == head && everyday_only_) text = before;
   }
 
  private:
   void Field(const std::string& key, const std::string& value, const std::string&,
              const std::string&, const std::string& meaning) override {
+    const bool everyday = TakeEffect() != nullptr;
+    if (everyday_only_ && !everyday) return;
     text += indent_ + key + ": " + value + (with_comments_ ? "  # " + meaning : "") + "\n";
   }
 
-  bool with_comments_;
+  bool with_comments_, everyday_only_;
   std::string indent_;
 };
 
@@ -84,7 +94,7 @@ class MarkdownPrinter final : public Printer {
   void Section(const char* key, const char* meaning,
                const std::function<void(FieldVisitor&)>& describe) override {
     MarkdownPrinter inner;
-    inner.path_ = path_.empty() ? key : path_ + "." + key;
+    inner.path_ = Joined(path_, key);
     describe(inner);
     sections_ += "\n## `" + inner.path_ + "`\n" + meaning + "\n\n" + inner.Result();
   }
@@ -104,18 +114,47 @@ class MarkdownPrinter final : public Printer {
   std::string path_, sections_;
 };
 
+// The table of the keys that users turn every day.
+class EverydayPrinter final : public Printer {
+ public:
+  void Section(const char* key, const char*,
+               const std::function<void(FieldVisitor&)>& describe) override {
+    const std::string outer = path_;
+    path_ = Joined(path_, key);
+    describe(*this);
+    path_ = outer;
+  }
+
+ private:
+  void Field(const std::string& key, const std::string& value, const std::string&,
+             const std::string& range, const std::string& meaning) override {
+    const char* effect = TakeEffect();
+    if (effect == nullptr) return;
+    text += "| `" + Joined(path_, key.c_str()) + "` | " + value + " | " + range + " | " + meaning +
+            " | " + effect + " |\n";
+  }
+
+  std::string path_;
+};
+
 }  // namespace
 
-std::string DumpConfig(const Describe& describe, bool with_comments) {
-  YamlPrinter printer(with_comments);
+std::string DumpConfig(const Describe& describe, bool with_comments, bool everyday_only) {
+  YamlPrinter printer(with_comments, everyday_only);
   describe(printer);
   return printer.text;
 }
 
 std::string ConfigReference(const Describe& describe) {
-  MarkdownPrinter printer;
-  describe(printer);
-  return printer.Result();
+  EverydayPrinter everyday;
+  describe(everyday);
+  MarkdownPrinter all;
+  describe(all);
+  if (everyday.text.empty()) return all.Result();
+  return "## Everyday\nThe keys that most users ever change.\n\n"
+         "| key | default | range | meaning | what you see when you turn it |\n"
+         "|---|---|---|---|---|\n" +
+         everyday.text + "\n## All keys\n" + all.Result();
 }
 
 }  // namespace sslcd

@@ -239,7 +239,40 @@ void Throw(const std::vector<std::string>& problems) {
   throw Error(ErrorKind::kBadConfig, text);
 }
 
+// Line and column of a key with its sections; none where the file does not give it.
+std::optional<FileLocation> Locate(const YAML::Node& root, const std::string& key,
+                                   const std::string& path) {
+  YAML::Node node = root;
+  std::istringstream parts(key);
+  for (std::string part; std::getline(parts, part, '.');) {
+    if (!node.IsMap() || !node[part]) return std::nullopt;
+    node.reset(node[part]);
+  }
+  return FileLocation{path, node.Mark().line + 1, node.Mark().column + 1};
+}
+
+// Where the value of one of `keys` comes from.
+std::string SourceOf(const std::vector<std::string>& keys, const YAML::Node& root,
+                     const std::string& path, const std::vector<std::string>& settings) {
+  for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)
+    for (const std::string& key : keys)
+      if (setting->rfind(key + "=", 0) == 0) return "--set " + *setting;
+  for (const std::string& key : keys)
+    if (const auto at = Locate(root, key, path)) return ToString(*at);
+  return keys.at(0);
+}
+
 }  // namespace
+
+void ThrowProblems(const std::vector<FieldProblem>& problems, const std::string& path,
+                   const std::vector<std::string>& settings) {
+  if (problems.empty()) return;
+  const YAML::Node root = path.empty() ? YAML::Node() : YAML::Load(ReadFileBytes(path));
+  std::vector<std::string> lines;
+  for (const FieldProblem& problem : problems)
+    lines.push_back(SourceOf(problem.keys, root, path, settings) + ": " + problem.message);
+  Throw(lines);
+}
 
 void LoadConfigText(const std::string& text, const std::string& name, const Describe& describe) {
   YAML::Node root;

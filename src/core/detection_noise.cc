@@ -6,20 +6,26 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise) {
-  visitor.Real("radial_m", noise.radial_m, 1e-4, 100,
-               "standard deviation along the viewing ray at range 0");
-  visitor.Real("radial_per_m", noise.radial_per_m, 0, 1, "its growth per metre of range");
+  visitor.Everyday("larger: wider gates, and detections move the trajectory less")
+      .Real("radial_m", noise.radial_m, 1e-4, 100,
+            "standard deviation of a position along the viewing ray, at range 0");
+  visitor.Everyday("larger: far detections are trusted less")
+      .Real("radial_per_m", noise.radial_per_m, 0, 1,
+            "growth of the standard deviation along the viewing ray, per metre of range");
   visitor.Real("lateral_m", noise.lateral_m, 1e-4, 100,
-               "standard deviation across the viewing ray at range 0");
-  visitor.Real("lateral_per_m", noise.lateral_per_m, 0, 1, "its growth per metre of range");
-  visitor.Real("vertical_m", noise.vertical_m, 1e-4, 100, "vertical standard deviation at range 0");
-  visitor.Real("vertical_per_m", noise.vertical_per_m, 0, 1, "its growth per metre of range");
-  visitor.Real("yaw_rad", noise.yaw_rad, 1e-4, 4, "standard deviation of the heading at range 0");
-  visitor.Real("yaw_per_m", noise.yaw_per_m, 0, 1, "its growth per metre of range");
-  visitor.Real("size_relative", noise.size_relative, 1e-4, 1,
-               "standard deviation of each dimension, relative to itself");
+               "horizontal standard deviation of a position across the viewing ray, at range 0");
+  visitor.Real("lateral_per_m", noise.lateral_per_m, 0, 1,
+               "growth of the standard deviation across the viewing ray, per metre of range");
+  visitor.Real("vertical_m", noise.vertical_m, 1e-4, 100,
+               "vertical standard deviation of a position, at range 0");
+  visitor.Real("vertical_per_m", noise.vertical_per_m, 0, 1,
+               "growth of the vertical standard deviation, per metre of range");
+  visitor.Real("yaw_rad", noise.yaw_rad, 1e-4, 4, "standard deviation of a heading, at range 0");
+  visitor.Real("yaw_per_m", noise.yaw_per_m, 0, 1,
+               "growth of the standard deviation of a heading, rad per metre of range");
   visitor.Real("initial_scale", noise.initial_scale, 0.1, 100,
-               "factor on all standard deviations before the run has learnt its own");
+               "factor on all standard deviations before the run has learnt its own "
+               "(map.learn_noise)");
 }
 
 DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale) {

@@ -163,10 +163,10 @@ std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_
 
 void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
   visitor.Real("search_m", options.search_m, 0.06, 5,
-               "how far off the guess may be in each direction; with more of it, less ground is "
-               "compared");
+               "largest error of the guess in each direction; a larger search leaves less ground "
+               "to compare");
   visitor.Real("max_sigma_m", options.max_sigma_m, 0, 100,
-               "an alignment whose position has a larger standard deviation is none");
+               "alignments whose position has a larger standard deviation are rejected");
 }
 
 std::optional<double> AlignmentRange(const Camera& camera, int rows, double height_m) {

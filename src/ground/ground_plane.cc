@@ -213,10 +213,10 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
-  visitor.Real("height_m", options.height_m, 0.05, 20,
-               "height of the camera above the ground, as far as known");
+  visitor.Everyday("far off: objects stand too near or too far")
+      .Real("height_m", options.height_m, 0.05, 20, "height of the camera above the ground");
   visitor.Real("height_sigma_m", options.height_sigma_m, 1e-3, 10,
-               "standard deviation of the height of the camera, as far as known");
+               "standard deviation of the given height of the camera");
   visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-4, 0.5,
                "standard deviation of the camera's roll and pitch against the ground");
 }

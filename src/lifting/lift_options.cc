@@ -50,12 +50,12 @@ void DescribeFields(FieldVisitor& visitor, LiftOptions& options) {
   visitor.Real("min_range_m", options.min_range_m, 0.1, 1000, "nearer objects are not lifted");
   visitor.Real("max_range_m", options.max_range_m, 0.1, 1000, "farther objects are not lifted");
   visitor.Real("min_height_px", options.min_height_px, 1, 10000,
-               "boxes that are less high are not lifted");
+               "boxes of a smaller height are not lifted");
   visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 0.01, 10,
-               "boxes whose yaw has a larger standard deviation are rejected");
+               "boxes whose yaw has a larger standard deviation are not lifted");
   visitor.Real("box_sigma_share", options.box_sigma_share, 0, 1,
-               "standard deviation of a box's sides, share of its width or height, on top of 2 px; "
-               "the detector's description may say more");
+               "standard deviation of a box's sides, share of its width or height, added to 2 px; "
+               "the detector's description may raise it");
 }
 
 const char* ToString(LiftStatus status) {

@@ -7,6 +7,13 @@
 namespace sslcd {
 namespace {
 
+// Standard deviation of the cosine of two embeddings about its mean. Set by hand.
+constexpr double kEmbeddingSigma = 0.12;
+// Cosine of two colour signatures: its mean for one object and for two, and its standard deviation.
+// Set by hand for ColourOptions::Method::kRobust.
+constexpr double kSameColour = 0.85, kOtherColour = 0.6, kColourSigma = 0.2;
+constexpr double kColourShare = 1. / 3;  // of the limit: light changes colours
+
 double Dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
@@ -49,18 +56,13 @@ double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<App
 
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
   visitor.Real("same_side", options.same_side, -1, 1,
-               "expected cosine of one object's embeddings, from one side ...");
-  visitor.Real("opposite_side", options.opposite_side, -1, 1, "... and from opposite sides");
+               "mean cosine of one object's embeddings, seen from one side");
+  visitor.Real("opposite_side", options.opposite_side, -1, 1,
+               "mean cosine of one object's embeddings, seen from opposite sides");
   visitor.Real("other_object", options.other_object, -1, 1,
-               "expected cosine of different objects' embeddings");
-  visitor.Real("embedding_sigma", options.embedding_sigma, 1e-3, 10, "standard deviation of these");
-  visitor.Real("colour_same", options.colour_same, -1, 1,
-               "expected cosine of one object's colours");
-  visitor.Real("colour_other", options.colour_other, -1, 1,
-               "expected cosine of different objects' colours");
-  visitor.Real("colour_sigma", options.colour_sigma, 1e-3, 10, "standard deviation of these");
+               "mean cosine of different objects' embeddings");
   visitor.Real("limit", options.limit, 0, 100,
-               "appearance says no more about one object, for or against [nats]");
+               "most evidence of one object's appearance, for or against [nats]");
 }
 
 double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const AppearanceOptions& o) {
@@ -68,10 +70,10 @@ double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const Appear
       MeanOverViews(a.embedding, b.embedding, [&](const auto& p, const auto& q) {
         const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
         const double same = o.opposite_side + side * (o.same_side - o.opposite_side);
-        return LogRatio(Dot(p.vector, q.vector), same, o.other_object, o.embedding_sigma);
+        return LogRatio(Dot(p.vector, q.vector), same, o.other_object, kEmbeddingSigma);
       });
   const double colour = MeanOverViews(a.colour, b.colour, [&](const auto& p, const auto& q) {
-    return LogRatio(Dot(p.vector, q.vector), o.colour_same, o.colour_other, o.colour_sigma);
+    return LogRatio(Dot(p.vector, q.vector), kSameColour, kOtherColour, kColourSigma);
   });
   return std::clamp(embedding + std::clamp(colour, -o.limit / 3, o.limit / 3), -o.limit, o.limit);
 }

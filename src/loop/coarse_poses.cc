@@ -13,6 +13,11 @@
 namespace sslcd {
 namespace {
 
+// Local pairs tried per object, those with the fewest equal pairs in the map first. Set by hand.
+constexpr int kPairsPerObject = 6;
+// Soft score of an object that falls on one of another label, share of a right one. Set by hand.
+constexpr float kOtherLabelScore = 0.3f;
+
 struct LocalPair {
   ObjectPair pair;
   int matches = 0;  // global pairs that may equal it
@@ -20,8 +25,8 @@ struct LocalPair {
 
 // The local pairs to be laid on the map: long enough, few of their kind, every object in some of
 // them.
-std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                                   const PoseSearchOptions& options) {
+std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
+                                   const LayoutIndex& index) {
   std::vector<LocalPair> pairs;
   for (int i = 0; i < static_cast<int>(local.size()); ++i) {
     for (int j = i + 1; j < static_cast<int>(local.size()); ++j) {
@@ -29,11 +34,9 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
       if (local[a].label > local[b].label) std::swap(a, b);
       const Vec3 step = local[b].position - local[a].position;
       const double distance = std::hypot(step.x(), step.y());
-      if (distance < options.min_pair_m || distance > index.max_pair()) continue;
-      const auto begin =
-          index.PairsBegin(local[a].label, local[b].label, distance - options.pair_noise_m);
-      const auto end =
-          index.PairsEnd(local[a].label, local[b].label, distance + options.pair_noise_m);
+      if (distance < kMinPairM || distance > index.max_pair()) continue;
+      const auto begin = index.PairsBegin(local[a].label, local[b].label, distance - kPairNoiseM);
+      const auto end = index.PairsEnd(local[a].label, local[b].label, distance + kPairNoiseM);
       if (end <= begin) continue;
       LocalPair pair;
       pair.pair = {a,
@@ -51,7 +54,7 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local, const
   std::vector<int> used(local.size(), 0);
   std::vector<LocalPair> chosen;
   for (const LocalPair& pair : pairs) {
-    if (std::min(used[pair.pair.a], used[pair.pair.b]) >= options.pairs_per_object) continue;
+    if (std::min(used[pair.pair.a], used[pair.pair.b]) >= kPairsPerObject) continue;
     ++used[pair.pair.a];
     ++used[pair.pair.b];
     chosen.push_back(pair);
@@ -141,7 +144,7 @@ class Contest {
           const PoseSearchOptions& options)
       : points_(points),
         index_(index),
-        inlier2_(static_cast<float>(options.inlier_m * options.inlier_m)),
+        inlier2_(static_cast<float>(kCoarseInlierM * kCoarseInlierM)),
         winners_(options.refine) {
     const std::size_t padded = points.size() + GainBound::kAtOnce;
     x_.resize(padded, 0.f);
@@ -150,7 +153,7 @@ class Contest {
     for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
     // Where triangles propose the poses, these are too few for a picture of the map.
     if (index.triangles() == nullptr)
-      bound_.emplace(index.points(), static_cast<float>(options.inlier_m));
+      bound_.emplace(index.points(), static_cast<float>(kCoarseInlierM));
   }
 
   void Enter(CoarsePose pose) {
@@ -218,7 +221,8 @@ class Contest {
         const float dx = map[j].x - x, dy = map[j].y - y, dz = map[j].z - p.z - pose.z;
         const float d2 = dx * dx + dy * dy + dz * dz;
         if (d2 >= inlier2_) continue;
-        gain = std::max(gain, (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : .3f));
+        gain = std::max(gain,
+                        (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : kOtherLabelScore));
       }
       score += gain;
       open -= landed.bound;
@@ -262,15 +266,14 @@ class Contest {
 
 // Every chosen local pair on every global pair of equal distance.
 void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<LayoutPoint>& points,
-                const LayoutIndex& index, const PoseSearchOptions& options, Contest& contest) {
+                const LayoutIndex& index, Contest& contest) {
   const std::vector<LayoutPoint>& map = index.points();
-  const float tolerance = static_cast<float>(options.pair_noise_m);
-  for (const LocalPair& chosen : ChoosePairs(local, index, options)) {
+  const float tolerance = static_cast<float>(kPairNoiseM);
+  for (const LocalPair& chosen : ChoosePairs(local, index)) {
     const ObjectPair& l = chosen.pair;
     const LayoutPoint &pa = points[l.a], &pb = points[l.b];
-    const auto end = index.PairsEnd(pa.label, pb.label, l.distance + options.pair_noise_m);
-    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - options.pair_noise_m); g < end;
-         ++g) {
+    const auto end = index.PairsEnd(pa.label, pb.label, l.distance + kPairNoiseM);
+    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - kPairNoiseM); g < end; ++g) {
       if (std::abs(g->distance - l.distance) > tolerance) continue;
       if (map[g->a].label != pa.label || map[g->b].label != pb.label) continue;
       for (int flip = 0; flip < (pa.label == pb.label ? 2 : 1); ++flip) {
@@ -303,9 +306,9 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
   }
   Contest contest(points, index, options);
   if (index.triangles() == nullptr)
-    EnterPairs(local, points, index, options, contest);
+    EnterPairs(local, points, index, contest);
   else
-    for (const CoarsePose& pose : TrianglePoses(points, index, options)) contest.Enter(pose);
+    for (const CoarsePose& pose : TrianglePoses(points, index)) contest.Enter(pose);
   return contest.Best();
 }
 

@@ -7,6 +7,12 @@
 
 namespace sslcd {
 
+/// Of the search for coarse poses. Set by hand for maps of cars, trees and poles that are accurate
+/// to some decimetres; no search over them is recorded.
+inline constexpr double kMinPairM = 4.;    ///< objects that are closer fix the yaw too badly [m]
+inline constexpr double kPairNoiseM = 1.;  ///< distances of equal pairs differ by less [m]
+inline constexpr double kCoarseInlierM = 1.5;  ///< objects that fit are closer than this [m]
+
 /// A pose that two objects propose, local to global with the local map's centre as origin, and how
 /// many others agree.
 struct CoarsePose {

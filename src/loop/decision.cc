@@ -30,9 +30,10 @@ void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options) {
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options) {
-  visitor.Real("min_margin", options.min_margin, -100, 1000,
-               "smallest log odds of a pose against all others and against 'nowhere' at which its "
-               "loops are accepted [nats]");
+  visitor.Everyday("higher: fewer wrong loops, and fewer loops")
+      .Real("min_margin", options.min_margin, -100, 1000,
+            "smallest log odds of a pose against all others and against 'nowhere' at which its "
+            "loops are accepted [nats]");
   visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3,
                "largest standard deviation of the heading that a loop measures");
   visitor.Real("max_apart_m", options.max_apart_m, 0, 1000,

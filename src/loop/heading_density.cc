@@ -6,6 +6,7 @@
 namespace sslcd {
 
 double HeadingDensity(double difference_rad, Symmetry symmetry) {
+  // Set by hand; no search over them is recorded.
   constexpr double kSharpness = 16.;  // of the von Mises density: a sigma of about 15 degrees
   constexpr double kFlipped = 0.05;   // share of headings off by half a turn
   constexpr double kAny = 0.1;        // share of headings that mean nothing

@@ -13,13 +13,31 @@
 namespace sslcd {
 namespace {
 
-// Scatter between the two maps' idea of one object. Which it is, the data say: [m].
+// Standard deviations of one object's position between two maps, per axis. The likelihood sums
+// over them, so the data decide. They span the accuracy of maps from stereo to monocular boxes;
+// set by hand. [m]
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
-// objects of a straight row lie on its edge, this side or that [m]
+// The hull of the local map reaches this far beyond its objects: those of a straight row would lie
+// on its edge. Set by hand. [m]
 constexpr double kHullMargin = 1.;
-constexpr double kGate = 3.;  // matched within so many standard deviations
+constexpr double kGate = 3.;       // hard matches lie within this number of standard deviations
+constexpr double kMinGain = -1.5;  // a match with less evidence is none; set by hand [nats]
+// Refine's gate shrinks by this factor a round, down to a standard deviation. Set by hand. [m]
+constexpr double kGateShrinkage = 0.85, kLeastGateSigma = 0.33;
+constexpr int kSettleRounds = 2;  // of matches by the likelihood itself
+// Beta prior left for the next unmapped object, at least: the number of objects on the map is a
+// count at the start, and a match may lie beyond.
+constexpr double kLeastUnmapped = 0.1;
+// Score of a pose before anything is known of it: below all others.
+constexpr double kNothing = -1e9;
+constexpr double kLeastSpread = 1e-3;  // of matches on one spot [m^2]
 
-double HeightSigma(double sigma) { return 0.06 + 0.4 * sigma; }
+// Standard deviation of height under a horizontal one: heights of boxes agree better, but for a
+// constant. Set by hand. [m]
+double HeightSigma(double sigma) {
+  constexpr double kConstant = 0.06, kShare = 0.4;
+  return kConstant + kShare * sigma;
+}
 
 // Probability of one sequence of `yes` and `no` outcomes whose rate is unknown: log of the
 // Beta-binomial.
@@ -38,20 +56,11 @@ bool HasHeading(const LayoutObject& object) {
 
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
   visitor.Real("wrong_label", options.wrong_label, 1e-6, 0.9,
-               "how often the detector takes one class for another");
-  visitor.Real("mapped_prior", options.mapped_prior, 0.1, 1000,
-               "Beta prior of the share of local objects in the map: yes");
-  visitor.Real("unmapped_prior", options.unmapped_prior, 0.1, 1000,
-               "Beta prior of the share of local objects in the map: no");
+               "share of objects whose class the detector confuses");
   visitor.Flag("leave_map", options.leave_map,
-               "local objects may lie beyond what the map has seen");
+               "local objects outside of the area that the map has seen do not count as unmapped");
   visitor.Real("wrong_height", options.wrong_height, 0, 1,
-               "share of objects whose height says nothing");
-  visitor.Real("min_gain", options.min_gain, -100, 100, "a match that says less is none [nats]");
-  visitor.Real("seen_prior", options.seen_prior, 0.1, 1000,
-               "Beta prior of the share of mapped objects seen again: yes");
-  visitor.Real("unseen_prior", options.unseen_prior, 0.1, 1000,
-               "Beta prior of the share of mapped objects seen again: no");
+               "share of objects whose height is not comparable, e.g. on slopes");
   visitor.Nested("appearance", options.appearance, "colour and embedding as evidence (paper IV-C)");
 }
 
@@ -219,11 +228,11 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
   ranked.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
     const double without_height = constant - 0.5 * candidate.d2 / (sigma * sigma);
-    if (without_height + most_by_height + candidate.semantic_gain < options_.min_gain) continue;
+    if (without_height + most_by_height + candidate.semantic_gain < kMinGain) continue;
     const double height_ratio = background_z / sigma_z * std::exp(per_z2 * candidate.z2);
     const double gain =
         without_height + std::log(wrong + (1 - wrong) * height_ratio) + candidate.semantic_gain;
-    if (!(gain < options_.min_gain)) ranked.push_back({gain, &candidate});
+    if (!(gain < kMinGain)) ranked.push_back({gain, &candidate});
   }
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.gain != b.gain ? a.gain > b.gain : a.candidate < b.candidate;
@@ -246,7 +255,7 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
     if (taken) continue;
     const double n = static_cast<double>(matches.size());
     score += gain + std::log((n + options_.mapped_prior) /
-                             std::max(0.1, n_local - n - 1 + options_.unmapped_prior));
+                             std::max(kLeastUnmapped, n_local - n - 1 + options_.unmapped_prior));
     if (candidate->in_view) {
       score += std::log((n + options_.seen_prior) / (all - n - 1 + options_.unseen_prior));
     } else {
@@ -271,15 +280,15 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const int on_map = OnMap(pose);
   const double searched = index_.pose_volume();
   LayoutFit best;
-  best.score = best.evidence = -1e9;
+  best.score = best.evidence = kNothing;
   const double log_sigmas = std::log(static_cast<double>(std::size(kSigmas)));
-  double score = -1e9, evidence = -1e9;
+  double score = kNothing, evidence = kNothing;
   for (const double sigma : kSigmas) {
     LayoutFit fit = Assign(candidates, in_view, on_map, sigma);
     Vec2 centre(0, 0);
     const double n = static_cast<double>(fit.matches.size());
     for (const auto& [i, j] : fit.matches) centre += index_.objects()[j].position.head<2>() / n;
-    double spread = 1e-3;
+    double spread = kLeastSpread;
     for (const auto& [i, j] : fit.matches)
       spread += (index_.objects()[j].position.head<2>() - centre).squaredNorm();
     const double volume =
@@ -306,7 +315,7 @@ YawShift LayoutLikelihood::Align(const LayoutFit& fit) const {
 // Matches by the likelihood, from where hard ones have led.
 LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
   Settled best{pose, Evaluate(pose)};
-  for (int round = 0; round < 2 && best.fit.matches.size() >= 2; ++round) {
+  for (int round = 0; round < kSettleRounds && best.fit.matches.size() >= 2; ++round) {
     const YawShift moved = Align(best.fit);
     LayoutFit better = Evaluate(moved);
     if (better.score <= best.fit.score) break;
@@ -324,7 +333,7 @@ LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
     const LayoutFit fit = Assign(Candidates(pose, false), 0, OnMap(pose), sigma);
     if (fit.matches.size() < 2) break;
     pose = Align(fit);
-    sigma = std::max(0.33, 0.85 * sigma);
+    sigma = std::max(kLeastGateSigma, kGateShrinkage * sigma);
     way.push_back({double(rounds), double(round), pose.yaw, pose.t.x(), pose.t.y(), pose.t.z()});
     const auto known = been_here_.find(way.back());
     if (known != been_here_.end()) end = known->second;

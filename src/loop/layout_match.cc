@@ -26,10 +26,10 @@ double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
-  visitor.Real("max_pair_m", options.max_pair_m, 1, 1000,
-               "objects further apart propose no pose together");
+  visitor.Real("max_pair_m", options.max_pair_m, 5, 1000,
+               "objects that are farther apart do not propose a pose together");
   visitor.Real("reach_m", options.reach_m, 0.1, 20,
-               "a local object is compared with what the map has within this");
+               "a local object is compared with the objects of the map within this distance");
   visitor.Nested("search", options.search, "which poses are tried");
   visitor.Nested("likelihood", options.likelihood, "how a pose is scored");
 }

@@ -25,15 +25,15 @@ std::vector<std::optional<Eigen::VectorXd>> LayoutVectors(const std::vector<Layo
 void DescribeFields(FieldVisitor& visitor, PaperMatchOptions& options) {
   visitor.Integer("neighbours", options.neighbours, 1, 100,
                   "K: nearest neighbours of a vertex (paper IV-A)");
-  visitor.Real(
-      "layout_difference", options.layout_difference, 0, 2,
-      "delta: candidates differ less than this in their normalised neighbour distances (IV-B)");
+  visitor.Real("layout_difference", options.layout_difference, 0, 2,
+               "delta: candidates differ less than this in their normalised neighbour distances "
+               "(IV-B)");
   visitor.Real("mu", options.mu, 0, 1,
-               "weight of size and position; the rest is colour's and embedding's (IV-C)");
+               "weight of size and position against colour and embedding (IV-C)");
   visitor.Real("similarity", options.similarity, 1e-9, 2,
-               "tau: similarity s_l that a match needs (IV-C)");
+               "tau: smallest similarity s_l of a match (IV-C)");
   visitor.Integer("min_matches", options.min_matches, 1, 1000,
-                  "matched objects that make a loop (IV-D: several)");
+                  "fewest matched objects of a loop (IV-D: several)");
 }
 
 std::optional<std::vector<ObjectMatch>> PaperMatch(const std::vector<LayoutObject>& local,

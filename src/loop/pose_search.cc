@@ -9,20 +9,12 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options) {
-  visitor.Real("min_pair_m", options.min_pair_m, 0.1, 100,
-               "closer pairs of objects fix the yaw too badly");
-  visitor.Real("pair_noise_m", options.pair_noise_m, 0.01, 10,
-               "how far the distances of two equal pairs may differ");
-  visitor.Real("inlier_m", options.inlier_m, 0.1, 20,
-               "coarse score: objects further apart do not fit");
-  visitor.Integer("pairs_per_object", options.pairs_per_object, 1, 1000,
-                  "local pairs tried per object, rarest first");
-  visitor.Integer("refine", options.refine, 1, 100000, "coarse poses that are refined");
-  visitor.Integer("min_matches", options.min_matches, 3, 1000, "objects that have to fit at least");
-  visitor.Real("distinct_m", options.distinct_m, 0.1, 100,
-               "poses that take the centre to within this are one ...");
-  visitor.Real("distinct_rad", options.distinct_rad, 0.001, 3.2,
-               "... if they differ in yaw by less than this");
+  visitor.Integer("refine", options.refine, 1, 100000,
+                  "coarse poses that are refined, the best ones; loop.finder: tracks refines 20 at "
+                  "most, because its tracks keep earlier ones");
+  visitor.Everyday("higher: fewer loops, and more certain ones")
+      .Integer("min_matches", options.min_matches, 3, 1000,
+               "objects that have to fit for a pose to count");
 }
 
 std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,

@@ -22,12 +22,7 @@ Vec3 CentreOf(const std::vector<LayoutObject>& local) {
 
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
   visitor.Real("agree_m", options.agree_m, 0, 10000,
-               "attempts further back on the path do not count any more");
-  visitor.Real("step_m", options.step_m, 0.1, 100,
-               "a hypothesis that jumps by more than this is another one ...");
-  visitor.Real("step_rad", options.step_rad, 0.001, 3.2, "... or turns by more");
-  visitor.Integer("max_tracks", options.max_tracks, 1, 10000,
-                  "hypotheses that are followed, the best ones");
+               "attempts farther back on the path than this do not count for a track");
 }
 
 void PoseTracks::Update(const LayoutLikelihood& likelihood,

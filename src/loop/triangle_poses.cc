@@ -103,8 +103,8 @@ class Votes {
 }  // namespace
 
 std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
-                                      const LayoutIndex& index, const PoseSearchOptions& options) {
-  const float tolerance = static_cast<float>(options.pair_noise_m);
+                                      const LayoutIndex& index) {
+  const float tolerance = static_cast<float>(kPairNoiseM);
   const std::vector<ObjectTriangle> triangles = NeighbourTriangles(points);
   const std::size_t used = std::min(triangles.size(), kMaxTriangles);
   std::size_t step = std::max<std::size_t>(
@@ -116,7 +116,7 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
   for (std::size_t k = 0; k < used && (k < kMinTriangles || poses.size() < kEnoughPoses); ++k) {
     const ObjectTriangle& triangle = triangles[k * step % triangles.size()];
     found.clear();
-    index.triangles()->Find(triangle, options.pair_noise_m, kMaxFound, found);
+    index.triangles()->Find(triangle, kPairNoiseM, kMaxFound, found);
     for (const ObjectTriangle* other : found)
       Lay(triangle, points, *other, index.points(), tolerance, poses);
   }

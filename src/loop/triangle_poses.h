@@ -12,6 +12,6 @@ namespace sslcd {
 /// without a score: if there are many, those that most triangles agree on. `points` are the local
 /// ones, their centre in the origin. The number of poses is bounded whatever the map's size.
 std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
-                                      const LayoutIndex& index, const PoseSearchOptions& options);
+                                      const LayoutIndex& index);
 
 }  // namespace sslcd

@@ -28,37 +28,26 @@ Matrix4 ProcessNoise(double dt, double acceleration) {
   return Q;
 }
 
-// Gaussian log density up to a constant. The distance is capped: one wild detection decides
-// nothing.
+// Cap of a squared Mahalanobis distance, four sigmas: one outlier decides nothing. Set by hand.
+constexpr double kMaxDistance2 = 16.;
+
+// Gaussian log density up to a constant.
 double LogLikelihood(const Eigen::Vector2d& innovation, const Matrix2& covariance) {
   const double distance = innovation.dot(covariance.inverse() * innovation);
-  return -0.5 * (std::min(distance, 16.) + std::log(covariance.determinant()));
+  return -0.5 * (std::min(distance, kMaxDistance2) + std::log(covariance.determinant()));
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options) {
-  visitor.Real("speed_prior_mps", options.speed_prior_mps, 0.01, 100,
-               "standard deviation of an unknown object's speed");
-  visitor.Real("acceleration_mps2", options.acceleration_mps2, 0.01, 100,
-               "acceleration of driving objects");
-  visitor.Real(
-      "wander_m_per_sqrt_s", options.wander_m_per_sqrt_s, 0, 10,
-      "how far a parked object may seem to wander in one second, because the camera drifts");
   visitor.Real("decide_at", options.decide_at, 0.1, 100,
-               "log Bayes factor at which an object is called driving");
+               "log Bayes factor at which an object is called driving [nats]");
   visitor.Real("min_travel_m", options.min_travel_m, 0, 1000,
-               "nothing is called driving that has not come so far");
+               "an object that has moved less is not called driving");
   visitor.Real("min_speed_mps", options.min_speed_mps, 0, 100,
-               "nothing is called driving that is slower");
-  visitor.Real("max_parked_speed_mps", options.max_parked_speed_mps, 0, 100,
-               "an object is called parked once its speed is surely below this");
+               "an object that is slower is not called driving");
   visitor.Real("settle_s", options.settle_s, 0, 1e6,
-               "a driving object that stands for so long is a new parked one");
-  visitor.Real("memory", options.memory, 0.1, 1000,
-               "limit of the log Bayes factor; small: quick to change its mind");
-  visitor.Real("forget_after_s", options.forget_after_s, 0.01, 1e6,
-               "an object unseen for longer is tested anew");
+               "a driving object that has stopped for this time is a new parked one");
 }
 
 void MotionTest::Add(const Point& position, const Covariance& covariance, double stamp,

@@ -18,6 +18,12 @@ struct ObjectMap::View {
 
 namespace {
 
+constexpr int kLearnAfter = 3;  // sightings before a landmark's place is good enough to learn from
+// Step of the logarithm of the scale per detection: some hundred detections for a factor of ten.
+constexpr double kLearningRate = 0.03;
+constexpr double kMinScale = 0.5, kMaxScale = 40.;  // of the learnt noise; sanity bounds
+constexpr double kMedianOfGaussian = 0.6745;        // median of |x|, x ~ N(0, 1)
+
 // Bearing of the camera in the object frame: which side of the object is in view.
 double Viewpoint(const Pose& T_cam_object) {
   const Vec3 camera_in_object = T_cam_object.inverse().translation();
@@ -27,24 +33,21 @@ double Viewpoint(const Pose& T_cam_object) {
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, MapOptions& options) {
-  visitor.Integer("confirm_sightings", options.confirm_sightings, 1, 1000,
-                  "sightings that turn a tentative landmark into a confirmed one");
-  visitor.Real("birth_score", options.birth_score, 0, 1,
-               "a detection less certain than this makes no new landmark");
+  visitor.Everyday("higher: fewer false landmarks, but objects seen briefly are missing")
+      .Integer("confirm_sightings", options.confirm_sightings, 1, 1000,
+               "sightings that turn a tentative landmark into a confirmed one");
+  visitor.Everyday("higher: fewer false landmarks, but fewer objects for loops")
+      .Real("birth_score", options.birth_score, 0, 1,
+            "a detection with a lower score makes no new landmark");
   visitor.Real("stale_after_s", options.stale_after_s, 0, 1e6,
-               "a tentative or driving object unseen for longer is given up");
+               "a tentative or driving object unseen for longer is dropped");
   visitor.Real("search_radius_m", options.search_radius_m, 0.1, 1000,
-               "how far from a detection its landmark is looked for");
+               "the landmark of a detection is searched for within this distance");
   visitor.Real("memory_m", options.memory_m, 0, 1e6,
-               "a landmark out of sight for so much path is found again by loop closure only");
-  visitor.Real("caution", options.caution, 1, 100,
-               "factor on the learnt detection sigmas in gates and in the motion test, for errors "
-               "that drift");
-  visitor.Real("min_noise_scale", options.min_noise_scale, 0, 100,
-               "noise scale added in gates and in the motion test, for errors with long tails");
+               "after this length of path out of sight, only loop closure finds a landmark again");
   visitor.Flag("learn_noise", options.learn_noise,
-               "learn the detector's noise scale from its detections' scatter");
-  visitor.Nested("motion", options.motion, "parked or driving");
+               "learn the detector's noise scale from the scatter of its detections");
+  visitor.Nested("motion", options.motion, "the test of whether an object is parked or driving");
 }
 
 ObjectMap::ObjectMap(const GravityFrame& gravity, const LabelTable& labels,
@@ -128,8 +131,8 @@ AssociationQuery ObjectMap::QueryOf(const Detection& detection, const View& view
   query.place.position = Horizontal(point_world);
   query.height = point_world.dot(gravity_.up);
   NoiseScale cautious = noise_scale_;
-  cautious.radial = std::hypot(options_.caution * cautious.radial, options_.min_noise_scale);
-  cautious.lateral = std::hypot(options_.caution * cautious.lateral, options_.min_noise_scale);
+  cautious.radial = std::hypot(kNoiseCaution * cautious.radial, kLongTailScale);
+  cautious.lateral = std::hypot(kNoiseCaution * cautious.lateral, kLongTailScale);
   const DetectionSigmas sigmas = SigmasAt(point_cam.norm(), noise_, cautious);
   const Eigen::Matrix3d R = view.T_world_cam.so3().matrix();
   Eigen::Matrix<double, 2, 3> to_plane;
@@ -205,7 +208,7 @@ LandmarkId ObjectMap::Insert(MapLandmark landmark) {
 
 void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, const View& view) {
   const Detection& detection = *query.detection;
-  if (options_.learn_noise && landmark.sightings.size() >= 3 &&
+  if (options_.learn_noise && landmark.sightings.size() >= kLearnAfter &&
       landmark.state == LandmarkState::kConfirmed)
     LearnNoise(landmark, detection, view);
 
@@ -240,14 +243,14 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
 // on either side.
 void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detection,
                            const View& view) {
-  constexpr double kRate = 0.03, kMedianOfGaussian = 0.6745;
   const Vec3 point_cam = detection.T_cam_object.translation();
   const Pose T_cam_object = view.T_world_cam.inverse() * ToPose(landmark.pose, gravity_);
   const Vec3 error = RayFrame(point_cam) * (point_cam - T_cam_object.translation());
   const DetectionSigmas unit = SigmasAt(point_cam.norm(), noise_, NoiseScale::Uniform(1.));
   const auto learn = [&](double& scale, double normalised_error) {
-    scale *= std::exp(kRate * (std::abs(normalised_error) > kMedianOfGaussian * scale ? 1 : -1));
-    scale = std::clamp(scale, 0.5, 40.);
+    scale *=
+        std::exp(kLearningRate * (std::abs(normalised_error) > kMedianOfGaussian * scale ? 1 : -1));
+    scale = std::clamp(scale, kMinScale, kMaxScale);
   };
   learn(noise_scale_.radial, error.x() / unit.radial);
   learn(noise_scale_.lateral, error.y() / unit.lateral);

@@ -14,6 +14,11 @@ using namespace drift;  // NOLINT(google-build-using-namespace): its own private
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+constexpr int kMaxIterations = 30;   // of Gauss-Newton, which converges in a handful
+constexpr double kConverged = 1e-7;  // norm of the last step [m, rad]
+// A pair is an inlier up to this whitened error. Set by hand: nearly all of a Gaussian in 3D.
+constexpr double kInlierSigmas = 3.5;
+
 /// Cauchy: weight in the normal equations of a residual with this mean square. `scale` 0: none.
 double Weight(double mean_square, double scale) {
   return scale > 0 ? 1 / (1 + mean_square / (scale * scale)) : 1;
@@ -86,22 +91,21 @@ void Store(const Problem& problem, const State& state, const Mat6& covariance,
   result.covariance = A * covariance * A.transpose();
 }
 
-bool MostHeadingsAgree(const Problem& problem, const State& state, double inlier_sigmas) {
+bool MostHeadingsAgree(const Problem& problem, const State& state) {
   int headings = 0, agree = 0;
   for (const Match& match : problem.matches) {
     if (!(match.period > 0)) continue;
     ++headings;
-    if (std::abs(YawError(match, state)) <= inlier_sigmas * match.sigma_yaw) ++agree;
+    if (std::abs(YawError(match, state)) <= kInlierSigmas * match.sigma_yaw) ++agree;
   }
   return 2 * agree > headings;
 }
 
-void CountInliers(const Problem& problem, const State& state, double inlier_sigmas,
-                  DriftResult& result) {
+void CountInliers(const Problem& problem, const State& state, DriftResult& result) {
   double squares = 0;
   for (const Match& match : problem.matches) {
     const Vec3 error = PositionError(match, problem, state);
-    if (!(error.cwiseQuotient(match.sigma).norm() <= inlier_sigmas)) continue;
+    if (!(error.cwiseQuotient(match.sigma).norm() <= kInlierSigmas)) continue;
     ++result.inliers;
     squares += error.squaredNorm();
   }
@@ -114,14 +118,9 @@ void DescribeFields(FieldVisitor& visitor, DriftOptions& options) {
   visitor.Flag("six_dof", options.six_dof,
                "also correct roll and pitch; false: yaw and shift only");
   visitor.Real("tilt_sigma_rad", options.tilt_sigma_rad, 1e-6, 1,
-               "how far the local map's vertical may be off");
+               "standard deviation of the local map's vertical");
   visitor.Real("loss_scale", options.loss_scale, 0, 1e6,
-               "Cauchy loss on each pair's position and heading, in sigmas; 0: none");
-  visitor.Real("inlier_sigmas", options.inlier_sigmas, 0.1, 1e3,
-               "position error up to which a pair counts as inlier");
-  visitor.Real("max_yaw_sigma_rad", options.max_yaw_sigma_rad, 1e-3, 3,
-               "positions that fix the yaw worse than this leave it to the headings");
-  visitor.Integer("max_iterations", options.max_iterations, 1, 1000, "Gauss-Newton iterations");
+               "scale of the Cauchy loss on each pair's position and heading, in sigmas; 0: none");
 }
 
 DriftPair MakeDriftPair(const LayoutObject& local, const LayoutObject& global) {
@@ -142,28 +141,28 @@ DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& 
   result.reason = Check(pairs);
   if (!result.reason.empty()) return result;
   const Problem problem = MakeProblem(pairs, gravity, options.loss_scale);
-  const std::optional<Start> start = FindStart(problem, options.max_yaw_sigma_rad, result.reason);
+  const std::optional<Start> start = FindStart(problem, kMaxDriftYawSigmaRad, result.reason);
   if (!start) return result;
 
   State state = start->state;
-  while (result.iterations < options.max_iterations && !result.converged) {
+  while (result.iterations < kMaxIterations && !result.converged) {
     const NormalEquations equations = Linearise(problem, state, options);
     const Vector6 step = -equations.H.ldlt().solve(equations.b);
     ++result.iterations;
     if (!step.allFinite()) break;
     state.t += state.R * Vec3(step.head<3>());
     state.R = state.R * Rotation::Exp(step.tail<3>());
-    result.converged = step.norm() < 1e-7;
+    result.converged = step.norm() < kConverged;
   }
   const NormalEquations equations = Linearise(problem, state, options);
   const Eigen::LDLT<Mat6> H(equations.H);
   const Mat6 covariance = H.solve(Mat6::Identity());
   if (!covariance.allFinite() || !H.isPositive() ||
-      !(covariance(5, 5) <= std::pow(options.max_yaw_sigma_rad, 2))) {
+      !(covariance(5, 5) <= std::pow(kMaxDriftYawSigmaRad, 2))) {
     result.reason = "the matched objects do not fix the yaw";
     return result;
   }
-  if (!start->by_positions && !MostHeadingsAgree(problem, state, options.inlier_sigmas)) {
+  if (!start->by_positions && !MostHeadingsAgree(problem, state)) {
     result.reason = "objects on one spot, whose headings contradict one another";
     return result;
   }
@@ -172,7 +171,7 @@ DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& 
   Mat6 scaled = covariance * std::max(1., excess);
   if (!options.six_dof) scaled.block<2, 2>(3, 3) = covariance.block<2, 2>(3, 3);
   Store(problem, state, scaled, gravity, result);
-  CountInliers(problem, state, options.inlier_sigmas, result);
+  CountInliers(problem, state, result);
   result.usable = true;
   return result;
 }

@@ -55,16 +55,17 @@ bool Finite(const BaProblem& problem) {
 
 void DescribeFields(FieldVisitor& visitor, BaOptions& options) {
   visitor.Enum("residual", options.residual, {"robust", "paper"},
-               "whitened and symmetric, or Eq. 8 as printed");
+               "robust: whitened and modulo an object's symmetry; paper: Eq. 8 as printed");
   visitor.Enum("solver", options.solver, {"levenberg_marquardt", "gauss_newton"},
-               "gauss_newton is the paper's: damping off");
-  visitor.Integer("max_iterations", options.max_iterations, 1, 1000, "iterations of one solve");
+               "levenberg_marquardt, or the paper's gauss_newton, without damping");
+  visitor.Integer("max_iterations", options.max_iterations, 1, 1000,
+                  "most iterations of one bundle adjustment");
   visitor.Real("loss_scale", options.loss_scale, 0, 1e6,
-               "robust: scale of the Cauchy loss on a sighting; 0: none");
-  visitor.Real(
-      "correlation", options.correlation, 1, 100,
-      "robust: factor on detection sigmas, because the errors of successive frames are alike");
-  visitor.Nested("odometry", options.odometry, "how far the odometry is off");
+               "robust: scale of the Cauchy loss on a sighting, in sigmas; 0: none");
+  visitor.Real("correlation", options.correlation, 1, 100,
+               "robust: factor on the detector's sigmas, because errors of successive frames are "
+               "correlated");
+  visitor.Nested("odometry", options.odometry, "errors of odometry between two keyframes");
 }
 
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options) {

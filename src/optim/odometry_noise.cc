@@ -7,16 +7,19 @@ namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
   visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10,
-               "translation error of any two frames");
+               "standard deviation of the translation between any two frames");
   visitor.Real("translation_walk", noise.translation_walk, 0, 10,
-               "horizontal random walk, m per sqrt(m)");
-  visitor.Real("vertical_walk", noise.vertical_walk, 0, 10, "vertical random walk, m per sqrt(m)");
+               "random walk of the horizontal translation, m per sqrt(m) of path");
+  visitor.Real("vertical_walk", noise.vertical_walk, 0, 10,
+               "random walk of the vertical translation, m per sqrt(m) of path");
   visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1,
-               "rotation error of any two frames");
-  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1, "rotation random walk, rad per sqrt(m)");
-  visitor.Real("rotation_turn", noise.rotation_turn, 0, 1, "rotation error per turn, rad per rad");
+               "standard deviation of the rotation between any two frames");
+  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1,
+               "random walk of the rotation, rad per sqrt(m) of path");
+  visitor.Real("rotation_turn", noise.rotation_turn, 0, 1,
+               "standard deviation of the rotation per turn, rad per rad");
   visitor.Real("scale_prior", noise.scale_prior, 0, 1,
-               "standard deviation of the odometry's log scale; 0 keeps the scale at one");
+               "standard deviation of the logarithm of the odometry's scale; 0: the scale is one");
 }
 
 OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {

@@ -16,6 +16,10 @@ namespace {
 
 // Per weight update; the next one starts where this one ended and takes one or two.
 constexpr int kInnerIterations = 20;
+// Weight updates from each of two starts. They multiply mu by 4e14 at a factor of 1.4.
+constexpr int kMaxRounds = 100;
+constexpr int kMaxDecisions = 5;      // rounds of deciding on all loops; two are usual
+constexpr int kMaxWarmDecisions = 3;  // the same from a former solution
 
 double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
                 std::size_t e) {
@@ -54,8 +58,7 @@ class Gnc {
 
   void Graduate() {
     double mu = limit_ / std::max(2 * Worst() - limit_, 1e-3 * limit_);
-    for (bool undecided = true; undecided && rounds_ < options_.max_rounds;
-         mu *= options_.mu_factor) {
+    for (bool undecided = true; undecided && rounds_ < kMaxRounds; mu *= options_.mu_factor) {
       SetWeights([&](double loop_chi2) { return Weight(loop_chi2, mu, limit_); });
       undecided =
           std::any_of(weights_.begin(), weights_.end(), [](double w) { return w > 0 && w < 1; });
@@ -143,15 +146,12 @@ bool KeepConsistent(const PoseGraph& graph, const std::vector<std::pair<int, int
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
-  visitor.Nested("graph", options.graph, "the solver");
+  DescribeFields(visitor, options.graph);
   visitor.Real("inlier_probability", options.inlier_probability, 0.5, 1 - 1e-9,
-               "a true loop passes with this probability");
+               "probability with which a true loop is kept; sets the limit of its chi2");
   visitor.Real("drift_factor", options.drift_factor, 1, 1e6,
-               "a loop is ruled out where odometry would have to be this many times worse than its "
-               "information says");
-  visitor.Real("mu_factor", options.mu_factor, 1.01, 100,
-               "how fast the loops' cost turns from convex to truncated");
-  visitor.Integer("max_rounds", options.max_rounds, 1, 10000, "weight updates");
+               "a loop that would need odometry errors this many times larger than expected is "
+               "refused at first");
 }
 
 namespace {
@@ -166,7 +166,7 @@ double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
             const std::vector<std::pair<int, int>>& ends, PoseGraph& graph,
             RobustPoseGraphSummary& summary) {
-  for (int i = 0; i < 5 && KeepConsistent(work, ends, summary); ++i) {
+  for (int i = 0; i < kMaxDecisions && KeepConsistent(work, ends, summary); ++i) {
     summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
     if (!summary.graph.usable) break;
   }
@@ -205,7 +205,7 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
     return sum;
   };
   const double misfit_before = misfit_of_trusted();
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < kMaxWarmDecisions; ++i) {
     if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return false;
     bool changed = false;
     for (std::size_t e = 0; e < loops.size(); ++e) {

@@ -70,14 +70,9 @@ int DegreesOfFreedom(PoseFreedom freedom) {
 }
 
 void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options) {
-  visitor.Enum(
-      "freedom", options.freedom, {"full", "upright", "planar"},
-      "what a pose may do: 6 DoF; 4 (translation and yaw); 3 (horizontal translation and yaw)");
-  visitor.Enum("start", options.start, {"auto", "given", "chordal"},
-               "start from the given poses, from a chordal initialisation, or from the better one");
-  visitor.Integer("max_iterations", options.max_iterations, 1, 10000, "iterations of one solve");
-  visitor.Real("tolerance", options.tolerance, 0, 1,
-               "stop when an iteration lowers chi2 by less than this fraction");
+  visitor.Enum("freedom", options.freedom, {"full", "upright", "planar"},
+               "freedom of a pose; full: 6 DoF; upright: translation and yaw; planar: horizontal "
+               "translation and yaw");
 }
 
 Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose& T_world_to) {

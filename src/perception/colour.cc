@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "sslcd/core/error.h"
@@ -10,6 +11,10 @@
 
 namespace sslcd {
 namespace {
+
+// K-means stops after this number of rounds. Set by hand: assignments hardly change after ten.
+constexpr int kKMeansRounds = 10;
+constexpr std::uint64_t kKMeansSeed = 1;  // any number does; it is fixed so that runs repeat
 
 void CheckColourImage(const ImageView& image) {
   CheckImage(image, "colour image");
@@ -132,8 +137,7 @@ ColourSignature ExtractColour(const ImageView& image, const Box2d& box,
                               const ColourOptions& options) {
   CheckColourImage(image);
   const Eigen::Matrix3Xf pixels = SamplePixels(image, box, options);
-  const KMeansResult clusters = KMeans(
-      pixels, {options.clusters, options.iterations, static_cast<std::uint64_t>(options.seed)});
+  const KMeansResult clusters = KMeans(pixels, {options.clusters, kKMeansRounds, kKMeansSeed});
   ColourSignature signature;
   for (std::size_t i = 0; i < clusters.sizes.size(); ++i) {
     signature.push_back({clusters.centres.col(static_cast<Eigen::Index>(i)).cast<double>(),
@@ -162,17 +166,10 @@ std::vector<float> ColourVector(const ImageView& image, const Box2d& box,
 
 void DescribeFields(FieldVisitor& visitor, ColourOptions& options) {
   visitor.Enum("method", options.method, {"robust", "paper"},
-               "hue-safe colours and a shared palette, or plain HSV shares");
-  visitor.Integer("clusters", options.clusters, 1, 64,
-                  "dominant colours per object (K of K-means++)");
-  visitor.Integer("max_pixels", options.max_pixels, 1, 1000000,
-                  "pixels looked at per object, at most");
+               "robust: hue-safe colours on a palette that all objects share; paper: the shares of "
+               "an object's own HSV colours");
   visitor.Real("box_share", options.box_share, 0.05, 1,
-               "central part of the box that is looked at, per side");
-  visitor.Integer("iterations", options.iterations, 1, 1000, "K-means iterations, at most");
-  visitor.Integer("seed", options.seed, 0, 1000000000, "seed of K-means++");
-  visitor.Real("softness", options.softness, 0.01, 10,
-               "robust: distance in colour space at which colours still look alike");
+               "central part of the box whose pixels are used, share of each side");
 }
 
 }  // namespace sslcd

@@ -15,9 +15,7 @@ bool IsFinite(const Detection& detection) {
 }
 
 bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
-  const Vec3 low(options.min_length_m, options.min_width_m, options.min_height_m);
-  const Vec3 high(options.max_length_m, options.max_width_m, options.max_height_m);
-  return (dims.array() >= low.array()).all() && (dims.array() <= high.array()).all();
+  return (dims.array() >= options.min_size_m).all() && (dims.array() <= options.max_size_m).all();
 }
 
 /// The counter that this detection belongs to.
@@ -55,15 +53,15 @@ FilterReport FilterDetections(std::vector<Detection>& detections,
 }
 
 void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options) {
-  visitor.Real("min_score", options.min_score, 0, 1, "detections with a lower score are dropped");
-  visitor.Real("max_range_m", options.max_range_m, 0.1, 1e4,
-               "detections farther from the camera are dropped");
-  visitor.Real("min_length_m", options.min_length_m, 0, 1e3, "shortest object");
-  visitor.Real("max_length_m", options.max_length_m, 0, 1e3, "longest object");
-  visitor.Real("min_width_m", options.min_width_m, 0, 1e3, "narrowest object");
-  visitor.Real("max_width_m", options.max_width_m, 0, 1e3, "widest object");
-  visitor.Real("min_height_m", options.min_height_m, 0, 1e3, "lowest object");
-  visitor.Real("max_height_m", options.max_height_m, 0, 1e3, "tallest object");
+  visitor.Everyday("higher: fewer false objects, but also fewer true ones")
+      .Real("min_score", options.min_score, 0, 1, "detections with a lower score are dropped");
+  visitor.Everyday("larger: more objects, but the far ones are less precise")
+      .Real("max_range_m", options.max_range_m, 0.1, 1e4,
+            "detections farther from the camera are dropped");
+  visitor.Real("min_size_m", options.min_size_m, 0, 1e3,
+               "detections whose length, width or height is smaller are dropped");
+  visitor.Real("max_size_m", options.max_size_m, 0, 1e3,
+               "detections whose length, width or height is larger are dropped");
 }
 
 }  // namespace sslcd

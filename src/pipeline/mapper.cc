@@ -25,6 +25,12 @@ WholeMapOptions WholeMap(const Options& options) {
   return {options.noise, options.map, options.level, options.ba, options.refine};
 }
 
+const Options& Checked(const Options& options) {
+  const std::vector<FieldProblem> problems = Check(options);
+  if (!problems.empty()) throw Error(ErrorKind::kBadConfig, ToString(problems));
+  return options;
+}
+
 void CheckFrame(const Frame& frame, const FrameStore& frames) {
   const std::string name = "frame " + std::to_string(frame.index);
   if (!std::isfinite(frame.T_odom_cam.Log().sum()) || !std::isfinite(frame.stamp))
@@ -71,7 +77,7 @@ struct Mapper::Impl {
 };
 
 Mapper::Mapper(const Options& options, const MapperContext& context)
-    : impl_(std::make_unique<Impl>(options, context)) {}
+    : impl_(std::make_unique<Impl>(Checked(options), context)) {}
 Mapper::~Mapper() = default;
 Mapper::Mapper(const Mapper& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Mapper& Mapper::operator=(const Mapper& other) { return *this = Mapper(other); }

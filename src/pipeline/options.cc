@@ -4,26 +4,30 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, WindowOptions& options) {
-  visitor.Flag("enabled", options.enabled, "optimise a sliding window with every keyframe");
-  visitor.Integer("keyframes", options.keyframes, 2, 100, "cameras in the window");
-  visitor.Real("keyframe_m", options.keyframe_m, 0, 100, "a new keyframe every so many metres");
-  visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7, "or after such a turn");
-  visitor.Integer(
-      "min_sightings", options.min_sightings, 1, 1000,
-      "objects seen less often stay out of the window ('more than 4 times' in the paper)");
+  visitor.Everyday("false: faster, but the trajectory follows odometry between loops")
+      .Flag("enabled", options.enabled, "optimise a sliding window with every keyframe");
+  visitor.Everyday("more: smoother and slower")
+      .Integer("keyframes", options.keyframes, 2, 100, "cameras in the sliding window");
+  visitor.Real("keyframe_m", options.keyframe_m, 0, 100,
+               "a new keyframe of the sliding window whenever the path has grown by this");
+  visitor.Real("keyframe_rad", options.keyframe_rad, 0, 7,
+               "a new keyframe of the sliding window whenever the camera has turned by this");
+  visitor.Integer("min_sightings", options.min_sightings, 1, 1000,
+                  "objects with fewer sightings stay out of the window (the paper: 'more than 4 "
+                  "times')");
 }
 
 void DescribeFields(FieldVisitor& visitor, Options& options) {
   visitor.Nested("filter", options.filter, "which detections are used (paper III-A.1)");
-  visitor.Nested("colour", options.colour, "colour signature (paper III-A.2)");
-  visitor.Nested("noise", options.noise, "how far the detector is off");
+  visitor.Nested("colour", options.colour, "colour signature of an object (paper III-A.2)");
+  visitor.Nested("noise", options.noise, "errors of the detector");
   visitor.Nested("association", options.association, "data association (paper III-B)");
   visitor.Nested("map", options.map, "life cycle of landmarks");
-  visitor.Nested("level", options.level, "keeping odometry upright");
+  visitor.Nested("level", options.level, "gravity alignment of odometry that does not measure it");
   visitor.Nested("window", options.window, "sliding window");
   visitor.Nested("ba", options.ba, "object bundle adjustment (paper III-C)");
   visitor.Nested("loop", options.loop, "loop closure (paper IV)");
-  visitor.Nested("refine", options.refine, "the full-map optimisation at the end");
+  visitor.Nested("refine", options.refine, "full-map optimisation at the end of a run");
 }
 
 Options DefaultOptions(Mode mode) {

@@ -79,7 +79,7 @@ class Fusion {
   Eigen::Matrix2d OneSighting(const MapLandmark& landmark) const {
     NoiseScale scale = map_.noise_scale();
     for (double* component : {&scale.radial, &scale.lateral, &scale.vertical})
-      *component = std::hypot(options_.map.caution * *component, options_.map.min_noise_scale);
+      *component = std::hypot(kNoiseCaution * *component, kLongTailScale);
     const Information sum = InformationOf(landmark, scale);
     if (sum.sightings == 0) return Eigen::Matrix2d::Zero();
     Eigen::Matrix<double, 2, 3> to_plane;

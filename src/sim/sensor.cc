@@ -235,6 +235,8 @@ void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
 void DescribeFields(FieldVisitor& visitor, DetectorNoise& noise) {
   visitor.Nested("sigmas", noise.sigmas,
                  "standard deviations of a detection as a function of range");
+  visitor.Real("size_relative", noise.sigmas.size_relative, 1e-4, 1,
+               "standard deviation of each dimension, share of that dimension");
   visitor.Real("scale", noise.scale, 0, 100, "factor on all standard deviations of the detections");
   visitor.Real("constant_fraction", noise.constant_fraction, 0, 1,
                "share of the variance that is constant per object");

@@ -7,13 +7,13 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& v, StereoOdometryOptions& o) {
-  v.Integer("points", o.points, 50, 5000,
-            "image points followed, spread over the image; time grows with them");
+  v.Everyday("more: less drift, and slower")
+      .Integer("points", o.points, 50, 5000, "image points followed, spread over the image");
   v.Integer("window", o.window, 3, 50,
             "keyframes adjusted together; the oldest two are held fixed");
   v.Flag("calibrate", o.calibrate,
-         "estimate the disparity at infinity from the images before the run, where rows of left "
-         "and right images show that calibration is off");
+         "estimate the disparity at infinity before the run where the rows of left and right "
+         "images show that calibration is off");
 }
 
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {

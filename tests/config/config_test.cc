@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -173,6 +175,48 @@ TEST(Config, BadListsAndNames) {
   EXPECT_THAT(error_of("names: {1: [a]}"), HasSubstr("must be names by number"));
   EXPECT_THAT(error_of("names: {1: a, 01: b}"), HasSubstr("duplicate number 01 in 'names'"));
   EXPECT_EQ(lists.weights, (std::vector<double>{1, 2})) << "a bad file must change nothing";
+}
+
+TEST(Config, EverydayFieldsComeFirst) {
+  double gain = 2, other = 3, deep = 4;
+  const Describe fields = [&](FieldVisitor& v) {
+    v.Real("other", other, 0, 10, "not of every day");
+    v.Everyday("more: louder").Real("gain", gain, 0, 10, "the gain");
+    v.Section("empty", "nothing of every day",
+              [&](FieldVisitor& inner) { inner.Real("key", other, 0, 10, "k"); });
+    v.Section("a", "section", [&](FieldVisitor& inner) {
+      inner.Everyday("less: softer").Real("deep", deep, 0, 10, "the depth");
+    });
+  };
+  EXPECT_EQ(DumpConfig(fields, false, true), "gain: 2\na:\n  deep: 4\n");
+  EXPECT_EQ(DumpConfig(fields, false), "other: 3\ngain: 2\nempty:\n  key: 3\na:\n  deep: 4\n");
+  const std::string text = ConfigReference(fields);
+  EXPECT_LT(text.find("| `a.deep` | 4 | 0 .. 10 | the depth | less: softer |"),
+            text.find("## All keys"));
+  EXPECT_EQ(text.find("`other`"), text.rfind("`other`")) << "in the second part alone";
+}
+
+std::string ProblemsOf(const std::vector<FieldProblem>& problems, const std::string& path,
+                       const std::vector<std::string>& settings) {
+  try {
+    ThrowProblems(problems, path, settings);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadConfig);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Config, ProblemsNameWhereTheirKeysAreGiven) {
+  const std::string path = ::testing::TempDir() + "problems.yaml";
+  std::ofstream(path) << "loop:\n  neighbours: 7\n";
+  const std::vector<FieldProblem> problems{{{"loop.topology_m", "loop.neighbours"}, "no fit"},
+                                           {{"on"}, "must be off"}};
+  EXPECT_EQ(ProblemsOf(problems, path, {}), path + ":2:15: no fit\non: must be off");
+  EXPECT_EQ(ProblemsOf(problems, path, {"on=false", "loop.topology_m=2", "on=true"}),
+            "--set loop.topology_m=2: no fit\n--set on=true: must be off");
+  EXPECT_EQ(ProblemsOf(problems, "", {}), "loop.topology_m: no fit\non: must be off");
+  EXPECT_EQ(ProblemsOf({}, path, {}), "");
 }
 
 TEST(Config, MissingFile) {

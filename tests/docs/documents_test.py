@@ -93,6 +93,16 @@ class Documents(unittest.TestCase):
         unknown = {page: unknown_options(read(page), keys) for page in pages}
         self.assertEqual({page: names for page, names in unknown.items() if names}, {})
 
+    def test_there_are_few_keys_and_fewer_of_every_day(self):
+        keys = re.findall(r'^ *[a-z_0-9]+: \S', re.sub(r' *#.*', '', read('config/default.yaml')),
+                          re.MULTILINE)
+        self.assertGreater(len(keys), 100)
+        self.assertLessEqual(len(keys), 150)
+        everyday = read('docs/configuration.md').split('## Everyday')[1].split('## All keys')[0]
+        rows = re.findall(r'^\| `', everyday, re.MULTILINE)
+        self.assertGreater(len(rows), 10)
+        self.assertLessEqual(len(rows), 30)
+
     def test_missing_sources_are_seen(self):
         self.assertEqual(missing_sources('`docs/documents_test.py` `loop/none.cc` `x/y.h`'),
                          ['loop/none.cc', 'x/y.h'])

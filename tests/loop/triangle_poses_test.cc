@@ -64,7 +64,7 @@ TEST(TrianglePoses, AreBoundedAndRepeatable) {
     points.push_back({static_cast<float>(object.position.x()),
                       static_cast<float>(object.position.y()),
                       static_cast<float>(object.position.z()), object.label});
-  const auto a = TrianglePoses(points, Index(), {}), b = TrianglePoses(points, Index(), {});
+  const auto a = TrianglePoses(points, Index()), b = TrianglePoses(points, Index());
   EXPECT_GT(a.size(), 100u);
   EXPECT_LE(a.size(), 3000u);
   ASSERT_EQ(a.size(), b.size());
@@ -72,8 +72,8 @@ TEST(TrianglePoses, AreBoundedAndRepeatable) {
     EXPECT_EQ(a[i].x, b[i].x);
     EXPECT_EQ(a[i].sine, b[i].sine);
   }
-  EXPECT_TRUE(TrianglePoses({}, Index(), {}).empty());
-  EXPECT_TRUE(TrianglePoses({points[0], points[1]}, Index(), {}).empty());
+  EXPECT_TRUE(TrianglePoses({}, Index()).empty());
+  EXPECT_TRUE(TrianglePoses({points[0], points[1]}, Index()).empty());
 }
 
 }  // namespace

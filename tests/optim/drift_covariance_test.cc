@@ -75,10 +75,9 @@ TEST(Drift, IsAMinimumOfTheCauchyLoss) {
       DriftOptions options;
       options.six_dof = six_dof;
       options.tilt_sigma_rad = 0.05;
-      options.max_iterations = 300;
       options.loss_scale = loss_scale;
       const DriftResult result = SolveDrift(pairs, scene.gravity(), options);
-      ASSERT_TRUE(result.converged);
+      ASSERT_TRUE(result.usable);
       const double least = RobustCost(pairs, result.T_global_local, options);
       for (int i = 0; i < 6; ++i) {
         if (!six_dof && (i == 3 || i == 4)) continue;
@@ -132,7 +131,7 @@ TEST(Drift, LargerResidualsTakeTheSigmasPlaceInTheCovariance) {
 TEST(Drift, AYawLessSureThanMaxYawSigmaIsNotUsable) {
   for (const double share : {0.97, 1.03}) {
     DriftPair car = At({1, 2, 0}, {4, 6, 0}, 0.1, 0.6, Symmetry::kNone);
-    car.sigma_yaw_rad = share * DriftOptions().max_yaw_sigma_rad;
+    car.sigma_yaw_rad = share * kMaxDriftYawSigmaRad;
     const DriftResult result = Solve({car});
     EXPECT_EQ(result.usable, share < 1) << result.reason;
   }

@@ -228,8 +228,7 @@ TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
     DetectionNoise& noise = world.options.noise;
     noise.radial_m = noise.lateral_m = noise.vertical_m = kSigma;
     noise.radial_per_m = noise.lateral_per_m = noise.vertical_per_m = 0;
-    const double scale = std::hypot(world.options.map.caution * world.map.noise_scale().radial,
-                                    world.options.map.min_noise_scale);
+    const double scale = std::hypot(kNoiseCaution * world.map.noise_scale().radial, kLongTailScale);
     const double apart = share * std::sqrt(kQuantile * 2) * scale * kSigma;
     ASSERT_GT(apart, 0.26) << "beyond their bodies";
     ASSERT_LT(apart, world.options.refine.duplicate_m);

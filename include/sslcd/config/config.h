@@ -25,10 +25,18 @@ void LoadConfigText(const std::string& text, const std::string& name, const Desc
 /// section.key=value: message`.
 void ApplySettings(const std::vector<std::string>& settings, const Describe& describe);
 
-/// YAML that loads back to identical values; with the meaning of each key as a comment if wanted.
-std::string DumpConfig(const Describe& describe, bool with_comments);
+/// Throws one Error(kBadConfig) with all problems, each with the place of a key that it concerns:
+/// the last of `settings` that gives it, else its line in the file at `path` (empty: there is
+/// none), else the key alone, whose default is to blame. No problems: does nothing.
+void ThrowProblems(const std::vector<FieldProblem>& problems, const std::string& path,
+                   const std::vector<std::string>& settings);
 
-/// Body of docs/configuration.md: one table per section.
+/// YAML that loads back to identical values; with the meaning of each key as a comment if wanted.
+/// `everyday_only`: only the fields marked as such (FieldVisitor::Everyday).
+std::string DumpConfig(const Describe& describe, bool with_comments, bool everyday_only = false);
+
+/// Body of docs/configuration.md: a table of the everyday fields, if there are any, then one table
+/// per section.
 std::string ConfigReference(const Describe& describe);
 
 }  // namespace sslcd

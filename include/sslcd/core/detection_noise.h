@@ -15,7 +15,7 @@ struct DetectionNoise {
   double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< across the ray, horizontal
   double vertical_m = 0.05, vertical_per_m = 0.0005;
   double yaw_rad = 0.02, yaw_per_m = 0.0005;
-  double size_relative = 0.05;  ///< each dimension, relative to itself
+  double size_relative = 0.05;  ///< no key, the simulator reads it: of each dimension, share
   double initial_scale = 2.;    ///< of every component, before anything has been learnt
 };
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sslcd {
@@ -14,6 +15,13 @@ namespace sslcd {
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
+
+  /// Marks the field that is visited next as one that users turn every day. `effect`: what they
+  /// see when they turn it. Use as `visitor.Everyday("...").Real(...)`.
+  FieldVisitor& Everyday(const char* effect) {
+    effect_ = effect;
+    return *this;
+  }
 
   /// Inclusive range [low, high]; the unit is the key's suffix (_m, _s, _rad, _px).
   virtual void Real(const char* key, double& value, double low, double high,
@@ -51,6 +59,26 @@ class FieldVisitor {
   void Nested(const char* key, Options& options, const char* meaning) {
     Section(key, meaning, [&options](FieldVisitor& visitor) { DescribeFields(visitor, options); });
   }
+
+ protected:
+  /// The effect given to Everyday for the field that is visited now; null where it is not one of
+  /// these. To be asked once per field.
+  const char* TakeEffect() { return std::exchange(effect_, nullptr); }
+
+ private:
+  const char* effect_ = nullptr;
 };
+
+/// What is wrong with one option, or with several that do not fit together.
+struct FieldProblem {
+  std::vector<std::string> keys;  ///< with their sections, e.g. `loop.layout.local_m`; at least one
+  std::string message;            ///< what is wrong and what would be right
+};
+
+/// Numbers that are outside of their fields' ranges; NaN is outside of any.
+std::vector<FieldProblem> CheckRanges(const std::function<void(FieldVisitor&)>& describe);
+
+/// One problem a line, for people.
+std::string ToString(const std::vector<FieldProblem>& problems);
 
 }  // namespace sslcd

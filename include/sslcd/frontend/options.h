@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sslcd/core/fields.h"
 #include "sslcd/ground/ground_alignment.h"
@@ -25,5 +26,8 @@ struct VisionOptions {
   GroundAlignmentOptions alignment;
 };
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
+
+/// What is wrong with these options, as Check(const Options&) says it; keys begin with `vision.`.
+std::vector<FieldProblem> Check(const VisionOptions& options);
 
 }  // namespace sslcd

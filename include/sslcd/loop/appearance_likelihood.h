@@ -10,15 +10,10 @@ namespace sslcd {
 /// signatures. One object seen from opposite sides looks less like itself; the cosine expected
 /// falls with the angle between the two views.
 struct AppearanceOptions {
-  /// expected cosine of one object's embeddings, seen from one side ...
-  double same_side = 0.75;
-  double opposite_side = 0.45;  ///< ... and from opposite sides
-  double other_object = 0.3;    ///< of different objects
-  double embedding_sigma = 0.12;
-  double colour_same = 0.85;  ///< expected cosine of one object's colour signatures
-  double colour_other = 0.6;  ///< of different objects
-  double colour_sigma = 0.2;
-  /// appearance never says more, for or against, about one object; colour a third of it [nats]
+  double same_side = 0.75;      ///< mean cosine of one object's embeddings, seen from one side
+  double opposite_side = 0.45;  ///< mean cosine of one object's embeddings from opposite sides
+  double other_object = 0.3;    ///< mean cosine of different objects' embeddings
+  /// most evidence of one object's appearance, for or against; of its colour a third [nats]
   double limit = 3.;
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);

@@ -18,18 +18,16 @@ namespace sslcd {
 /// "these are other objects, strewn at the map's density". A log likelihood ratio, in nats: it
 /// speaks the same language on dense lots and lonely poles, and knows rare labels from common ones.
 struct LayoutLikelihoodOptions {
-  double wrong_label = 0.03;  ///< how often the detector takes one class for another
-  /// Beta prior of the share of local objects that the map has: has ...
-  double mapped_prior = 10.;
-  double unmapped_prior = 2.;  ///< ... and has not
-  /// local objects may lie beyond what the map has seen, as on a pass that crosses an older one:
-  /// these do not count as unmapped
+  double wrong_label = 0.03;  ///< share of objects whose class the detector confuses
+  /// local objects outside of the area that the map has seen, as on a pass that crosses an older
+  /// one, do not count as unmapped
   bool leave_map = true;
-  double wrong_height = 0.1;  ///< share of objects whose height says nothing, e.g. on slopes
-  double min_gain = -1.5;     ///< a match that says less is none [nats]
-  /// Beta prior of the share of mapped objects in sight that are seen again: seen ...
-  double seen_prior = 3.;
-  double unseen_prior = 1.5;  ///< ... and not seen
+  double wrong_height = 0.1;  ///< share of objects whose height is not comparable, e.g. on slopes
+  /// no key: Beta priors, in numbers of objects: local objects that the map has and has not, and
+  /// mapped objects in sight that are seen again and are not. Set by hand; no search
+  /// over them is recorded.
+  double mapped_prior = 10., unmapped_prior = 2.;
+  double seen_prior = 3., unseen_prior = 1.5;
   AppearanceOptions appearance;
 };
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);

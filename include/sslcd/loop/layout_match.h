@@ -14,8 +14,8 @@ namespace sslcd {
 
 /// How layouts are searched and scored.
 struct LayoutMatchOptions {
-  double max_pair_m = 50.;  ///< objects further apart than this propose no pose together
-  double reach_m = 2.;      ///< a local object is compared with what the map has within this
+  double max_pair_m = 50.;  ///< objects that are farther apart do not propose a pose together
+  double reach_m = 2.;  ///< a local object is compared with the map's objects within this distance
   PoseSearchOptions search;
   LayoutLikelihoodOptions likelihood;
 };

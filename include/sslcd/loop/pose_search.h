@@ -17,15 +17,13 @@ namespace sslcd {
 /// (one look into a grid each), and the best ones are refined and weighed by `LayoutLikelihood`. In
 /// large maps, triangles of neighbours take the place of the pairs (`LayoutIndex`).
 struct PoseSearchOptions {
-  double min_pair_m = 4.;    ///< closer pairs fix the yaw too badly
-  double pair_noise_m = 1.;  ///< how far the distances of two equal pairs may differ
-  double inlier_m = 1.5;     ///< coarse score: objects further apart than this do not fit
-  int pairs_per_object = 6;  ///< local pairs tried per object, the rarest distances first
-  int refine = 100;          ///< the best coarse poses that are refined
-  int min_matches = 4;       ///< three objects fit somewhere in any map
-  /// two poses are the same if they move the local map's centre to within this ...
+  int refine = 100;     ///< coarse poses that are refined, the best ones
+  int min_matches = 4;  ///< objects that have to fit; three fit somewhere in any map
+  /// no key: two poses are the same if they take the local map's centre to within `distinct_m` of
+  /// each other and differ in yaw by less than `distinct_rad`. Set by hand, about the accuracy of a
+  /// coarse pose.
   double distinct_m = 2.;
-  double distinct_rad = 0.1;  ///< ... and differ in yaw by less than this
+  double distinct_rad = 0.1;
 };
 void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options);
 

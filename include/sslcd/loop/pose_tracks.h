@@ -11,10 +11,12 @@ namespace sslcd {
 
 /// How hypotheses are followed from one attempt to the next.
 struct PoseTrackOptions {
-  double agree_m = 100.;   ///< what lies further back does not count any more
-  double step_m = 3.;      ///< a hypothesis that jumps by more than this is another one
-  double step_rad = 0.15;  ///< ... or turns by more
-  int max_tracks = 20;     ///< the best ones are followed
+  double agree_m = 100.;  ///< attempts farther back on the path do not count
+  /// no key: a hypothesis that moves by more than `step_m` or turns by more than `step_rad` from
+  /// one attempt to the next is another one. Set by hand.
+  double step_m = 3.;
+  double step_rad = 0.15;
+  int max_tracks = 20;  ///< no key: hypotheses that are followed, the best ones; set by hand
 };
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options);
 

@@ -15,19 +15,22 @@ namespace sslcd {
 /// ray, so a parked object seems to creep as the camera drives by. Driving therefore also takes a
 /// real distance at a real speed.
 struct MotionTestOptions {
-  double speed_prior_mps = 8.;        ///< standard deviation of an unknown object's speed, per axis
-  double acceleration_mps2 = 2.;      ///< of the driving model
-  double wander_m_per_sqrt_s = 0.02;  ///< of the standing model: what camera drift does to it
-  /// log Bayes factor at which an object is called driving (and, negated, parked)
-  double decide_at = 6.;
-  double min_travel_m = 2.;          ///< nothing is called driving that has not come so far ...
-  double min_speed_mps = 0.7;        ///< ... at least so fast
-  double max_parked_speed_mps = 2.;  ///< parked: the driving model's speed is below this, with one
-                                     ///< standard deviation to spare
-  double settle_s = 1.5;  ///< a driving object that stands for so long is a new parked one
-  /// the factor's limit: how much evidence a change of mind has to overcome
+  double decide_at = 6.;       ///< log Bayes factor at which an object is called driving [nats]
+  double min_travel_m = 2.;    ///< an object that has moved less is not called driving
+  double min_speed_mps = 0.7;  ///< an object that is slower is not called driving
+  double settle_s = 1.5;  ///< a driving object that has stopped for this time is a new parked one
+
+  // No keys: properties of road users and of the models, set by hand; no search over them is
+  // recorded.
+  double speed_prior_mps = 8.;    ///< standard deviation of an unknown object's speed, per axis
+  double acceleration_mps2 = 2.;  ///< standard deviation of a driving object's acceleration
+  /// random walk of a parked object's position that camera drift causes
+  double wander_m_per_sqrt_s = 0.02;
+  double max_parked_speed_mps = 2.;  ///< a parked object's speed is below this, with one standard
+                                     ///< deviation to spare
+  /// limit of the log Bayes factor: the evidence that a change of state has to overcome [nats]
   double memory = 10.;
-  double forget_after_s = 5.;  ///< unseen for longer: start again
+  double forget_after_s = 5.;  ///< the test of an object unseen for longer starts again
 };
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
 

@@ -16,22 +16,23 @@ namespace sslcd {
 /// Life cycle of landmarks.
 struct MapOptions {
   int confirm_sightings = 3;     ///< sightings that turn tentative into confirmed
-  double birth_score = 0.5;      ///< a detection less certain than this makes no new landmark
-  double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is given up
-  double search_radius_m = 12.;  ///< how far from a detection its landmark is looked for
-  /// a landmark out of sight for so much path is found again by loop closure only: by then the
+  double birth_score = 0.5;      ///< a detection with a lower score makes no new landmark
+  double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is dropped
+  double search_radius_m = 12.;  ///< a detection's landmark is searched for within this distance
+  /// after this length of path out of sight, only loop closure finds a landmark again: by then the
   /// odometry may have drifted on to its neighbour
   double memory_m = 60.;
-  /// factor on the learnt detection sigmas in gates and in the motion test: a detector's errors
-  /// drift with range and viewpoint, so successive ones say less than they seem to
-  double caution = 1.5;
-  /// added to that (in quadrature): a good detector's errors have long tails
-  double min_noise_scale = 3.;
   /// learn the detector's noise scale from the scatter of its detections
   bool learn_noise = true;
   MotionTestOptions motion;
 };
 void DescribeFields(FieldVisitor& visitor, MapOptions& options);
+
+/// Gates and the motion test use larger sigmas than those learnt. Factor on the learnt ones: a
+/// detector's errors drift with range and viewpoint, so successive ones are not independent. And a
+/// scale that is added in quadrature: a good detector's errors have long tails. Both were set by
+/// hand; no search over them is recorded.
+inline constexpr double kNoiseCaution = 1.5, kLongTailScale = 3.;
 
 /// What one frame did to the map.
 struct MapUpdate {

@@ -26,16 +26,15 @@ struct DriftPair {
 /// GravityFrame::FromUp(Vec3::UnitZ()) with it). A yaw that is NaN counts as none.
 DriftPair MakeDriftPair(const LayoutObject& local, const LayoutObject& global);
 
+/// Where positions fix the yaw worse than this, it comes from the headings; a result whose yaw is
+/// less certain is none. Set by hand; no search over it is recorded. [rad]
+inline constexpr double kMaxDriftYawSigmaRad = 0.5;
+
 struct DriftOptions {
-  bool six_dof = true;           ///< odometry's tilt drifts, too; false: yaw and shift only
-  double tilt_sigma_rad = 0.03;  ///< how far the vertical of the local map may be off
-  /// Cauchy loss on each pair's position and heading, in sigmas; 0: none
+  bool six_dof = true;           ///< also correct roll and pitch; false: yaw and shift only
+  double tilt_sigma_rad = 0.03;  ///< standard deviation of the local map's vertical
+  /// scale of the Cauchy loss on each pair's position and heading, in sigmas; 0: none
   double loss_scale = 2.;
-  /// whitened position error up to which a pair counts as an inlier
-  double inlier_sigmas = 3.5;
-  /// positions that fix the yaw worse than this leave it to the headings
-  double max_yaw_sigma_rad = 0.5;
-  int max_iterations = 30;
 };
 void DescribeFields(FieldVisitor& visitor, DriftOptions& options);
 

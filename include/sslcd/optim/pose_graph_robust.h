@@ -12,13 +12,14 @@ namespace sslcd {
 /// loop edges. Edges that are no loops are always trusted.
 struct RobustPoseGraphOptions {
   PoseGraphOptions graph;
-  /// a true loop passes with this probability: sets the chi2 limit
+  /// a true loop is kept with this probability: sets the chi2 limit
   double inlier_probability = 0.99;
-  /// a loop is ruled out where odometry would have to be this many times worse than its information
-  /// says; such a loop comes back only if the others lead to it
+  /// a loop that would need odometry errors this many times larger than expected is refused at
+  /// first; it comes back only if the other loops lead to it
   double drift_factor = 3.;
-  double mu_factor = 1.4;  ///< how fast the cost turns from convex to truncated
-  int max_rounds = 100;    ///< weight updates, from each of two starts
+  /// no key: factor from one weight update to the next, by which the cost turns from convex to
+  /// truncated. Yang et al. 2020 use 1.4, too.
+  double mu_factor = 1.4;
 };
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
 

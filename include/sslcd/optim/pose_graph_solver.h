@@ -30,10 +30,11 @@ enum class PoseGraphStart {
 /// Pose graph optimisation, paper IV-D Eqs. 20, 21.
 struct PoseGraphOptions {
   PoseFreedom freedom = PoseFreedom::kFull;
-  PoseGraphStart start = PoseGraphStart::kAuto;
-  int max_iterations = 100;
-  double tolerance = 1e-6;  ///< stop when an iteration lowers chi2 by less than this fraction
-  GravityFrame gravity;     ///< which way is up; for kUpright and kPlanar
+  PoseGraphStart start = PoseGraphStart::kAuto;  ///< no key: callers that know better set it
+  int max_iterations = 100;                      ///< no key: of one solve
+  /// no key: the solver stops when an iteration lowers chi2 by a smaller fraction
+  double tolerance = 1e-6;
+  GravityFrame gravity;  ///< which way is up; for kUpright and kPlanar
 };
 void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options);
 

@@ -16,13 +16,12 @@ struct ColourOptions {
     kPaper,   ///< clusters in HSV, vector = their shares, largest first
   };
   Method method = Method::kRobust;
-  int clusters = 6;       ///< K
-  int max_pixels = 1000;  ///< the box is sampled on a regular grid of at most this many
-  /// central part of the box that is looked at, per side; the rest is mostly background
+  int clusters = 6;       ///< no key: K dominant colours; set by hand
+  int max_pixels = 1000;  ///< no key: size of the regular grid that samples the box; set by hand
+  /// central part of the box that is sampled, per side; the rest is mostly background
   double box_share = 0.7;
-  int iterations = 10;  ///< of K-means, at most
-  int seed = 1;         ///< of K-means
-  /// robust: how far apart in colour space two colours still resemble each other
+  /// no key: robust: distance in colour space [ConeColour] at which two colours are still alike;
+  /// set by hand
   double softness = 0.25;
 };
 void DescribeFields(FieldVisitor& visitor, ColourOptions& options);

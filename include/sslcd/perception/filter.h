@@ -13,9 +13,8 @@ namespace sslcd {
 struct DetectionFilterOptions {
   double min_score = 0.5;
   double max_range_m = 70.;  ///< distance from the camera to the cuboid's centre
-  double min_length_m = 0.1, max_length_m = 30.;
-  double min_width_m = 0.1, max_width_m = 30.;
-  double min_height_m = 0.1, max_height_m = 30.;
+  /// Length, width and height of an object all lie between these.
+  double min_size_m = 0.1, max_size_m = 30.;
 };
 void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options);
 

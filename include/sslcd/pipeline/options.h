@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "sslcd/association/associate.h"
 #include "sslcd/closing/loop_options.h"
 #include "sslcd/core/detection_noise.h"
@@ -17,9 +19,9 @@ namespace sslcd {
 struct WindowOptions {
   bool enabled = true;
   int keyframes = 8;           ///< cameras in the window
-  double keyframe_m = 0.5;     ///< a new keyframe every so far ...
-  double keyframe_rad = 0.05;  ///< ... or every such turn
-  /// objects seen less often stay out ("more than 4 times", paper III-C)
+  double keyframe_m = 0.5;     ///< a new keyframe whenever the path has grown by this
+  double keyframe_rad = 0.05;  ///< a new keyframe whenever the camera has turned by this
+  /// objects with fewer sightings stay out ("more than 4 times", paper III-C)
   int min_sightings = 5;
 };
 void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
@@ -38,6 +40,10 @@ struct Options {
   RefineOptions refine;
 };
 void DescribeFields(FieldVisitor& visitor, Options& options);
+
+/// What is wrong with these options: each field outside its own range (NaN is), and fields that do
+/// not fit together. Empty: nothing. All problems at once, in the order of the fields.
+std::vector<FieldProblem> Check(const Options& options);
 
 /// Presets of all options: the equations as printed (paper), or the system as its users need it
 /// (robust; the same as `Options()`). A preset is nothing but values of options.

@@ -12,15 +12,17 @@ namespace sslcd {
 struct RefineOptions {
   /// false: there is no second search for loops at the end of a run either
   bool enabled = true;
-  int rounds = 2;             ///< optimise, associate again, fuse, and repeat
-  double keyframe_m = 1.;     ///< cameras of the optimisation: a keyframe after this much path ...
-  double keyframe_rad = 0.1;  ///< ... or after this turn; all other frames follow
-  int min_sightings = 2;      ///< objects seen less often do not enter the final map
-  double duplicate_m = 1.;    ///< landmarks of one label closer than this are one object
-  /// a landmark whose late sightings lie further than this from its early ones has moved
+  int rounds = 2;  ///< rounds of: optimise, associate, fuse
+  /// A camera enters the optimisation whenever the path has grown by `keyframe_m` or the camera has
+  /// turned by `keyframe_rad`. All other frames follow their neighbours.
+  double keyframe_m = 1.;
+  double keyframe_rad = 0.1;
+  int min_sightings = 2;    ///< objects with fewer sightings do not enter the final map
+  double duplicate_m = 1.;  ///< landmarks of one label closer than this become one object
+  /// a landmark whose late sightings are farther than this from its early ones has moved
   double moved_m = 1.5;
-  /// a movable object seen in a smaller share of the frames it was in sight for is a chimera of
-  /// passers-by
+  /// a movable object seen in a smaller share of the frames that it was in sight for is taken for
+  /// several passing ones
   double min_seen_share = 0.4;
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
@@ -28,9 +30,10 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 /// Keeping odometry upright that has no measurement of gravity.
 struct LevelOptions {
   bool enabled = true;
-  double max_slope_rad = 0.1;  ///< the steepest mean slope of the ground ...
-  double window_m = 200.;      ///< ... over a path of this length
-  /// standard deviation of that mean slope, for the optimisation of all cameras: SlopePrior
+  double max_slope_rad = 0.1;  ///< steepest mean slope of the ground over `window_m` of path
+  double window_m = 200.;      ///< length of path over which the slope is averaged
+  /// standard deviation of the mean slope over `window_m`, for the optimisation of all cameras
+  /// (SlopePrior); 0: the slope is not used
   double slope_rad = 0.05;
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
