@@ -194,12 +194,12 @@ class CliTest(CliCase):
     # configuration
     def test_all_configuration_errors_at_once(self):
         path = self.data + '/c.yaml'
-        write(path, 'mode: fast\nba:\n  max_iteratons: 3\n  loss_scale: two\n  loss_scale: 1\nmap:\n  caution: 1000\nnonsense: 1\n')
+        write(path, 'mode: fast\nba:\n  max_iteratons: 3\n  loss_scale: two\n  loss_scale: 1\nmap:\n  birth_score: 1000\nnonsense: 1\n')
         for result in (call('check-config', path), self.run_data('--config', path)):
             self.refused(result, 4, f"{path}:1:7: 'mode' is 'fast', must be one of robust, paper",
                          f"{path}:3:3: unknown key 'max_iteratons' in 'ba' - did you mean 'max_iterations'?",
                          "'loss_scale' is 'two', must be a number", "duplicate key 'loss_scale' in 'ba'",
-                         f"{path}:7:12: 'caution' is 1000, must be in [1, 100]", f"{path}:8:1: unknown key 'nonsense'")
+                         f"{path}:7:16: 'birth_score' is 1000, must be in [0, 1]", f"{path}:8:1: unknown key 'nonsense'")
         self.refused(self.run_data('--set', 'ba.lossscale=1', '--set', 'x'), 4,
                      "--set ba.lossscale=1: unknown key 'lossscale' in 'ba' - did you mean 'loss_scale'?", '--set x: expected')
 
