@@ -40,6 +40,11 @@ SUBJECTS = {
     "robust": [("src/optim/pose_graph_robust.cc", "sslcd_optim_tests", "Robust*:Warm*:Chi2*")],
     "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],
     "motion": [("src/map/motion_test.cc", "sslcd_map_tests", "MotionTest*")],
+    "closing": [("src/closing/loop_ledger.cc", "sslcd_closing_tests", "LoopLedger*"),
+                ("src/closing/loop_corrector.cc", "sslcd_closing_tests",
+                 "*Loop*:CorrectTrajectory*:FuseMatched*:LayoutChange*"),
+                ("src/closing/loop_meter.cc", "sslcd_closing_tests", "*LoopMeter*:Viewpoint*"),
+                ("src/closing/track_finder.cc", "sslcd_closing_tests", "TrackFinder*")],
     "fusion": [("src/refine/fuse.cc", "sslcd_refine_tests", "Fuse*:SeenTogether*:PathSegments*")],
 }
 

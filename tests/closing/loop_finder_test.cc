@@ -36,6 +36,34 @@ TEST(TrackFinder, FindsThePlaceFromBothDirections) {
   }
 }
 
+TEST(TrackFinder, TheQueryCameraStandsBackByTheLag) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  for (const double lag_m : {15., 25., 35.}) {
+    const auto found = Find(*MakeTrackFinder(LoopOptions()), world, 0, lag_m);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(world.state.frames[found->loop.query].travelled, world.end_m() - lag_m, 1);
+  }
+}
+
+TEST(TrackFinder, WithoutARivalTheSecondScoreIsTheOddsAgainstTheOnlyTrack) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  LoopOptions options;
+  options.tracks.max_tracks = 1;
+  const auto only = Find(*MakeTrackFinder(options), world);
+  ASSERT_TRUE(only);
+  EXPECT_GT(only->loop.row.score, 13);
+  EXPECT_EQ(only->loop.row.second_score, -only->loop.row.score);
+}
+
+// Evidence is against poses anywhere on the map; given its track, an attempt needs much less of its
+// own.
+TEST(TrackFinder, FewObjectsOfItsOwnAreEnoughWhereTheTrackExpectsThem) {
+  const TwoPasses world(Pose(), false, 7);
+  const auto found = Find(*MakeTrackFinder(LoopOptions()), world);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->confirmed) << found->loop.row.reason;
+}
+
 TEST(TrackFinder, AHigherBarLeavesItAmbiguous) {
   const TwoPasses world(Pose::Trans(5, 0, -3));
   LoopOptions options;

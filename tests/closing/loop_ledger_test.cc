@@ -104,6 +104,8 @@ TEST(LoopLedger, AcceptedNearLooksAtQueryCameras) {
   LoopLedger ledger;
   ledger.Add(Loop(10, 90, kAccepted), {}, 95);
   ledger.AcceptNewest(frames);
+  ledger.Add(Loop(40, 60, kOpen), {}, 96);
+  EXPECT_FALSE(ledger.AcceptedNear(frames, 60, 2.5)) << "not accepted";
   EXPECT_TRUE(ledger.AcceptedNear(frames, 92, 2.5));
   EXPECT_FALSE(ledger.AcceptedNear(frames, 93, 2.5));
   EXPECT_FALSE(ledger.AcceptedNear(frames, 10, 2.5)) << "that is the match camera";

@@ -51,6 +51,18 @@ TEST_P(LoopMeterDirections, MeasuresTheTrueRelativePoseWhateverTheDrift) {
 
 INSTANTIATE_TEST_SUITE_P(SameAndOpposite, LoopMeterDirections, ::testing::Bool());
 
+// The odometry's tilt drifts, but cameras around one place stand upright on average.
+TEST(LoopMeter, LevelsBothMapsBeforeItComparesThem) {
+  const Pose tilt(lie::SO3<double>::RotX(0.06) * lie::SO3<double>::RotZ(-0.04), Vec3(3, 0, -2));
+  const TwoPasses world(tilt);
+  const Common common(world);
+  const LoopOptions options;
+  const auto loop = LoopMeter(world.state, world.passes, options)
+                        .Measure(common.objects(), world.end_m() - 30, 0);
+  ASSERT_TRUE(loop);
+  EXPECT_LT(Apart(loop->row.T_match_query, world.TrueLoop(loop->match, loop->query)), 0.02);
+}
+
 TEST(LoopMeter, WhatEveryLoopIsOffByIsPartOfItsCovariance) {
   const TwoPasses world;
   const Common common(world);
