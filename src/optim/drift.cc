@@ -14,7 +14,6 @@ using namespace drift;  // NOLINT(google-build-using-namespace): its own private
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr int kMaxIterations = 30;   // of Gauss-Newton, which converges in a handful
 constexpr double kConverged = 1e-7;  // norm of the last step [m, rad]
 // A pair is an inlier up to this whitened error. Set by hand: nearly all of a Gaussian in 3D.
 constexpr double kInlierSigmas = 3.5;
@@ -145,7 +144,7 @@ DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& 
   if (!start) return result;
 
   State state = start->state;
-  while (result.iterations < kMaxIterations && !result.converged) {
+  while (result.iterations < options.max_iterations && !result.converged) {
     const NormalEquations equations = Linearise(problem, state, options);
     const Vector6 step = -equations.H.ldlt().solve(equations.b);
     ++result.iterations;

@@ -35,6 +35,7 @@ struct DriftOptions {
   double tilt_sigma_rad = 0.03;  ///< standard deviation of the local map's vertical
   /// scale of the Cauchy loss on each pair's position and heading, in sigmas; 0: none
   double loss_scale = 2.;
+  int max_iterations = 30;  ///< of Gauss-Newton, at most; no key: a test raises it
 };
 void DescribeFields(FieldVisitor& visitor, DriftOptions& options);
 
