@@ -21,6 +21,9 @@ const std::map<std::string, std::string>& ShownElsewhere() {
   static const std::map<std::string, std::string> keys{
       {"colour.method", "perception/colour_test.cc: images alone are read by it"},
       {"colour.box_share", "perception/colour_test.cc: images alone are read by it"},
+      {"filter.max_size_m", "perception/filter_test.cc: no object is that large"},
+      {"loop.match.likelihood.appearance.opposite_side",
+       "loop/appearance_likelihood_test.cc: both laps go the same way"},
       {"loop.match.search.refine", "loop/pose_search_test.cc: the best pose is the first"},
       {"loop.graph.drift_factor", "optim/pose_graph_robust_test.cc: no loop is false"},
       {"loop.graph.inlier_probability", "optim/pose_graph_robust_test.cc: all loops are good"},

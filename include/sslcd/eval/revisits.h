@@ -42,9 +42,9 @@ struct LoopOutcome {
   double score = 0;
   double at_m = 0;            ///< its query camera's place on the path
   double error_m = 0;         ///< of the query camera's horizontal position
-  double height_error_m = 0;  ///< of its height, absolute
   double error_rad = 0;       ///< of its rotation
   double viewpoint_rad = 0;   ///< true change of heading, in [0, pi]
+  double height_error_m = 0;  ///< of the query camera's height, absolute
 };
 /// Throws Error (kUsage) on a frame without a reference pose.
 std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
