@@ -37,6 +37,16 @@ TEST(AppearanceGain, KnowsTheViewingAngle) {
   EXPECT_NEAR(Gain(2, 0.45, Symmetry::kFull), Gain(0, 0.45, Symmetry::kFull), 1e-9);
 }
 
+TEST(AppearanceGain, FromOppositeSidesIsJudgedByWhatIsExpectedThere) {
+  const LayoutObject front = Car(View(0, 1)), back = Car(View(M_PI, 0.7)), side = Car(View(0, 0.7));
+  AppearanceOptions usual, alike;
+  usual.opposite_side = 0.45;
+  alike.opposite_side = 0.7;
+  usual.limit = alike.limit = 100;
+  EXPECT_GT(AppearanceGain(front, back, alike), AppearanceGain(front, back, usual) + 0.1);
+  EXPECT_EQ(AppearanceGain(front, side, alike), AppearanceGain(front, side, usual));
+}
+
 TEST(AppearanceGain, IsEvidenceAndNeverAGate) {
   const AppearanceOptions options;
   for (const double cosine : {-1., 0., 0.5, 1.})

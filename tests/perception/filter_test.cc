@@ -19,6 +19,15 @@ Detection Car(int row) {
   return car;
 }
 
+TEST(FilterDetections, AnObjectLongerThanTheLargestIsDropped) {
+  DetectionFilterOptions options;
+  for (const double largest_m : {3.9, 4.1}) {
+    options.max_size_m = largest_m;
+    std::vector<Detection> detections = {Car(0)};
+    EXPECT_EQ(FilterDetections(detections, options).kept, largest_m > 4) << largest_m;
+  }
+}
+
 TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   std::vector<Detection> detections;
   for (int row = 0; row < 9; ++row) detections.push_back(Car(row));
