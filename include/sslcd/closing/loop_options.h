@@ -28,7 +28,7 @@ struct LoopLayoutOptions {
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 
 /// How far odometry may be off before any object is looked at. Closed loops count as shortcuts:
-/// after the first one the camera is known to be near where it believes to be.
+/// after the first one the trajectory is nearly right, and the prior is narrow.
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< standard deviation of the position, share of the path
   double drift_yaw = 0.02;    ///< random walk of the yaw [rad per sqrt(m)]

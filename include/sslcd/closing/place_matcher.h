@@ -20,9 +20,9 @@ struct PlaceQuery {
   int old_frame = 0;  ///< number of the newest frame that the global map knows
 };
 
-/// Where a matcher believes to be. Either from objects (`matches`: index of local, of global; those
-/// that agree with each other), or from two images (`match_frame`, `T_match_query` of the query's
-/// newest frame). What two images say is an edge of the pose graph and nothing more: bundle
+/// Where a matcher finds the place. Either from objects (`matches`: index of local, of global;
+/// those that agree with each other), or from two images (`match_frame`, `T_match_query` of the
+/// query's newest frame). What two images say is an edge of the pose graph and nothing more: bundle
 /// adjustment, which sees objects only, would undo it and has to be off (refine.enabled: false,
 /// loop.adjust_keyframes: 0).
 struct PlaceAnswer {

@@ -18,7 +18,7 @@ struct LandmarkId {
 
 /// Life cycle of a landmark.
 enum class LandmarkState {
-  kTentative,  ///< seen, not yet believed
+  kTentative,  ///< seen, not yet confirmed
   kConfirmed,  ///< part of the map
   kDynamic,    ///< moves in the world: tracked, never part of the map
   kStale,      ///< tentative and not seen again: given up

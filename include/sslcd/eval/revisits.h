@@ -12,11 +12,11 @@ namespace sslcd {
 
 /// When a keyframe counts as one that a loop should be found for.
 struct RevisitOptions {
-  /// a keyframe every so much path; a loop counts for those this near to its query camera
+  /// path between two keyframes; a loop counts for keyframes this near to its query camera
   double spacing_m = 5.;
   double radius_m = 10.;  ///< an old camera stood this near ...
-  double old_m = 60.;     ///< ... and is old by so much path
-  /// of the objects seen on so much path before and behind the keyframe ...
+  double old_m = 60.;     ///< ... and is older by at least this path
+  /// of the objects seen within this path before and after the keyframe ...
   double around_m = 20.;
   int common = 5;  ///< ... so many were seen by old cameras
 };
