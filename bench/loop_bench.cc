@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/pass_map.h"
+#include "closing/pass_map.h"
 #include "sim/random.h"
 #include "sslcd/loop/layout_match.h"
 #include "sslcd/loop/pose_tracks.h"

@@ -1,19 +1,48 @@
 # SPDX-License-Identifier: BSD-3-Clause
+# sslcd_room(NAME LINK <lower modules>...)
+#   what a module sees and shows: <build>/rooms/NAME has symbolic links to include/sslcd/NAME and to src/NAME, and is the
+#   include path of `sslcd_NAME_headers`, which hands on those of the modules linked. A header of any other module is not
+#   found, so an include that goes up does not compile. The LINK list has to be what the includes name, no less and no
+#   more: tests/include_graph.
 # sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>... WITHOUT <files>...)
-#   src/NAME/*.cc, but for the files named, as an object library `sslcd_NAME`. Its LINK list is the layer rule;
-#   tests/include_graph checks that the includes keep to it.
+#   a room, and src/NAME/*.cc, but for the files named, as an object library `sslcd_NAME`.
+# sslcd_use_rooms(TARGET <modules>...)
+#   private headers for a program: a tool, a benchmark, a test.
 # sslcd_library(TARGET [LINK <libraries>...])
 #   the modules since the last sslcd_library() as one installed library: `sslcd` as sslcd::sslcd, `sslcd_vision` as
 #   sslcd::vision.
+function(sslcd_room name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  set(room ${PROJECT_BINARY_DIR}/rooms/${name})
+  file(MAKE_DIRECTORY ${room}/sslcd)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${name} ${room}/${name} SYMBOLIC)
+  if(EXISTS ${PROJECT_SOURCE_DIR}/include/sslcd/${name})
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/include/sslcd/${name} ${room}/sslcd/${name} SYMBOLIC)
+  endif()
+  add_library(sslcd_${name}_headers INTERFACE)
+  target_include_directories(sslcd_${name}_headers INTERFACE ${room})
+  target_link_libraries(sslcd_${name}_headers INTERFACE sslcd_lie)
+  foreach(link ${ARG_LINK})
+    target_link_libraries(sslcd_${name}_headers INTERFACE sslcd_${link}_headers)
+  endforeach()
+endfunction()
+
+function(sslcd_use_rooms target)
+  foreach(room ${ARGN})
+    target_link_libraries(${target} PRIVATE sslcd_${room}_headers)
+  endforeach()
+endfunction()
+
 function(sslcd_module name)
   cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;WITHOUT" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
   list(TRANSFORM ARG_WITHOUT PREPEND ${PROJECT_SOURCE_DIR}/src/${name}/)
   list(REMOVE_ITEM sources ${ARG_WITHOUT})
+  sslcd_room(${name} LINK ${ARG_LINK})
   add_library(sslcd_${name} OBJECT ${sources})
-  target_include_directories(sslcd_${name} PUBLIC ${PROJECT_SOURCE_DIR}/include PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(sslcd_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_PRIVATE} sslcd_compiler)
+  target_link_libraries(sslcd_${name} PRIVATE sslcd_${name}_headers ${ARG_PRIVATE} sslcd_compiler)
   set_target_properties(sslcd_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_property(GLOBAL APPEND PROPERTY SSLCD_OBJECT_LIBRARIES ${name})
   set_property(GLOBAL APPEND PROPERTY SSLCD_MODULES ${name})
   set_property(GLOBAL APPEND PROPERTY SSLCD_OUTSIDE_LIBRARIES ${ARG_PRIVATE})
 endfunction()
@@ -53,13 +82,13 @@ function(sslcd_test_process name label filter)
   set_tests_properties(${name}.${label} PROPERTIES LABELS ${label})
 endfunction()
 
-# sslcd_test_module(NAME [EACH] LINK <targets>... PROPERTY|REGRESSION|SLOW <gtest patterns>...)
-#   tests/NAME/*_test.cc as one executable. CONTRIBUTING.md says what the labels mean. A test that
+# sslcd_test_module(NAME [EACH] LINK <targets>... ROOMS <modules>... PROPERTY|REGRESSION|SLOW <gtest patterns>...)
+#   tests/NAME/*_test.cc as one executable, which sees the private headers of the module NAME and of ROOMS. CONTRIBUTING.md says what the labels mean. A test that
 #   no pattern names is a unit test. Unit tests are one ctest entry, property tests another: to start
 #   a process for each of a thousand cases would take longer than the cases. With EACH, and for
 #   REGRESSION and SLOW, each case is an entry, so that ctest lists what was skipped.
 function(sslcd_test_module name)
-  cmake_parse_arguments(ARG "EACH" "" "LINK;PROPERTY;REGRESSION;SLOW" ${ARGN})
+  cmake_parse_arguments(ARG "EACH" "" "LINK;ROOMS;PROPERTY;REGRESSION;SLOW" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
   if(NOT sources)
     return()
@@ -67,6 +96,10 @@ function(sslcd_test_module name)
   set(exe sslcd_${name}_tests)
   add_executable(${exe} ${sources})
   target_link_libraries(${exe} PRIVATE ${ARG_LINK} GTest::gmock GTest::gtest_main sslcd_compiler)
+  if(TARGET sslcd_${name}_headers)
+    list(APPEND ARG_ROOMS ${name})
+  endif()
+  sslcd_use_rooms(${exe} ${ARG_ROOMS})
 
   list(JOIN ARG_PROPERTY ":" property)
   list(JOIN ARG_REGRESSION ":" regression)

@@ -1,51 +1,63 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks the includes of include/ and src/ against the layers of the top-level CMakeLists.txt.
+"""Checks includes against the link lists of the CMake files.
 
     check_layers.py SOURCE_DIR
 
-The link list of each sslcd_module() is the rule:
+The link list of each sslcd_module() (the library) and sslcd_room() (what stands above it) is the rule:
 - modules are listed lowest first, and link only modules listed before them;
-- a module includes only headers of itself and of the modules it links, directly or through them;
-- private headers (src/M) are for M and for sources of modules that link it: nobody else, and no host, can see them;
-- libraries from outside are for the modules that link them, in src/ only;
-- public headers include the standard library, Eigen, lie/ and sslcd/ only, but for the opt-in ones listed below.
+- a module includes headers of itself and of the modules it links, and links no module that it does not include;
+- libraries from outside are for the modules that link them, in src/ only, and these use them;
+- public headers include the standard library, Eigen, lie/ and sslcd/ only, but for the opt-in ones listed below;
+- what is above the library is not seen by it;
+- tools, benchmarks and tests see private headers of the modules that their CMakeLists.txt names (ROOMS,
+  sslcd_use_rooms) and of what these link; a test also those of the module of its name. They use all that they name.
 Prints one line a breach; exit code 1 if there is any.
 """
 import re
 import sys
+from collections import namedtuple
 from pathlib import Path
 
 OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
-           "pugixml.hpp": "pugixml",
-           "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}
-# Not modules of the library: these stand above it and may use all of it, and of each other what is named here.
-ABOVE = {"sim": set(), "render": {"sim"}, "baselines": set(), "benchmark": {"sim", "baselines"}}
+           "pugixml.hpp": "pugixml", "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}
+PROGRAMS = ("apps", "bench", "tests")
+NOT_OURS = {"benchmark/benchmark.h"}  # named as one of ours
+# links: as listed; reachable: these and what they link; outside: first parts of the includes of outside libraries
+Module = namedtuple("Module", "file links reachable outside is_library")
 
 
-def read_modules(cmake_lists):
-    """{module: (modules it may include, outside libraries it may include)}, and the breaches of the order."""
+def words_after(words, keyword, keywords):
+    """The words between `keyword` and the next one of `keywords`."""
+    found, inside = [], False
+    for word in words:
+        if word in keywords:
+            inside = word == keyword
+        elif inside:
+            found.append(word)
+    return found
+
+
+def read_modules(source_dir):
+    """{name: Module}, and the breaches of the order."""
     modules, breaches = {}, []
-    for body in re.findall(r"^ *sslcd_module\(([^)]*)\)", cmake_lists, re.M):
-        name, *words = body.split()
-        links, outside, other, into = [], [], [], None
-        for word in words:
-            if word in ("LINK", "PRIVATE", "WITHOUT"):
-                into = {"LINK": links, "PRIVATE": outside, "WITHOUT": other}[word]
-            else:
-                into.append(word)
-        reachable = {name}
-        for link in links:
-            if link == "sslcd_lie":
-                continue
-            below = link[len("sslcd_"):]
-            if below in modules:
-                reachable |= modules[below][0]
-            else:
-                breaches.append(f"CMakeLists.txt: {name} links {link}, which is not listed before it")
-        named = " ".join(outside).lower()
-        modules[name] = (reachable, {prefix for prefix, part in OUTSIDE.items() if part in named})
+    lists = [source_dir / "CMakeLists.txt"]
+    top = lists[0].read_text(encoding="utf-8")
+    lists += [source_dir / folder / "CMakeLists.txt" for folder in re.findall(r"add_subdirectory\((src/\w+)\)", top)]
+    for path in lists:
+        file = path.relative_to(source_dir).as_posix()
+        for kind, body in re.findall(r"^ *sslcd_(module|room)\(([^)]*)\)", path.read_text(encoding="utf-8"), re.M):
+            name, *words = body.split()
+            links = words_after(words, "LINK", ("LINK", "PRIVATE", "WITHOUT"))
+            named = " ".join(words_after(words, "PRIVATE", ("LINK", "PRIVATE", "WITHOUT"))).lower()
+            for link in links:
+                if link not in modules:
+                    breaches.append(f"{file}: {name} links {link}, which is not listed before it")
+            known = [link for link in links if link in modules]
+            reachable = {name}.union(*(modules[link].reachable for link in known))
+            outside = {prefix for prefix, part in OUTSIDE.items() if part in named or kind == "room"}
+            modules[name] = Module(file, known, reachable, outside, kind == "module")
     return modules, breaches
 
 
@@ -56,47 +68,108 @@ def includes_of(path):
             yield number, match.group(1)
 
 
-def check_include(include, module, relative, modules, source_dir):
-    """None, or what is wrong with this include."""
-    public = relative.startswith("include/")
+def sources_of(folder):
+    return sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cc"))
+
+
+def module_of(include, modules, source_dir):
+    """(the module whose header this is, is it private); (None, False) for all other includes."""
+    parts = include.split("/")
+    if len(parts) > 2 and parts[0] == "sslcd":
+        return parts[1], False
+    if len(parts) > 1 and parts[0] in modules and (source_dir / "src" / include).exists():  # not <map>
+        return parts[0], True
+    return None, False
+
+
+def check_include(include, name, relative, modules, source_dir):
+    """None, or what is wrong with this include of a module's source."""
+    public, module = relative.startswith("include/"), modules[name]
     first = include.split("/")[0]
-    may_include, may_use = modules[module]
-    if first == "sslcd":
-        target = include.split("/")[1]
-        if not (source_dir / "include" / include).exists():
-            return f"there is no include/{include}"
-        return None if target in may_include else f"{module} is not above {target}"
-    if "/" in include and first in modules:  # not <map>
-        if public:
-            return f"a public header includes the private {include}"
-        return None if first in may_include else f"{include} is private to {first}, which {module} does not link"
+    target, private = module_of(include, modules, source_dir)
+    if target and not private and not (source_dir / "include" / include).exists():
+        return f"there is no include/{include}"
+    if target and public and private:
+        return f"a public header includes the private {include}"
+    if target:
+        return None if target == name or target in module.links else f"{name} does not link {target}"
     if first in OUTSIDE:
         if public:
             return None if first in OPT_IN.get(relative, ()) else f"a public header includes {first}"
-        return None if first in may_use else f"{module} does not link {first}"
+        return None if first in module.outside else f"{name} does not link {first}"
     if public and first not in ("Eigen", "lie") and not re.fullmatch(r"[a-z_]+", include):
         return f"a public header includes {include}: only the standard library, Eigen, lie/ and sslcd/"
     return None
 
 
-def check(source_dir):
-    modules, breaches = read_modules((source_dir / "CMakeLists.txt").read_text(encoding="utf-8"))
-    folders = [source_dir / "include" / "sslcd", source_dir / "src"]
-    files = sorted(path for folder in folders for path in folder.glob("*/**/*") if path.suffix in (".h", ".cc"))
-    if not modules or not files:
-        return [f"{source_dir}: no sslcd_module() or no sources found"]
-    library = set(modules)
-    modules.update({name: ({*library, name, *others}, set(OUTSIDE)) for name, others in ABOVE.items()})
-    for path in files:
+def check_modules(modules, source_dir):
+    breaches, used, shown = [], {name: set() for name in modules}, {name: set() for name in modules}
+    for top in ("include/sslcd", "src"):
+        for path in sources_of(source_dir / top):
+            relative = path.relative_to(source_dir).as_posix()
+            name = path.relative_to(source_dir / top).parts[0]
+            if name not in modules:
+                breaches.append(f"{relative}: no CMakeLists.txt has sslcd_module({name} ...)")
+                continue
+            for number, include in includes_of(path):
+                names = {module_of(include, modules, source_dir)[0], include.split("/")[0]}
+                used[name] |= names
+                shown[name] |= names if path.suffix == ".h" else set()
+                wrong = check_include(include, name, relative, modules, source_dir)
+                if wrong:
+                    breaches.append(f"{relative}:{number}: {wrong}")
+    for name, module in modules.items():
+        unused = [link for link in module.links if link not in used[name]]
+        if module.is_library:  # one library may be found under several names, or through a header of a module linked
+            needed = used[name].union(*(shown[link] for link in module.links))
+            unused += sorted({OUTSIDE[prefix] for prefix in module.outside}
+                             - {OUTSIDE[prefix] for prefix in needed & set(OUTSIDE)})
+        breaches += [f"{module.file}: {name} links {link}, which it does not include" for link in unused]
+    return breaches
+
+
+def check_program(folder, modules, source_dir):
+    """The private headers that a folder with a CMakeLists.txt of its own includes."""
+    lists = folder / "CMakeLists.txt"
+    text = lists.read_text(encoding="utf-8") if lists.exists() else ""
+    rooms, own = [], set()
+    for call, body in re.findall(r"sslcd_(use_rooms|test_module)\(([^)]*)\)", text):
+        name, *words = body.split()
+        rooms += words if call == "use_rooms" else words_after(
+            words, "ROOMS", ("EACH", "LINK", "ROOMS", "PROPERTY", "REGRESSION", "SLOW"))
+        own |= {name} if call == "test_module" else set()
+    # tools that a program links hand on what they see themselves
+    handed_on = [tool for tool in re.findall(r"sslcd_(\w+)_(?:lib|headers)\b", text) if tool in modules]
+    seen = set().union(*(modules[room].reachable for room in {*rooms, *handed_on, *own} if room in modules))
+    breaches, used = [], set()
+    for path in sources_of(folder):
         relative = path.relative_to(source_dir).as_posix()
-        module = relative.split("/")[2 if relative.startswith("include/") else 1]
-        if module not in modules:
-            breaches.append(f"{relative}: CMakeLists.txt has no sslcd_module({module} ...)")
-            continue
         for number, include in includes_of(path):
-            wrong = check_include(include, module, relative, modules, source_dir)
-            if wrong:
-                breaches.append(f"{relative}:{number}: {wrong}")
+            target, private = module_of(include, modules, source_dir)
+            looked_in = [source_dir / "src", source_dir / "tests", source_dir / "tests/support", path.parent]
+            if include.split("/")[0] in modules and "/" in include and include not in NOT_OURS and not any(
+                    (place / include).exists() for place in looked_in):
+                breaches.append(f"{relative}:{number}: there is no {include}")
+            if private:
+                used.add(target)
+                if target not in seen:
+                    breaches.append(f"{relative}:{number}: {include} is private to {target}, which is not named")
+    where = lists.relative_to(source_dir).as_posix()
+    breaches += [f"{where}: {room} is named, but none of its private headers is included"
+                 for room in sorted(set(rooms) - used)]
+    return breaches
+
+
+def check(source_dir):
+    modules, breaches = read_modules(source_dir)
+    if not modules or not sources_of(source_dir / "src"):
+        return [f"{source_dir}: no sslcd_module() or no sources found"]
+    breaches += check_modules(modules, source_dir)
+    for top in PROGRAMS:
+        folder = source_dir / top
+        folders = sorted(p for p in folder.iterdir() if p.is_dir()) if top == "tests" and folder.exists() else [folder]
+        for one in folders:
+            breaches += check_program(one, modules, source_dir)
     return breaches
 
 
