@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Loop detection against the size of the map: how long its index takes to build, how long a search
-// as in a run takes (SearchPoses) and one that decides by itself (MatchLayouts, mirror image and
-// all), and how often the answer is right. Then whole attempts of a run whose map has that many
-// objects: the layouts, what has changed in them, the index that follows, the search. usage:
-// loop_bench [OBJECTS...] Maps of constant density, three labels; local maps of 15 mapped objects
-// and 3 others, noise 0.3 m per axis, one object of five missed, any heading. Prints one row for
-// each map.
+// as in a run takes (SearchPoses) and one that decides by itself (MatchLayouts, with the
+// mirror image), and how often the answer is right. Then whole attempts of a run whose map has that
+// many objects: the layouts, what has changed in them, the index that follows, the search.
+//
+//   loop_bench [OBJECTS...]
+//
+// Maps of constant density, three labels; local maps of 15 mapped objects and 3 others, noise 0.3 m
+// per axis, one object of five missed, any heading. Prints one row for each map.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -141,8 +143,13 @@ class Run {
   }
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
-  PassMap& passes() { return passes_; }
-  double travelled() const { return frames_.back().travelled; }
+  PassLayout Recent(double path_m) const {
+    return passes_.Recent(state_, travelled() - path_m, kMinSightings);
+  }
+  /// Since the last call.
+  LayoutChanges ChangesBefore(double path_m) {
+    return passes_.ChangesBefore(state_, travelled() - path_m, kMinSightings, mark_);
+  }
 
   void Drive() {
     constexpr int kNew = 10, kOld = 2;
@@ -155,31 +162,37 @@ class Run {
       landmark.label = std::to_string(objects_[next_].label);
       landmark.symmetry = Symmetry::kFull;
       landmark.state = LandmarkState::kConfirmed;
-      landmark.pose.position = map_.gravity().Basis() * objects_[next_].position;
-      ids_.push_back(map_.Insert(landmark));
+      landmark.pose.position = state_.gravity().Basis() * objects_[next_].position;
+      ids_.push_back(state_.map.Insert(landmark));
       seen.push_back(ids_.back());
     }
     for (int i = 0; i < 2; ++i) {
       FrameRecord frame;
-      frame.frame = static_cast<int>(frames_.size());
-      frame.travelled = 2.5 * frame.frame;
+      frame.frame = state_.frames.size();
+      frame.T_odom_cam.translation() = Vec3(0, 0, 2.5 * frame.frame);
       frame.matched = seen;
       for (const LandmarkId id : seen)
-        frame.detections.emplace_back().T_cam_object = ToPose(map_.at(id).pose, map_.gravity());
-      frames_.push_back(std::move(frame));
-      passes_.Update();
+        frame.detections.emplace_back().T_cam_object =
+            ToPose(state_.map.at(id).pose, state_.gravity());
+      state_.frames.Append(std::move(frame));
+      passes_.AddFrame(state_, state_.frames.back().detections);
     }
-    passes_.MovedFrom(std::max(0, static_cast<int>(frames_.size()) - 4));  // the sliding window
+    const int count = state_.frames.size();
+    for (int i = std::max(0, count - 4); i < count; ++i)  // the sliding window moves them
+      state_.frames.SetPose(i, state_.frames[i].T_world_cam);
   }
 
  private:
+  static constexpr int kMinSightings = 2;
+  double travelled() const { return state_.frames.back().travelled; }
+
   sim::Random& random_;
   std::vector<LayoutObject> objects_;
   std::vector<LandmarkId> ids_;
   std::size_t next_ = 0;
-  std::vector<FrameRecord> frames_;
-  ObjectMap map_{GravityFrame(), LabelTable(), {}, {}, {}};
-  PassMap passes_{map_, frames_, {}, 30.};
+  MapState state_{ObjectMap(GravityFrame(), LabelTable(), {}, {}, {}), {}};
+  PassMap passes_{{}, 30.};
+  PassMap::Mark mark_;
 };
 
 void MeasureAttempts(int count, bool streets) {
@@ -191,16 +204,15 @@ void MeasureAttempts(int count, bool streets) {
   sim::Random random(8, static_cast<std::uint64_t>(count));
   Run run(Map(count + 10 * kAttempts, streets, random), random);
   for (int driven = 0; driven < count; driven += 10) run.Drive();
-  LayoutIndex index(run.passes().ChangesBefore(run.travelled() - kOld, 2).objects,
-                    options.max_pair_m, options.reach_m);
+  LayoutIndex index(run.ChangesBefore(kOld).objects, options.max_pair_m, options.reach_m);
   std::vector<double> layouts_ms, follow_ms, search_ms, whole_ms;
   double changed = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     run.Drive();
     const std::vector<LayoutObject> local = LocalMap(index.objects(), {1, Vec3(3, 4, 0)}, random);
     const auto start = std::clock();
-    run.passes().Recent(run.travelled() - kLocal, 2);
-    const LayoutChanges changes = run.passes().ChangesBefore(run.travelled() - kOld, 2);
+    run.Recent(kLocal);
+    const LayoutChanges changes = run.ChangesBefore(kOld);
     layouts_ms.push_back(MsSince(start));
     index.Update(changes.objects, changes.gone);
     follow_ms.push_back(MsSince(start) - layouts_ms.back());
@@ -227,6 +239,8 @@ int main(int argc, char** argv) {
   if (argc > 1) counts.clear();
   for (int i = 1; i < argc; ++i) counts.push_back(std::max(30, std::atoi(argv[i])));
   for (const bool streets : {false, true})
-    for (const int count : counts)
-      sslcd::Measure(count, streets), sslcd::MeasureAttempts(count, streets);
+    for (const int count : counts) {
+      sslcd::Measure(count, streets);
+      sslcd::MeasureAttempts(count, streets);
+    }
 }
