@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # sslcd_room(NAME LINK <lower modules>...)
-#   what a module sees and shows: <build>/rooms/NAME has symbolic links to include/sslcd/NAME and to src/NAME, and is the
-#   include path of `sslcd_NAME_headers`, which hands on those of the modules linked. A header of any other module is not
-#   found, so an include that goes up does not compile. The LINK list has to be what the includes name, no less and no
-#   more: tests/include_graph.
+#   what a module sees and shows: <build>/rooms/NAME has symbolic links to include/sslcd/NAME and to
+#   src/NAME, and is the include path of `sslcd_NAME_headers`, which hands on those of the modules
+#   linked. A header of any other module is not found, so an include that goes up does not compile.
+#   The LINK list has to be what the includes name, no less and no more: tests/include_graph.
 # sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>... WITHOUT <files>...)
 #   a room, and src/NAME/*.cc, but for the files named, as an object library `sslcd_NAME`.
 # sslcd_use_rooms(TARGET <modules>...)
 #   private headers for a program: a tool, a benchmark, a test.
 # sslcd_library(TARGET [LINK <libraries>...])
-#   the modules since the last sslcd_library() as one installed library: `sslcd` as sslcd::sslcd, `sslcd_vision` as
-#   sslcd::vision.
+#   the modules since the last sslcd_library() as one installed library: `sslcd` as sslcd::sslcd,
+#   `sslcd_vision` as sslcd::vision.
 function(sslcd_room name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   set(room ${PROJECT_BINARY_DIR}/rooms/${name})
@@ -82,11 +82,13 @@ function(sslcd_test_process name label filter)
   set_tests_properties(${name}.${label} PROPERTIES LABELS ${label})
 endfunction()
 
-# sslcd_test_module(NAME [EACH] LINK <targets>... ROOMS <modules>... PROPERTY|REGRESSION|SLOW <gtest patterns>...)
-#   tests/NAME/*_test.cc as one executable, which sees the private headers of the module NAME and of ROOMS. CONTRIBUTING.md says what the labels mean. A test that
-#   no pattern names is a unit test. Unit tests are one ctest entry, property tests another: to start
-#   a process for each of a thousand cases would take longer than the cases. With EACH, and for
-#   REGRESSION and SLOW, each case is an entry, so that ctest lists what was skipped.
+# sslcd_test_module(NAME [EACH] LINK <targets>... ROOMS <modules>...
+#                   PROPERTY|REGRESSION|SLOW <gtest patterns>...)
+#   tests/NAME/*_test.cc as one executable, which sees the private headers of the module NAME and of
+#   ROOMS. CONTRIBUTING.md says what the labels mean. A test that no pattern names is a unit test.
+#   Unit tests are one ctest entry, property tests another: to start a process for each of a thousand
+#   cases would take longer than the cases. With EACH, and for REGRESSION and SLOW, each case is an
+#   entry, so that ctest lists what was skipped.
 function(sslcd_test_module name)
   cmake_parse_arguments(ARG "EACH" "" "LINK;ROOMS;PROPERTY;REGRESSION;SLOW" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)
