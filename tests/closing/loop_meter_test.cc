@@ -3,26 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "two_passes.h"
+#include "common_trees.h"
 
 namespace sslcd {
 namespace {
-
-// All trees of the second pass with those of the first one.
-struct Common {
-  PassLayout local;
-  std::vector<std::pair<int, LandmarkId>> pairs;
-
-  explicit Common(const TwoPasses& world)
-      : local(world.passes.Recent(world.state, world.end_m() - 70, 2)) {
-    for (std::size_t i = 0; i < local.objects.size(); ++i)
-      for (const auto& [early, late] : world.trees)
-        if (local.objects[i].id == late.value) pairs.push_back({static_cast<int>(i), early});
-  }
-  CommonObjects objects() const { return {local, pairs, 0.2, 200}; }
-};
 
 double Apart(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
 
@@ -31,7 +18,7 @@ class LoopMeterDirections : public ::testing::TestWithParam<bool> {};
 TEST_P(LoopMeterDirections, MeasuresTheTrueRelativePoseWhateverTheDrift) {
   const Pose drift = Pose::Trans(6, 0, -4) * Pose::RotY(0.2);
   const TwoPasses world(drift, GetParam());
-  const Common common(world);
+  const CommonTrees common(world);
   ASSERT_GE(common.pairs.size(), 10u);
   const LoopOptions options;
   const auto loop = LoopMeter(world.state, world.passes, options)
@@ -55,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(SameAndOpposite, LoopMeterDirections, ::testing::Bool()
 TEST(LoopMeter, LevelsBothMapsBeforeItComparesThem) {
   const Pose tilt(lie::SO3<double>::RotX(0.06) * lie::SO3<double>::RotZ(-0.04), Vec3(3, 0, -2));
   const TwoPasses world(tilt);
-  const Common common(world);
+  const CommonTrees common(world);
   const LoopOptions options;
   const auto loop = LoopMeter(world.state, world.passes, options)
                         .Measure(common.objects(), world.end_m() - 30, 0);
@@ -63,48 +50,120 @@ TEST(LoopMeter, LevelsBothMapsBeforeItComparesThem) {
   EXPECT_LT(Apart(loop->row.T_match_query, world.TrueLoop(loop->match, loop->query)), 0.02);
 }
 
-TEST(LoopMeter, WhatEveryLoopIsOffByIsPartOfItsCovariance) {
-  const TwoPasses world;
-  const Common common(world);
-  LoopOptions options;
-  options.sigma_m = 0;
-  options.sigma_rad = 0;
-  const LoopMeter exact(world.state, world.passes, options);
-  LoopOptions with = options;
-  with.sigma_m = 0.5;
-  with.sigma_rad = 0.1;
-  const auto without = exact.MeasureBetween(TwoPasses::kSecond + 30, 30, common.objects());
-  const auto loop = LoopMeter(world.state, world.passes, with)
-                        .MeasureBetween(TwoPasses::kSecond + 30, 30, common.objects());
-  ASSERT_TRUE(without && loop);
-  const Eigen::Matrix<double, 6, 6> added = loop->row.covariance - without->row.covariance;
-  Vec6 expected;
-  expected << Vec3::Constant(0.25), Vec3::Constant(0.01);
-  EXPECT_LT((added - Eigen::Matrix<double, 6, 6>(expected.asDiagonal())).norm(), 1e-9);
-}
-
-TEST(LoopMeter, ACameraFarFromTheObjectsIsKnownNoBetterThanOdometry) {
-  const TwoPasses world;
-  const Common common(world);
-  const LoopOptions options;
-  const LoopMeter meter(world.state, world.passes, options);
-  const auto amidst = meter.Measure(common.objects(), world.end_m() - 30, 0);
-  const auto last = meter.Measure(common.objects(), world.end_m(), 50);
-  ASSERT_TRUE(amidst && last);
-  EXPECT_GT(last->query, amidst->query + 15);
-  EXPECT_GT(last->row.covariance.topLeftCorner(3, 3).trace(),
-            amidst->row.covariance.topLeftCorner(3, 3).trace());
-}
-
 TEST(LoopMeter, NoneWhereObjectsFixNoPose) {
   const TwoPasses world;
-  Common common(world);
+  CommonTrees common(world);
   const LoopOptions options;
   const LoopMeter meter(world.state, world.passes, options);
   common.pairs.resize(1);
   EXPECT_FALSE(meter.Measure(common.objects(), world.end_m() - 30, 0)) << "one tree has no heading";
   common.pairs.clear();
   EXPECT_FALSE(meter.Measure(common.objects(), world.end_m() - 30, 0));
+}
+
+// Behind the last object the heading is less certain, and the more so the farther away.
+TEST(LoopMeter, TriesCamerasTenAndTwentyMetresBackWhileTheHeadingIsUncertain) {
+  const TwoPasses world;
+  const CommonTrees common(world);
+  LoopOptions options;
+  const auto measure = [&](double query_m, double max_heading_sigma_rad) {
+    options.acceptance.max_heading_sigma_rad = max_heading_sigma_rad;
+    const LoopMeter meter(world.state, world.passes, options);
+    return meter.Measure(common.objects(), query_m, 50).value();
+  };
+  const auto query_m = [&](const LoopMeasurement& loop) {
+    return world.state.frames[loop.query].travelled;
+  };
+  const double end_m = world.end_m(), start_m = end_m - 40;
+  const double at_end = measure(end_m, 10).heading_sigma,
+               before = measure(end_m - 10, 10).heading_sigma;
+  ASSERT_LT(before, at_end);
+  EXPECT_NEAR(query_m(measure(end_m, 10)), end_m, 1e-9);
+  EXPECT_NEAR(query_m(measure(end_m, 0.5 * (before + at_end))), end_m - 10, 1e-9);
+  EXPECT_NEAR(query_m(measure(end_m, 0)), end_m - 20, 1e-9) << "the best of the three";
+  ASSERT_LT(measure(start_m, 10).heading_sigma, measure(start_m - 10, 10).heading_sigma);
+  EXPECT_NEAR(query_m(measure(start_m, 0)), start_m, 1e-9) << "farther back it gets worse";
+}
+
+TEST(LoopMeter, TheQueryCameraStandsNearTheCommonObjects) {
+  const TwoPasses world;
+  const CommonTrees all(world), some = all.Between(world.end_m() - 45, world.end_m() - 20);
+  ASSERT_GE(some.pairs.size(), 4u);
+  const auto [first_m, last_m] = some.seen();
+  LoopOptions options;
+  options.acceptance.max_heading_sigma_rad = 10;
+  const LoopMeter meter(world.state, world.passes, options);
+  for (const double beyond_m : {0., 6.}) {
+    const auto query_m = [&](double asked_m) {
+      const auto loop = meter.Measure(some.objects(), asked_m, beyond_m);
+      return world.state.frames[loop.value().query].travelled;
+    };
+    // the first frame from there on: frames are a metre apart
+    EXPECT_NEAR(query_m(world.end_m()), last_m + beyond_m + 0.5, 0.51);
+    EXPECT_NEAR(query_m(world.end_m() - 60), first_m - beyond_m + 0.5, 0.51);
+    EXPECT_NEAR(query_m(world.end_m() - 30), world.end_m() - 30, 1e-9);
+  }
+}
+
+TEST(LoopMeter, TheMatchIsTheNearestOldCameraThatSawTheObjectsOrStoodBetweenItsViews) {
+  const TwoPasses world;
+  const CommonTrees common(world);
+  LoopOptions options;
+  options.acceptance.max_heading_sigma_rad = 10;
+  const LoopMeter meter(world.state, world.passes, options);
+  const auto match = [&](int query) {
+    const double query_m = world.state.frames[query].travelled;
+    return meter.Measure(common.objects(), query_m, 50).value().match;
+  };
+  EXPECT_EQ(match(TwoPasses::kSecond), 0) << "the very first frame";
+  EXPECT_EQ(match(TwoPasses::kSecond + 23), 23);
+  int last = 0;
+  for (const PassObject& pass : world.passes.passes())
+    if (pass.last_m < 200) last = std::max(last, pass.sightings.back().first);
+  ASSERT_LT(last, 58);
+  EXPECT_EQ(match(TwoPasses::kSecond + 60), last);
+}
+
+// The camera's up as the measurement has it, where roll and pitch come from levelling alone.
+class LoopMeterLevelling : public testing::Test {
+ protected:
+  void Roll(int frame, double angle_rad) {
+    const Pose T = world_.state.frames[frame].T_world_cam;
+    world_.state.frames.SetPose(frame, T * Pose(lie::SO3<double>::RotZ(angle_rad), Vec3::Zero()));
+  }
+  // The turn between a level camera's up and the measured one. [rad]
+  double Tilt(int query, int match) const {
+    const LoopOptions options = ExactOptions();
+    const LoopMeter meter(world_.state, world_.passes, options);
+    const CommonTrees common(world_);
+    const Pose T = meter.MeasureBetween(query, match, common.objects()).value().row.T_match_query;
+    return (T.so3() * Vec3(0, -1, 0)).cross(Vec3(0, -1, 0)).norm();
+  }
+  TwoPasses world_;
+};
+
+TEST_F(LoopMeterLevelling, AskedOfTheCamerasWithinTwentyMetresOfPath) {
+  const FrameStore& frames = world_.state.frames;
+  const int query = TwoPasses::kSecond + 10;
+  EXPECT_LT(Tilt(query, 30), 1e-9);
+  for (const int change : {-13, -12, -11, -1, 1, 2, 19, 20, 21}) {
+    Roll(query + change, 0.1);
+    const double metres = std::abs(frames[query + change].travelled - frames[query].travelled);
+    if (metres <= 20)
+      EXPECT_GT(Tilt(query, 30), 1e-3) << metres;
+    else
+      EXPECT_LT(Tilt(query, 30), 1e-9) << metres;
+    Roll(query + change, -0.1);
+  }
+}
+
+TEST_F(LoopMeterLevelling, AtBothEndsOfTheRun) {
+  const int last = world_.state.frames.size() - 1;
+  for (int i = 1; i <= 20; ++i) Roll(i, 0.1);
+  EXPECT_GT(Tilt(TwoPasses::kSecond + 30, 0), 0.08);
+  for (int i = 1; i <= 20; ++i) Roll(i, -0.1);
+  for (int i = 1; i <= 20; ++i) Roll(last - i, 0.1);
+  EXPECT_GT(Tilt(last, 30), 0.08);
 }
 
 TEST(ViewpointChange, IsTheHorizontalAngleBetweenViewingDirections) {

@@ -23,7 +23,23 @@ struct TwoPasses {
   std::vector<std::pair<LandmarkId, LandmarkId>> trees;  ///< on the first and on the second pass
 
   explicit TwoPasses(const Pose& drift_of_second = {}, bool opposite = false, int count = 24)
+      : TwoPasses(drift_of_second, opposite, Strewn(count)) {}
+
+  /// Trees at these places; or other objects, which face along x on the first pass.
+  TwoPasses(const Pose& drift_of_second, bool opposite, const std::vector<Vec3>& places,
+            Symmetry symmetry = Symmetry::kFull)
       : drift(drift_of_second) {
+    for (const Vec3& place : places)
+      trees.push_back({AddTree(Pose(), place, symmetry), AddTree(drift, place, symmetry)});
+    for (int i = 0; i < kFrames; ++i) AddFrame(Pose::Trans(0, 0, i), 0);
+    for (int step = 1; step < 48; ++step)
+      AddFrame(Pose::Trans(Detour(5. * step, opposite)), step / 48.);
+    for (int i = 0; i < kFrames; ++i)
+      AddFrame(opposite ? Pose::Trans(0, 0, 60 - i) * Pose::RotY(M_PI) : Pose::Trans(0, 0, i), 1);
+  }
+
+  /// Places on both sides of the way.
+  static std::vector<Vec3> Strewn(int count) {
     std::mt19937 random(5);
     const auto uniform = [&](double low, double high) {
       return low + (high - low) * static_cast<double>(random() % 100001) * 1e-5;
@@ -31,12 +47,7 @@ struct TwoPasses {
     std::vector<Vec3> places;
     for (int i = 0; i < count; ++i)
       places.push_back({(i % 2 == 0 ? -1 : 1) * uniform(3, 9), 1, uniform(5, 55)});
-    for (const Vec3& place : places) trees.push_back({AddTree(place), AddTree(drift * place)});
-    for (int i = 0; i < kFrames; ++i) AddFrame(Pose::Trans(0, 0, i), 0);
-    for (int step = 1; step < 48; ++step)
-      AddFrame(Pose::Trans(Detour(5. * step, opposite)), step / 48.);
-    for (int i = 0; i < kFrames; ++i)
-      AddFrame(opposite ? Pose::Trans(0, 0, 60 - i) * Pose::RotY(M_PI) : Pose::Trans(0, 0, i), 1);
+    return places;
   }
 
   /// Path up to the last frame. [m]
@@ -46,12 +57,12 @@ struct TwoPasses {
   Pose TrueLoop(int match, int query) const { return truth[match].inverse() * truth[query]; }
 
  private:
-  LandmarkId AddTree(const Vec3& position) {
+  LandmarkId AddTree(const Pose& moved, const Vec3& place, Symmetry symmetry) {
     MapLandmark landmark;
     landmark.label = "Tree";
-    landmark.symmetry = Symmetry::kFull;
+    landmark.symmetry = symmetry;
     landmark.state = LandmarkState::kConfirmed;
-    landmark.pose = {position, 0};
+    landmark.pose = ToUpright(moved * ToPose({place, 0}, state.gravity()), state.gravity());
     landmark.dims = Vec3(0.4, 0.4, 4);
     return state.map.Insert(landmark);
   }
