@@ -88,6 +88,57 @@ TEST(TrackFinder, ATrackGoesOnFromAttemptToAttempt) {
   EXPECT_NE(third->track, second->track);
 }
 
+// Two objects beside the end of the way are fewer than have to agree.
+TEST(TrackFinder, ATrackSurvivesAStretchWithFewObjects) {
+  std::vector<Vec3> places = TwoPasses::Strewn(24);
+  for (Vec3& place : places) place.z() *= 0.7;
+  places.insert(places.end(), {Vec3(3, 1, 57), Vec3(-5, 1, 58)});
+  const TwoPasses world(Pose::Trans(5, 0, -3), false, places);
+  const PathGraph no_loops;
+  const auto finder = MakeTrackFinder(LoopOptions());
+  const auto find = [&](double back_m, double local_m) {
+    return finder->Find(
+        {world.state, world.passes, no_loops, {world.end_m() - back_m, 25, local_m, 0}});
+  };
+  const auto before = find(10, 75);
+  ASSERT_TRUE(before);
+  ASSERT_EQ(world.passes.Between(world.state, world.end_m() - 10, world.end_m(), 2).objects.size(),
+            2u);
+  EXPECT_FALSE(find(0, 10));
+  const auto after = find(0, 75);
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->track, before->track);
+}
+
+// Objects that are too close to each other propose no pose; the trajectory's is looked at anyway.
+TEST(TrackFinder, ThePlaceMayBeWhereTheTrajectoryHasIt) {
+  const std::vector<Vec3> heap{
+      {-5, 1, 30}, {-3.8, 1, 30.7}, {-4.6, 1, 31.5}, {-3.5, 1, 32.1}, {-5.2, 1, 32.4}};
+  LoopOptions options;
+  options.match.search.min_matches = 5;  // all of them
+  const auto here = Find(*MakeTrackFinder(options), TwoPasses(Pose(), false, heap));
+  ASSERT_TRUE(here);
+  EXPECT_EQ(here->loop.row.pairs.size(), heap.size());
+  EXPECT_FALSE(Find(*MakeTrackFinder(options), TwoPasses(Pose::Trans(20, 0, 0), false, heap)));
+  options.match.search.min_matches = 6;
+  EXPECT_FALSE(Find(*MakeTrackFinder(options), TwoPasses(Pose(), false, heap)));
+}
+
+// An even row of trees, which odometry puts one tree too far, and some that tell.
+TEST(TrackFinder, TheSecondScoreIsOfTheSecondBestPlace) {
+  std::vector<Vec3> places{{5, 1, 12}, {6, 1, 31}, {4, 1, 43}};
+  for (int i = 0; i < 6; ++i) places.push_back({-4, 1, 15. + 5 * i});
+  const TwoPasses world(Pose::Trans(0, 0, 5), false, places);
+  LoopOptions options;
+  options.tracks.max_tracks = 2;
+  const auto found = Find(*MakeTrackFinder(options), world);
+  ASSERT_TRUE(found);
+  const LoopClosure& row = found->loop.row;
+  EXPECT_GT(row.score, 0);
+  EXPECT_LT(row.second_score, 0);
+  EXPECT_LT(row.score + row.second_score, -1e-9) << "'nowhere' is a rival of both";
+}
+
 TEST(TrackFinder, ACloneGoesItsOwnWay) {
   const TwoPasses world(Pose::Trans(5, 0, -3));
   const auto finder = MakeTrackFinder(LoopOptions());

@@ -254,5 +254,27 @@ TEST(MatchLayouts, TheMirrorImageTurnsHeadingsToo) {
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
 }
 
+// The local map is the mirror image of a place, so its own mirror image is that place.
+TEST(MatchLayouts, TheMirrorImageTurnsPositionsToo) {
+  const std::vector<LayoutObject> map = Strewn(12, 40, 6);
+  std::vector<LayoutObject> mirrored = map;
+  for (LayoutObject& object : mirrored) object.position.y() *= -1;
+  SingleLookOptions options;
+  options.min_evidence = -1000;  // nothing but the mirror image refuses
+  options.min_margin = -1000;
+  const LayoutAnswer answer = MatchMaps(mirrored, map, {}, options);
+  ASSERT_FALSE(answer.hypotheses.empty());
+  EXPECT_EQ(answer.decision, LoopDecision::kNone);
+  EXPECT_THAT(answer.reason, testing::HasSubstr("mirror"));
+}
+
+TEST(MatchLayouts, AMirrorImageThatFitsNowhereSpeaksForThePose) {
+  const std::vector<LayoutObject> map = Strewn(12, 40, 6);
+  LayoutMatchOptions options;
+  options.search.min_matches = 12;
+  const LayoutAnswer answer = MatchMaps(map, map, options);
+  EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
+}
+
 }  // namespace
 }  // namespace sslcd
