@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "refine/trajectory_correction.h"
 #include "two_passes.h"
 
 namespace sslcd {
@@ -39,6 +40,43 @@ TEST(AgreesWithNewLoops, UntilTheTrajectoryHasDrifted) {
     EXPECT_EQ(AgreesWithNewLoops(world.state, ledger), metres == 0);
     ledger.attempts()[0].solved = true;
     EXPECT_TRUE(AgreesWithNewLoops(world.state, ledger)) << "not new any more";
+  }
+}
+
+// A new loop agrees within the region where nine of ten true ones are.
+TEST(AgreesWithNewLoops, UpToTheChi2OfNineTenths) {
+  constexpr double kChi2 = 10.645;  // six degrees of freedom
+  const TwoPasses world;
+  const double limit_m = 0.01 * std::sqrt(kChi2);  // by Accept's covariance
+  for (const double share : {0.99, 1.01}) {
+    LoopLedger ledger;
+    Accept(ledger, world, kFirst, kSecond, Pose::Trans(0, share * limit_m, 0));
+    EXPECT_EQ(AgreesWithNewLoops(world.state, ledger), share < 1);
+    Accept(ledger, world, kFirst + 5, kSecond + 5);
+    EXPECT_EQ(AgreesWithNewLoops(world.state, ledger), share < 1) << "each of them has to";
+  }
+}
+
+TEST(AgreesWithNewLoops, AsksNothingOfLoopsThatWereNeverAccepted) {
+  const TwoPasses world;
+  LoopLedger ledger;
+  Accept(ledger, world, kFirst, kSecond, Pose::Trans(3, 0, 0));
+  ledger.attempts()[0].in_graph = false;
+  EXPECT_TRUE(AgreesWithNewLoops(world.state, ledger));
+}
+
+TEST(CorrectTrajectory, NothingMovesWhereTheGraphCannotBeSolved) {
+  for (const bool robust : {true, false}) {
+    TwoPasses world(kDrift);
+    LoopLedger ledger;
+    Accept(ledger, world, kFirst, kSecond);
+    ledger.attempts()[0].row().covariance(0, 0) = std::nan("");
+    LoopOptions options;
+    options.robust = robust;
+    const FrameStore::Revision before = world.state.frames.revision();
+    EXPECT_FALSE(CorrectTrajectory(world.state, ledger, 1., options, {}));
+    EXPECT_EQ(world.state.frames.revision(), before);
+    EXPECT_TRUE(ledger.attempts()[0].accepted());
   }
 }
 
@@ -100,6 +138,34 @@ TEST(FuseMatchedObjects, OfAcceptedLoopsOnly) {
   EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
 }
 
+TEST(FuseMatchedObjects, PairsOfALandmarkThatIsGoneAreLeftOut) {
+  TwoPasses world;
+  LoopLedger ledger;
+  Accept(ledger, world, kFirst, kSecond);
+  auto& pairs = ledger.attempts()[0].pairs;
+  const std::size_t count = pairs.size();
+  pairs.push_back({LandmarkId{10000}, world.trees[0].first});
+  pairs.push_back({world.trees[0].second, LandmarkId{10000}});
+  EXPECT_EQ(FuseMatchedObjects(world.state, ledger, 1., {}).size(), count);
+}
+
+// Duplicates come to light where something was fused; else nothing has changed for them.
+TEST(FuseMatchedObjects, LooksForDuplicatesOnlyWhereItHasFusedSomething) {
+  TwoPasses world;
+  LoopLedger ledger;
+  Accept(ledger, world, kFirst, kSecond);
+  ASSERT_FALSE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
+  MapLandmark twin = world.state.map.at(ledger.attempts()[0].pairs[0].first);
+  std::vector<Sighting> of_one, of_twin;  // by turns
+  for (const Sighting& sighting : twin.sightings)
+    (of_one.size() > of_twin.size() ? of_twin : of_one).push_back(sighting);
+  world.state.map.SetSightings(twin.id, of_one);
+  twin.sightings = of_twin;
+  world.state.map.Insert(twin);
+  EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
+  EXPECT_EQ(FuseDuplicates(world.state, {}).size(), 1u);
+}
+
 TEST(AdjustAfterLoop, LeavesLongRunsAloneAndKeepsTheScale) {
   TwoPasses world;
   LoopOptions options;
@@ -110,6 +176,46 @@ TEST(AdjustAfterLoop, LeavesLongRunsAloneAndKeepsTheScale) {
   options.adjust_keyframes = 500;
   EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}).usable);
   EXPECT_NE(world.state.frames.revision(), before);
+}
+
+TEST(AdjustAfterLoop, UpToThatManyKeyframes) {
+  LoopOptions options;
+  TwoPasses world;
+  const auto keyframes = SelectKeyframes(world.state.frames, options.keyframe_m, kGraphKeyframeRad);
+  options.adjust_keyframes = static_cast<int>(keyframes.size()) - 1;
+  EXPECT_FALSE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+  ++options.adjust_keyframes;
+  EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+}
+
+// Trees that were fused, but a trajectory that was not corrected: far from its minimum.
+TEST(AdjustAfterLoop, TakesFourStepsAtMostAndLearnsNoNoise) {
+  TwoPasses world(Pose::Trans(20, 0, -10) * Pose::RotY(1));
+  LoopLedger ledger;
+  Accept(ledger, world, kFirst, kSecond);
+  ASSERT_FALSE(FuseMatchedObjects(world.state, ledger, 100., {}).empty());
+  const NoiseScale before = world.state.map.noise_scale();
+  const auto steps = [&](int max_iterations) {
+    TwoPasses copy = world;
+    WholeMapOptions whole_map;
+    whole_map.ba.max_iterations = max_iterations;
+    const int evaluations = AdjustAfterLoop(copy.state, 1., {}, whole_map).iterations;
+    EXPECT_EQ(copy.state.map.noise_scale().radial, before.radial);
+    return evaluations - 1;
+  };
+  EXPECT_EQ(steps(50), 4);
+  EXPECT_EQ(steps(2), 2) << "fewer where fewer are allowed";
+}
+
+// Objects say that odometry is right, but the scale is the refinement's to find.
+TEST(AdjustAfterLoop, KeepsTheScaleThatItIsGiven) {
+  const auto length_with = [](double scale) {
+    TwoPasses world;
+    EXPECT_TRUE(AdjustAfterLoop(world.state, scale, {}, {}).usable);
+    return world.state.frames[60].T_world_cam.translation().norm();
+  };
+  EXPECT_NEAR(length_with(1), 60, 1e-3);
+  EXPECT_GT(length_with(1.1), 61);
 }
 
 TEST(LayoutChange, TakesTheLayoutAroundACameraAlong) {
