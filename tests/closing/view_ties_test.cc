@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/view_ties.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "loop_drives.h"
@@ -63,6 +64,21 @@ TEST(TieViews, NoneWhereNoLoopSaysWhereToLook) {
   });
   EXPECT_TRUE(TieViews(ThereAndBack(), {}, never, options).empty());
   EXPECT_TRUE(TieViews({}, {}, never, options).empty());
+}
+
+TEST(TieViews, ReachAsMuchPathAsTheKeyAllows) {
+  const auto frames = ThereAndBack();
+  const auto align =
+      OneByOne([](const ViewPair& pair) { return std::optional(Measured(pair.T_a_b_guess)); });
+  LoopOptions options;
+  for (const double reach_m : {40., 80., 120.}) {
+    options.views.reach_m = reach_m;
+    double farthest_m = 0;
+    for (const ViewTie& tie : TieViews(frames, {}, align, options))
+      farthest_m = std::max(farthest_m, frames[tie.to].travelled - frames[tie.from].travelled);
+    EXPECT_LE(farthest_m, reach_m);
+    EXPECT_GT(farthest_m, reach_m - 2 * options.views.every_m);
+  }
 }
 
 TEST(TieViews, AGoodOdometryNeedsNoLoop) {

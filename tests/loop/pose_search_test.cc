@@ -48,6 +48,20 @@ TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
   }
 }
 
+// Each shift along an even row is a pose.
+TEST(SearchPoses, NoMorePosesThanAreRefined) {
+  std::vector<LayoutObject> row;
+  for (int i = 0; i < 12; ++i) row.push_back(ObjectAt({6. * i, 0, 0}));
+  EXPECT_GT(Search(row, row).size(), 3u);
+  PoseSearchOptions options;
+  for (const int refine : {1, 3}) {
+    options.refine = refine;
+    const auto found = Search(row, row, options);
+    EXPECT_FALSE(found.empty());
+    EXPECT_LE(static_cast<int>(found.size()), refine);
+  }
+}
+
 TEST(SearchPoses, TheOrderOfTheObjectsDoesNotMatter) {
   const std::vector<LayoutObject> map = Strewn(60, 70, 4);
   std::vector<LayoutObject> local = SeenFrom(map, kPose, {0, 0}, 18, 0.2, 5);

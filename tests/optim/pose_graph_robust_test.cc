@@ -282,14 +282,18 @@ TEST(RobustPoseGraph, LoopsAreRuledOutFromDriftFactorTimesTheirLimitInSigmas) {
 
 // As many true loops as these would bring their degrees of freedom along as misfit.
 TEST(RobustPoseGraph, ALoneLoopIsKeptUpToItsLimit) {
-  const double limit = std::sqrt(Chi2Quantile(RobustPoseGraphOptions().inlier_probability, 6));
-  for (const auto& [sigmas, kept] :
-       {std::pair<double, int>{2.4, 1}, {0.97 * limit, 1}, {1.03 * limit, 0}}) {
-    PoseGraph graph = DriveWithLoops(sigmas);
-    graph.edges.resize(graph.edges.size() - 11);
-    const RobustPoseGraphSummary summary = SolveRobust(graph, {});
-    EXPECT_EQ(summary.loops_kept, kept) << sigmas;
-    EXPECT_EQ(summary.rounds == 0, sigmas * sigmas <= 6) << "nothing to decide";
+  RobustPoseGraphOptions options;
+  for (const double probability : {0.9, 0.99, 0.9999}) {  // a higher one: a farther limit
+    options.inlier_probability = probability;
+    const double limit = std::sqrt(Chi2Quantile(probability, 6));
+    for (const auto& [sigmas, kept] :
+         {std::pair<double, int>{2.4, 1}, {0.97 * limit, 1}, {1.03 * limit, 0}}) {
+      PoseGraph graph = DriveWithLoops(sigmas);
+      graph.edges.resize(graph.edges.size() - 11);
+      const RobustPoseGraphSummary summary = SolveRobust(graph, options);
+      EXPECT_EQ(summary.loops_kept, kept) << sigmas;
+      EXPECT_EQ(summary.rounds == 0, sigmas * sigmas <= 6) << "nothing to decide";
+    }
   }
 }
 

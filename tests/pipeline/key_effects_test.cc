@@ -24,10 +24,13 @@ const std::map<std::string, std::string>& ShownElsewhere() {
       {"filter.max_size_m", "perception/filter_test.cc: no object is that large"},
       {"loop.match.likelihood.appearance.opposite_side",
        "loop/appearance_likelihood_test.cc: both laps go the same way"},
-      {"loop.match.search.refine", "loop/pose_search_test.cc: the best pose is the first"},
+      {"loop.match.search.refine",
+       "loop/pose_search_test.cc, NoMorePosesThanAreRefined: the best pose is the first"},
       {"loop.graph.drift_factor", "optim/pose_graph_robust_test.cc: no loop is false"},
-      {"loop.graph.inlier_probability", "optim/pose_graph_robust_test.cc: all loops are good"},
-      {"loop.views.reach_m", "closing/view_ties_test.cc: the block is small"}};
+      {"loop.graph.inlier_probability",
+       "optim/pose_graph_robust_test.cc, ALoneLoopIsKeptUpToItsLimit: all loops are good"},
+      {"loop.views.reach_m",
+       "closing/view_ties_test.cc, ReachAsMuchPathAsTheKeyAllows: the block is small"}};
   return keys;
 }
 
