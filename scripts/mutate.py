@@ -10,9 +10,9 @@
 A mutant is one edit of one source file: a comparison, an arithmetic or logical operator, a
 constant, a sign, a dropped `!`, min for max, true for false. It is written to a temporary folder,
 compiled there with the build folder's flags but not optimised, and linked before the library into a
-copy of the test binary: sources and build folder stay as they are. Killed: a test fails, crashes or
-takes ten times as long. The same seed picks the same sample. Exit status 1 if fewer than
---min-killed percent of the mutants that compile are killed.
+copy of the test binary: sources and build folder stay as they are. The headers are compiled once.
+Killed: a test fails, crashes or takes ten times as long. The same seed picks the same sample. Exit
+status 1 if fewer than --min-killed percent of the mutants that compile are killed.
 """
 import argparse
 import hashlib
@@ -62,6 +62,8 @@ WORDS = {"std::min": "std::max", "std::max": "std::min", "minCoeff": "maxCoeff",
          "all_of": "any_of"}
 # Where the boundary counts: between whole numbers. No two real results are equal but by design.
 COUNTS = re.compile(r"size\(\)|static_cast|count|agree|sightings|[<>]=? \d+\b(?!\.)")
+# Unit tests need no data; no mutant is compiled twice.
+ENVIRONMENT = {**os.environ, "SSLCD_DATA_DIR": "/nonexistent", "CCACHE_DISABLE": "1"}
 GUARD = 1e-6  # constants this small guard against rounding: no edit of them can be noticed
 
 
@@ -152,8 +154,13 @@ class Bench:
                      "e.g. cmake --preset release -B build/mutate -DCMAKE_UNITY_BUILD=OFF, build it "
                      "and name it with --build")
         flags = shlex.split(entry["command"].split(" -o ")[0])  # -o OBJECT -c SOURCE come last
-        self.compile = [*flags, "-O0", "-w", "-iquote", str(source.parent), "-o", f"{self.copy}.o",
-                        "-c", str(self.copy)]
+        flags += ["-O0", "-w", "-iquote", str(source.parent)]
+        headers = self.folder / "headers.h"
+        headers.write_text("\n".join(re.findall(r"^#include .*", source.read_text("utf-8"), re.M)))
+        subprocess.run([*flags, "-x", "c++-header", str(headers), "-o", f"{headers}.gch"],
+                       cwd=build, check=True, env=ENVIRONMENT)
+        self.compile = [*flags, "-include", str(headers), "-o", f"{self.copy}.o", "-c",
+                        str(self.copy)]
         lines = subprocess.run(["ninja", "-C", str(build), "-t", "commands", target], check=True,
                                capture_output=True, text=True).stdout.splitlines()
         link = re.search(r"(?:^: && |^)(\S*(?:\+\+|cc)\S* .*?)(?: && .*)?$", lines[-1]).group(1)
@@ -165,15 +172,15 @@ class Bench:
         """(killed, survived or did not compile; what the tests or the compiler said)"""
         self.copy.write_text(text, encoding="utf-8")
         for command in (self.compile, self.link):
-            done = subprocess.run(command, cwd=self.build, capture_output=True, text=True)
+            done = subprocess.run(command, cwd=self.build, capture_output=True, text=True,
+                                  env=ENVIRONMENT)
             if done.returncode != 0:
                 return "did not compile", done.stderr
         command = [str(self.binary), f"--gtest_filter={self.filter}", "--gtest_fail_fast"]
-        environment = {**os.environ, "SSLCD_DATA_DIR": "/nonexistent"}  # unit tests need no data
         start = time.monotonic()
         try:
             done = subprocess.run(command, cwd=self.build, capture_output=True, text=True,
-                                  errors="replace", timeout=self.limit_s, env=environment)
+                                  errors="replace", timeout=self.limit_s, env=ENVIRONMENT)
         except subprocess.TimeoutExpired:
             return "killed", "too slow"
         if self.limit_s is None:
