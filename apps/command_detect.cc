@@ -54,7 +54,8 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
 void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections) {
   int with = 0, without = 0;
   for (const auto& frame : detections)
-    for (const Detection& detection : frame) ++(detection.colour.empty() ? without : with);
+    for (const Detection& detection : frame)
+      ++(detection.appearance[Cue::kColour].empty() ? without : with);
   if (with > 0 && without > 0)
     Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
                                 " detections have no colour (grey images, or boxes outside of the "

@@ -18,10 +18,10 @@ SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate
   // not unknown.
   if (detection.box)
     cues.iou = candidate.projected_box ? Iou(*detection.box, *candidate.projected_box) : 0.;
-  if (candidate.colour)
-    cues.histogram = candidate.colour->Compare(detection.colour, query.viewpoint_rad);
-  if (candidate.embedding)
-    cues.embedding = candidate.embedding->Compare(detection.embedding, query.viewpoint_rad);
+  if (candidate.appearance == nullptr) return cues;
+  for (const CueRow& row : kCueRows)  // Eqs. 5 and 6
+    cues.appearance[row.cue] = (*candidate.appearance)[row.cue].Compare(
+        detection.appearance[row.cue], query.viewpoint_rad);
   return cues;
 }
 

@@ -11,8 +11,7 @@ std::optional<double> AssociationScore(const SimilarityCues& cues, double lambda
     weights += weight;
   };
   add(cues.iou, lambda);
-  add(cues.histogram, lambda * (1 - lambda));
-  add(cues.embedding, (1 - lambda) * (1 - lambda));
+  for (const CueRow& row : kCueRows) add(cues.appearance[row.cue], row.weight(lambda));
   if (weights <= 0) return std::nullopt;
   return sum / weights;
 }

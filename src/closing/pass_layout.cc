@@ -58,18 +58,17 @@ PassLayout PassMap::Between(const MapState& state, double from_m, double to_m,
     if (latest == all.rend()) continue;
     const PassObject& pass = passes_[*latest];
     const auto place = MeanPlace(pass, state, noise_, {from_m, to_m, min_sightings});
-    if (place) Append(state, {id}, *place, {pass.colour, pass.embedding}, layout);
+    if (place) Append(state, {id}, *place, pass.appearance, layout);
   }
   return layout;
 }
 
 void PassMap::Append(const MapState& state, LandmarkId id, const MeanSighting& place,
-                     const Appearance& appearance, PassLayout& layout) const {
+                     const PerCue<Gallery>& appearance, PassLayout& layout) const {
   const MapLandmark& landmark = state.map.at(id);
   LayoutObject object = ObjectOf(landmark, state.gravity(), place);
   object.label = LabelNumber(landmark.label);
-  object.colour = appearance.colour.Views();
-  object.embedding = appearance.embedding.Views();
+  for (const CueRow& row : kCueRows) object.appearance[row.cue] = appearance[row.cue].Views();
   if (!object.position.allFinite()) return;
   layout.objects.push_back(std::move(object));
   layout.places.push_back(place.pose);
@@ -111,11 +110,9 @@ void PassMap::AppendBefore(const MapState& state, int id, double to_m, int min_s
                            PassLayout& layout) const {
   const auto sum = SumBefore(state, id, to_m, min_sightings);
   if (!sum) return;
-  Appearance appearance{Gallery(galleries_), Gallery(galleries_)};
-  for (const PassObject* pass : sum->passes) {
-    appearance.colour.Merge(pass->colour);
-    appearance.embedding.Merge(pass->embedding);
-  }
+  PerCue<Gallery> appearance{Gallery(galleries_)};
+  for (const PassObject* pass : sum->passes)
+    for (const CueRow& row : kCueRows) appearance[row.cue].Merge(pass->appearance[row.cue]);
   Append(state, {id}, sum->Mean(), appearance, layout);
 }
 

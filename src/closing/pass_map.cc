@@ -24,15 +24,15 @@ void PassMap::Take(const FrameRecord& frame, int index, const std::vector<Detect
       PassObject& fresh = passes_.emplace_back();
       fresh.id = id;
       fresh.first_m = frame.travelled;
-      fresh.colour = fresh.embedding = Gallery(galleries_);
+      fresh.appearance = PerCue<Gallery>(Gallery(galleries_));
     }
     PassObject& pass = passes_[open_[id.value]];
     pass.last_m = frame.travelled;
     pass.sightings.push_back({index, static_cast<int>(d)});
     const Vec3 camera = seen[d].T_cam_object.inverse().translation();
     const double viewpoint = std::atan2(camera.y(), camera.x());
-    pass.colour.Add(seen[d].colour, viewpoint);
-    pass.embedding.Add(seen[d].embedding, viewpoint);
+    for (const CueRow& row : kCueRows)
+      pass.appearance[row.cue].Add(seen[d].appearance[row.cue], viewpoint);
   }
 }
 
@@ -68,8 +68,8 @@ void PassMap::Rebuild(const MapState& state) {
     for (const auto& sighting : old.sightings) {
       const auto pass = now.find(sighting);
       if (pass == now.end() || ++shares[pass->second] != half) continue;
-      passes_[pass->second].colour.Merge(old.colour);
-      passes_[pass->second].embedding.Merge(old.embedding);
+      for (const CueRow& row : kCueRows)
+        passes_[pass->second].appearance[row.cue].Merge(old.appearance[row.cue]);
       break;
     }
   }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sslcd/association/gallery.h"
+#include "sslcd/core/cue.h"
 #include "sslcd/core/layout.h"
 #include "sslcd/map/map_state.h"
 
@@ -27,8 +28,8 @@ struct PassObject {
   int anchor = -1;
   /// where the pass puts the object; it moves with its anchor
   Pose T_anchor_object;
-  double height_m = 0;        ///< over the camera that saw it from nearest
-  Gallery colour, embedding;  ///< what it looked like on this pass
+  double height_m = 0;         ///< over the camera that saw it from nearest
+  PerCue<Gallery> appearance;  ///< what it looked like on this pass
 };
 
 /// Objects as matching sees them, and where they are in the world, in step. The height of a layout
@@ -110,9 +111,6 @@ class PassMap {
 
  private:
   struct Sum;
-  struct Appearance {
-    Gallery colour, embedding;
-  };
   void Take(const FrameRecord& frame, int index, const std::vector<Detection>& seen,
             const MapState& state);
   void FinishOld(const MapState& state);
@@ -121,7 +119,7 @@ class PassMap {
   void AppendBefore(const MapState& state, int id, double to_m, int min_sightings,
                     PassLayout& layout) const;
   void Append(const MapState& state, LandmarkId id, const MeanSighting& place,
-              const Appearance& appearance, PassLayout& layout) const;
+              const PerCue<Gallery>& appearance, PassLayout& layout) const;
   int LabelNumber(const std::string& label) const;
 
   DetectionNoise noise_;

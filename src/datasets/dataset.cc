@@ -69,8 +69,7 @@ class DatasetLoader {
   void AddFramesWithoutPoses();
   void AddDetections();
   void AddAppearance();
-  // returns how many are unusable
-  int AddVectors(const std::string& path, std::vector<float> Detection::*vector);
+  int AddVectors(const std::string& path, Cue cue);  // returns how many are unusable
   void WarnOfMoreImages();
   void CheckLabels();
   void AddGroundtruth();
@@ -206,8 +205,7 @@ void DatasetLoader::AddDetections() {
   CheckLabels();
 }
 
-int DatasetLoader::AddVectors(const std::string& path, std::vector<float> Detection::*vector) {
-  if (path.empty()) return 0;
+int DatasetLoader::AddVectors(const std::string& path, Cue cue) {
   const NpyMatrix matrix = ReadNpy(path);
   if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
     throw Error(ErrorKind::kBadInput, {path},
@@ -225,24 +223,26 @@ int DatasetLoader::AddVectors(const std::string& path, std::vector<float> Detect
         ++unusable;
         continue;
       }
-      (detection.*vector).assign(row, row + matrix.columns);
-      for (float& value : detection.*vector) value = static_cast<float>(value / std::sqrt(squares));
+      std::vector<float>& vector = detection.appearance[cue];
+      vector.assign(row, row + matrix.columns);
+      for (float& value : vector) value = static_cast<float>(value / std::sqrt(squares));
     }
   }
   return unusable;
 }
 
 void DatasetLoader::AddAppearance() {
-  if (const int unusable = AddVectors(layout_.embeddings, &Detection::embedding)) {
-    Warn(layout_.embeddings + ": left out " + std::to_string(unusable) +
-         " embedding(s) that are zero or not finite");
-  }
-  // A gap would be filled from the image, with a vector of another kind.
-  if (const int unusable = AddVectors(layout_.colours, &Detection::colour)) {
-    throw Error(ErrorKind::kBadInput, {layout_.colours},
-                std::to_string(unusable) +
-                    " colour vector(s) are zero or not finite: give every detection its colour, " +
-                    "or remove the file");
+  for (const CueRow& row : kCueRows) {
+    const std::string& path = layout_.appearance[row.cue];
+    const int unusable = path.empty() ? 0 : AddVectors(path, row.cue);
+    if (unusable == 0) continue;
+    const std::string count = std::to_string(unusable), name = row.name;
+    if (row.complete)
+      throw Error(ErrorKind::kBadInput, {path},
+                  count + " " + name +
+                      " vector(s) are zero or not finite: give every detection its " + name +
+                      ", or remove the file");
+    Warn(path + ": left out " + count + " " + name + "(s) that are zero or not finite");
   }
 }
 

@@ -140,10 +140,12 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
     layout.odometry_is_truth = false;
     layout.odometry = ignore_odometry ? "" : Resolve(root, request.odometry, sequence, "odometry");
   }
-  if (request.detections_policy == PartPolicy::kIgnored)
-    layout.detections = layout.embeddings = layout.colours = "";
-  else if (!request.detections.empty())
+  if (request.detections_policy == PartPolicy::kIgnored) {
+    layout.detections = "";
+    layout.appearance = {};
+  } else if (!request.detections.empty()) {
     layout.detections = Resolve(root, request.detections, sequence, "detections");
+  }
   if (!request.groundtruth.empty())
     layout.groundtruth = Resolve(root, request.groundtruth, sequence, "groundtruth");
   const auto missing = [&layout](const std::string& path, PartPolicy policy) {

@@ -8,6 +8,7 @@
 
 #include "datasets/image_size.h"
 #include "datasets/stamps.h"
+#include "sslcd/core/cue.h"
 #include "sslcd/formats/calib.h"
 
 namespace sslcd {
@@ -26,7 +27,8 @@ struct DatasetLayout {
   std::string odometry;     ///< pose file, or oxts packets (file or folder)
   std::string detections;   ///< file or folder, or tracklet_labels.xml
   std::string groundtruth;  ///< pose file or oxts packets
-  std::string times, calib, sequence_yaml, embeddings, colours;
+  std::string times, calib, sequence_yaml;
+  PerCue<std::string> appearance;    ///< the files of cues
   std::string images, images_right;  ///< folders of the left and right images
 
   std::function<std::vector<double>(const std::string& path)> read_times = ReadTimes;

@@ -49,8 +49,7 @@ DatasetLayout FindSequenceFolder(const std::string& folder) {
   layout.times = IfFile(root / "times.txt");
   layout.calib = IfFile(root / "calib.txt");
   layout.sequence_yaml = IfFile(root / "sequence.yaml");
-  layout.embeddings = IfFile(root / "embeddings.npy");
-  layout.colours = IfFile(root / "colours.npy");
+  for (const CueRow& row : kCueRows) layout.appearance[row.cue] = IfFile(root / row.file);
   const auto complete =
       std::find_if(kImagePairs.begin(), kImagePairs.end(), [&](const ImagePair& pair) {
         return HasImages(root / pair.left) && HasImages(root / pair.right);

@@ -30,19 +30,20 @@ std::string SequenceYaml(const SequenceFiles& files) {
 
 /// One row a detection; empty where none has such a vector, or where all should have one and some
 /// have not.
-std::string Npy(const Detections& detections, std::vector<float> Detection::*vector, bool all) {
+std::string Npy(const Detections& detections, const CueRow& cue) {
   NpyMatrix matrix;
   bool gaps = false;
   for (const auto& frame : detections) {
     for (const Detection& detection : frame) {
-      matrix.columns = std::max(matrix.columns, (detection.*vector).size());
-      gaps = gaps || (detection.*vector).empty();
+      const std::vector<float>& row = detection.appearance[cue.cue];
+      matrix.columns = std::max(matrix.columns, row.size());
+      gaps = gaps || row.empty();
     }
   }
-  if (matrix.columns == 0 || (all && gaps)) return "";
+  if (matrix.columns == 0 || (cue.complete && gaps)) return "";
   for (const auto& frame : detections) {
     for (const Detection& detection : frame) {
-      const std::vector<float>& row = detection.*vector;
+      const std::vector<float>& row = detection.appearance[cue.cue];
       matrix.values.insert(matrix.values.end(), row.begin(), row.end());
       matrix.values.resize(++matrix.rows * matrix.columns, 0.f);
     }
@@ -70,8 +71,7 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   write_or_remove("groundtruth.txt", files.groundtruth ? TumText(*files.groundtruth) : "");
   write("detections.txt", DetectionsText(files.detections));
   write("sequence.yaml", SequenceYaml(files));
-  write_or_remove("embeddings.npy", Npy(files.detections, &Detection::embedding, false));
-  write_or_remove("colours.npy", Npy(files.detections, &Detection::colour, true));
+  for (const CueRow& cue : kCueRows) write_or_remove(cue.file, Npy(files.detections, cue));
   if (!files.config_yaml.empty()) write("config.yaml", files.config_yaml);
   WriteFilesAtomically(written);
   for (const std::filesystem::path& path : removed) {

@@ -58,12 +58,12 @@ std::vector<Detection> ObjectFinder::Find(int frame, const StereoView& images,
   if (embedder_) {
     std::vector<std::vector<float>> vectors = embedder_->Embed(images.left, boxes, &report.timing);
     for (std::size_t i = 0; i < detections.size(); ++i)
-      detections[i].embedding = std::move(vectors[i]);
+      detections[i].appearance[Cue::kEmbedding] = std::move(vectors[i]);
   }
   if (images.left.channels == 3) {
     const ScopedTimer timer(report.timing, "colour");
     for (std::size_t i = 0; i < detections.size(); ++i)
-      detections[i].colour = ColourVector(images.left, boxes[i], colour_);
+      detections[i].appearance[Cue::kColour] = ColourVector(images.left, boxes[i], colour_);
   }
   return detections;
 }

@@ -7,13 +7,6 @@
 namespace sslcd {
 namespace {
 
-// Standard deviation of the cosine of two embeddings about its mean. Set by hand.
-constexpr double kEmbeddingSigma = 0.12;
-// Cosine of two colour signatures: its mean for one object and for two, and its standard deviation.
-// Set by hand for ColourOptions::Method::kRobust.
-constexpr double kSameColour = 0.85, kOtherColour = 0.6, kColourSigma = 0.2;
-constexpr double kColourShare = 1. / 3;  // of the limit: light changes colours
-
 double Dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
@@ -54,28 +47,39 @@ double MeanOverViews(const std::vector<AppearanceView>& a, const std::vector<App
 
 }  // namespace
 
+PerCue<CosineStatistics> CosinesOfTable() {
+  PerCue<CosineStatistics> cosines;
+  for (const CueRow& row : kCueRows) cosines[row.cue] = row.cosine;
+  return cosines;
+}
+
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options) {
-  visitor.Real("same_side", options.same_side, -1, 1,
+  CosineStatistics& embedding = options.cosine[Cue::kEmbedding];
+  visitor.Real("same_side", embedding.same_side, -1, 1,
                "mean cosine of one object's embeddings, seen from one side");
-  visitor.Real("opposite_side", options.opposite_side, -1, 1,
+  visitor.Real("opposite_side", embedding.opposite_side, -1, 1,
                "mean cosine of one object's embeddings, seen from opposite sides");
-  visitor.Real("other_object", options.other_object, -1, 1,
+  visitor.Real("other_object", embedding.other_object, -1, 1,
                "mean cosine of different objects' embeddings");
   visitor.Real("limit", options.limit, 0, 100,
                "most evidence of one object's appearance, for or against [nats]");
 }
 
 double AppearanceGain(const LayoutObject& a, const LayoutObject& b, const AppearanceOptions& o) {
-  const double embedding =
-      MeanOverViews(a.embedding, b.embedding, [&](const auto& p, const auto& q) {
-        const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
-        const double same = o.opposite_side + side * (o.same_side - o.opposite_side);
-        return LogRatio(Dot(p.vector, q.vector), same, o.other_object, kEmbeddingSigma);
-      });
-  const double colour = MeanOverViews(a.colour, b.colour, [&](const auto& p, const auto& q) {
-    return LogRatio(Dot(p.vector, q.vector), kSameColour, kOtherColour, kColourSigma);
-  });
-  return std::clamp(embedding + std::clamp(colour, -o.limit / 3, o.limit / 3), -o.limit, o.limit);
+  double sum = 0;
+  for (const CueRow& row : kCueRows) {
+    const CosineStatistics& cosine = o.cosine[row.cue];
+    const double gain = MeanOverViews(
+        a.appearance[row.cue], b.appearance[row.cue], [&](const auto& p, const auto& q) {
+          const double side = 0.5 + 0.5 * SharedSide(p, q, a.symmetry);
+          const double same =
+              cosine.opposite_side + side * (cosine.same_side - cosine.opposite_side);
+          return LogRatio(Dot(p.vector, q.vector), same, cosine.other_object, cosine.sigma);
+        });
+    const double limit = row.limit_share.value_or(0.) * o.limit;
+    sum += row.limit_share ? std::clamp(gain, -limit, limit) : gain;
+  }
+  return std::clamp(sum, -o.limit, o.limit);
 }
 
 }  // namespace sslcd

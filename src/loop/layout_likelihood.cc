@@ -145,9 +145,11 @@ double LayoutLikelihood::HeadingGain(int i, const LayoutObject& global, double y
 
 double LayoutLikelihood::Appearance(int i, int j) const {
   const LayoutObject &local = local_[i], &global = index_.objects()[j];
-  if ((local.embedding.empty() || global.embedding.empty()) &&
-      (local.colour.empty() || global.colour.empty()))
-    return 0;
+  const bool comparable =
+      std::any_of(std::begin(kCueRows), std::end(kCueRows), [&](const CueRow& row) {
+        return !local.appearance[row.cue].empty() && !global.appearance[row.cue].empty();
+      });
+  if (!comparable) return 0;
   const auto [known, fresh] = appearance_.try_emplace({i, j}, 0.);
   if (fresh) known->second = AppearanceGain(local, global, options_.appearance);
   return known->second;

@@ -37,8 +37,9 @@ PaperCues CompareAsPrinted(const LayoutObject& local, const LayoutObject& global
   if (Known(local.dims) && Known(global.dims))
     cues.scale = Decay((local.dims - global.dims).norm());
   cues.position = Decay((local.position - global.position).norm());
-  cues.colour = Decay(MeanDot(local.colour, global.colour));
-  cues.embedding = Decay(MeanDot(local.embedding, global.embedding));
+  for (const CueRow& row : kCueRows)
+    cues.appearance[row.cue] =
+        Decay(MeanDot(local.appearance[row.cue], global.appearance[row.cue]));
   return cues;
 }
 
@@ -51,8 +52,7 @@ std::optional<double> PaperSimilarity(const PaperCues& cues, double mu) {
   };
   add(cues.scale, mu);
   add(cues.position, mu);
-  add(cues.colour, 1 - mu);
-  add(cues.embedding, 1 - mu);
+  for (const CueRow& row : kCueRows) add(cues.appearance[row.cue], 1 - mu);
   if (!(weights > 0)) return std::nullopt;
   return 2 * sum / weights;
 }

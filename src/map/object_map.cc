@@ -165,8 +165,7 @@ AssociationCandidate ObjectMap::CandidateOf(const MapLandmark& landmark, const V
   candidate.viewpoint_rad = Viewpoint(T_cam_object);
   if (view.camera != nullptr)
     candidate.projected_box = ProjectCuboid(T_cam_object, landmark.dims, *view.camera);
-  candidate.colour = &landmark.colour;
-  candidate.embedding = &landmark.embedding;
+  candidate.appearance = &landmark.appearance;
   return candidate;
 }
 
@@ -190,8 +189,7 @@ void ObjectMap::Create(const AssociationQuery& query, const View& view) {
   const Gallery::Mode mode = association_.method == AssociationOptions::Method::kPaper
                                  ? Gallery::Mode::kMean
                                  : Gallery::Mode::kByViewpoint;
-  landmark.colour = Gallery(mode);
-  landmark.embedding = Gallery(mode);
+  landmark.appearance = PerCue<Gallery>(Gallery(mode));
   const LandmarkId id = Insert(std::move(landmark));
   Update(landmarks_.at(id.value), query, view);
 }
@@ -213,8 +211,8 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
     LearnNoise(landmark, detection, view);
 
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
-  landmark.colour.Add(detection.colour, query.viewpoint_rad);
-  landmark.embedding.Add(detection.embedding, query.viewpoint_rad);
+  for (const CueRow& row : kCueRows)
+    landmark.appearance[row.cue].Add(detection.appearance[row.cue], query.viewpoint_rad);
   landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score,
                                 detection.T_cam_object, detection.dims});
   landmark.last_seen = view.stamp;
@@ -345,8 +343,8 @@ void ObjectMap::Fuse(LandmarkId keep, LandmarkId drop) {
   for (const Sighting& sighting : kept.sightings) by_frame[sighting.frame] = sighting;
   std::vector<Sighting> merged;
   for (const auto& [frame, sighting] : by_frame) merged.push_back(sighting);
-  kept.colour.Merge(dropped.colour, dropped.pose.yaw - kept.pose.yaw);
-  kept.embedding.Merge(dropped.embedding, dropped.pose.yaw - kept.pose.yaw);
+  for (const CueRow& row : kCueRows)
+    kept.appearance[row.cue].Merge(dropped.appearance[row.cue], dropped.pose.yaw - kept.pose.yaw);
   kept.last_seen = std::max(kept.last_seen, dropped.last_seen);
   kept.last_seen_at = std::max(kept.last_seen_at, dropped.last_seen_at);
   SetSightings(drop, {});

@@ -24,7 +24,7 @@ void CheckOrder(const NamedValue& small, const NamedValue& large, const char* ot
 void CheckLoop(const LoopOptions& loop, std::vector<FieldProblem>& problems) {
   CheckOrder({"loop.lag_m", loop.lag_m}, {"loop.layout.local_m", loop.layout.local_m},
              "the query camera would stand before the local map begins", problems);
-  const AppearanceOptions& looks = loop.match.likelihood.appearance;
+  const CosineStatistics& looks = loop.match.likelihood.appearance.cosine[Cue::kEmbedding];
   const std::string section = "loop.match.likelihood.appearance.";
   const std::string same = section + "same_side", opposite = section + "opposite_side",
                     other = section + "other_object";

@@ -42,10 +42,7 @@ void CheckFrame(const Frame& frame, const FrameStore& frames) {
 
 // The store keeps what was seen, not how it looked: passes and landmarks do that.
 std::vector<Detection> WithoutAppearance(std::vector<Detection> detections) {
-  for (Detection& detection : detections) {
-    detection.colour.clear();
-    detection.embedding.clear();
-  }
+  for (Detection& detection : detections) detection.appearance = {};
   return detections;
 }
 

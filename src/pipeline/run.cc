@@ -11,7 +11,7 @@ namespace {
 bool LacksColour(const Frame& frame) {
   return !frame.image_left.empty() &&
          std::any_of(frame.detections.begin(), frame.detections.end(),
-                     [](const auto& d) { return d.box && d.colour.empty(); });
+                     [](const auto& d) { return d.box && d.appearance[Cue::kColour].empty(); });
 }
 
 // Colour vectors for the detections that have a box and no colour yet; false when the image could
@@ -19,8 +19,8 @@ bool LacksColour(const Frame& frame) {
 bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
   return hooks.with_image(frame.image_left, [&](const ImageView& image) {
     for (Detection& detection : frame.detections)
-      if (detection.box && detection.colour.empty())
-        detection.colour = ColourVector(image, *detection.box, options);
+      if (detection.box && detection.appearance[Cue::kColour].empty())
+        detection.appearance[Cue::kColour] = ColourVector(image, *detection.box, options);
   });
 }
 

@@ -51,7 +51,7 @@ class Painter {
     const Vector vector =
         (std::sqrt((1 - blur) / noise_.same_side) * clear + std::sqrt(blur) * NewVector())
             .normalized();
-    detection.embedding.assign(vector.begin(), vector.end());
+    detection.appearance[Cue::kEmbedding].assign(vector.begin(), vector.end());
   }
 
   void Colour(const Vec3& paint, Detection& detection) {
@@ -75,7 +75,7 @@ class Painter {
     for (const Part& part : parts)
       signature.push_back(
           {ConeColour(part.rgb.x(), part.rgb.y(), part.rgb.z()), part.share / total});
-    detection.colour = ColourVector(signature, ColourOptions());
+    detection.appearance[Cue::kColour] = ColourVector(signature, ColourOptions());
   }
 
   Random& random() { return random_; }

@@ -43,7 +43,8 @@ std::vector<std::vector<Sighting>> SightingsOf(const HalvSequence& sequence) {
       if (id < 0 || !IsParkedCar(world.objects[id])) continue;
       const Vec3 camera =
           world.objects[id].PoseAt(0).inverse() * world.truth.poses[frame].translation();
-      by_car[id].push_back({&detection.embedding, std::atan2(camera.y(), camera.x())});
+      by_car[id].push_back(
+          {&detection.appearance[Cue::kEmbedding], std::atan2(camera.y(), camera.x())});
     }
   }
   std::vector<std::vector<Sighting>> sightings;

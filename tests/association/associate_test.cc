@@ -37,6 +37,29 @@ struct Scene {
   }
 };
 
+TEST(Associate, EachCueTellsNeighboursApart) {
+  for (const CueRow& row : kCueRows) {
+    Scene scene;
+    scene.Know(0, 10);
+    scene.Know(0.6, 10);
+    scene.See(0.3, 10);  // in the middle
+    const std::vector<float> red{1, 0}, blue{0, 1};
+    std::vector<PerCue<Gallery>> looks(2);
+    looks[0][row.cue].Add(red, 0);
+    looks[1][row.cue].Add(blue, 0);
+    for (std::size_t k = 0; k < 2; ++k) scene.candidates[k].appearance = &looks[k];
+    const Eigen::MatrixXd unknown = AssociationMatrix(scene.queries, scene.candidates, {});
+    EXPECT_NEAR(unknown(0, 0), unknown(0, 1), 1e-12) << row.name << ": a detection without it";
+    scene.detections[0].appearance[row.cue] = blue;
+    EXPECT_EQ(Associate(scene.queries, scene.candidates, {}), std::vector<int>{1}) << row.name;
+    scene.detections[0].appearance[row.cue] = red;
+    EXPECT_EQ(Associate(scene.queries, scene.candidates, {}), std::vector<int>{0}) << row.name;
+    for (AssociationCandidate& candidate : scene.candidates) candidate.appearance = nullptr;
+    EXPECT_EQ(AssociationMatrix(scene.queries, scene.candidates, {}), unknown)
+        << row.name << ": landmarks without it";
+  }
+}
+
 TEST(Associate, MatchesARowOfCarsOneToOne) {
   Scene scene;
   for (int i = 0; i < 5; ++i) scene.Know(2.5 * i, 10);

@@ -59,10 +59,7 @@ struct TwoVisits {
       FrameRecord record = to_come.front();
       to_come.erase(to_come.begin());
       const std::vector<Detection> seen = record.detections;
-      for (Detection& detection : record.detections) {
-        detection.colour.clear();
-        detection.embedding.clear();
-      }
+      for (Detection& detection : record.detections) detection.appearance = {};
       state.frames.Append(record);
       passes.AddFrame(state, seen);
     }
@@ -150,20 +147,21 @@ TEST(PassMap, RebuildingChangesNothing) {
   }
 }
 
-TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
+// A car that shows another side of this cue on each of its two visits.
+void ExpectTheLooksOfEachPass(Cue cue) {
   TwoVisits world;
   const LandmarkId car = world.Add({4, 1, 12}, "Car");
   world.See(car, 0, 5);
   world.See(car, 300, 305);
   for (FrameRecord& record : world.to_come)
     for (Detection& detection : record.detections)
-      detection.embedding =
+      detection.appearance[cue] =
           record.frame < 300 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
   world.Drive();
-  const auto mean_of_views = [](const LayoutObject& object) {
+  const auto mean_of_views = [cue](const LayoutObject& object) {
     Eigen::Vector2d sum(0, 0);
     double count = 0;
-    for (const AppearanceView& view : object.embedding) {
+    for (const AppearanceView& view : object.appearance[cue]) {
       sum += view.count * Eigen::Vector2d(view.vector[0], view.vector[1]);
       count += view.count;
     }
@@ -177,11 +175,19 @@ TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
     EXPECT_EQ(mean_of_views(old.objects[0]), Eigen::Vector2d(1, 0))
         << "nothing of the second visit";
     EXPECT_EQ(mean_of_views(recent.objects[0]), Eigen::Vector2d(0, 1));
-    EXPECT_TRUE(old.objects[0].colour.empty());
+    for (const CueRow& other : kCueRows)
+      EXPECT_EQ(old.objects[0].appearance[other.cue].empty(), other.cue != cue);
   };
   expect_both();
   world.passes.Rebuild(world.state);
   expect_both();
+}
+
+TEST(PassMap, EachPassKnowsHowItsObjectLooked) {
+  for (const CueRow& row : kCueRows) {
+    SCOPED_TRACE(row.name);
+    ExpectTheLooksOfEachPass(row.cue);
+  }
 }
 
 TEST(PassMap, WhatTakesPart) {

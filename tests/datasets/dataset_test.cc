@@ -243,8 +243,9 @@ TEST_F(SequenceFolder, EmbeddingsBelongToRows) {
   npy.append(reinterpret_cast<const char*>(values), sizeof(values));
   folder_.Write("embeddings.npy", npy);
   const Dataset dataset = Load();
-  EXPECT_THAT(dataset.frames[0].detections[0].embedding, testing::ElementsAre(0.6f, 0.8f));
-  EXPECT_TRUE(dataset.frames[2].detections[0].embedding.empty());
+  EXPECT_THAT(dataset.frames[0].detections[0].appearance[Cue::kEmbedding],
+              testing::ElementsAre(0.6f, 0.8f));
+  EXPECT_TRUE(dataset.frames[2].detections[0].appearance[Cue::kEmbedding].empty());
   EXPECT_THAT(dataset.warnings, Contains(HasSubstr("left out 1 embedding(s)")));
   folder_.Write("detections.txt", Row(0));
   Refuse({"embeddings.npy", "has 3 rows", "has 1"});
@@ -252,7 +253,8 @@ TEST_F(SequenceFolder, EmbeddingsBelongToRows) {
 
 TEST_F(SequenceFolder, ColoursBelongToRows) {
   folder_.Write("colours.npy", NpyBytes({3, 2, {3, 4, 9, 9, 1, 0}}));
-  EXPECT_THAT(Load().frames[0].detections[0].colour, testing::ElementsAre(0.6f, 0.8f));
+  EXPECT_THAT(Load().frames[0].detections[0].appearance[Cue::kColour],
+              testing::ElementsAre(0.6f, 0.8f));
   folder_.Write("colours.npy", NpyBytes({3, 2, {3, 4, 9, 9, 0, 0}}));
   Refuse({"colours.npy", "1 colour vector(s)", "remove the file"});
   folder_.Write("colours.npy", NpyBytes({2, 2, {3, 4, 9, 9}}));

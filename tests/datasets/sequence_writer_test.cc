@@ -70,8 +70,7 @@ TEST_F(SequenceWriter, WhatIsWrittenIsRead) {
       EXPECT_NEAR(read.score, written.score, 5e-4);
       EXPECT_LT((read.T_cam_object.inverse() * written.T_cam_object).Log().norm(), 2e-4);
       EXPECT_LT((read.dims - written.dims).norm(), 1e-4);
-      EXPECT_TRUE(read.colour.empty());
-      EXPECT_TRUE(read.embedding.empty());
+      EXPECT_EQ(read.appearance, PerCue<std::vector<float>>());
     }
   }
   EXPECT_EQ(dataset.frames[2].detections[0].row, 2);
@@ -123,29 +122,40 @@ TEST_F(SequenceWriter, GroundTruthComesBackBesideTheOdometry) {
   EXPECT_FALSE(WriteAndLoad().groundtruth) << "groundtruth.txt of before is gone";
 }
 
-TEST_F(SequenceWriter, EmbeddingsMayHaveGaps) {
-  files_.detections[0][0].embedding = {0.6f, 0.8f};
-  files_.detections[2][0].embedding = {1, 0};
-  const Dataset dataset = WriteAndLoad();
-  EXPECT_THAT(dataset.frames[0].detections[0].embedding, ElementsAre(0.6f, 0.8f));
-  EXPECT_THAT(dataset.frames[0].detections[1].embedding, IsEmpty());
-  EXPECT_THAT(dataset.frames[2].detections[0].embedding, ElementsAre(1, 0));
+TEST_F(SequenceWriter, EachCueIsReadAsItWasWritten) {
+  for (const CueRow& row : kCueRows) {
+    files_ = Street();
+    files_.detections[0][0].appearance[row.cue] = {0.6f, 0.8f};
+    files_.detections[0][1].appearance[row.cue] = {0, 1};
+    files_.detections[2][0].appearance[row.cue] = {1, 0};
+    const Dataset dataset = WriteAndLoad();
+    EXPECT_THAT(dataset.warnings, IsEmpty()) << row.name;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < files_.detections[i].size(); ++k)
+        EXPECT_EQ(dataset.frames[i].detections[k].appearance, files_.detections[i][k].appearance)
+            << row.name;
+    for (const CueRow& other : kCueRows)
+      EXPECT_EQ(Has(other.file), other.cue == row.cue) << other.name << " was there before";
+  }
 }
 
-TEST_F(SequenceWriter, ColoursMayNot) {
-  for (auto& frame : files_.detections)
-    for (Detection& detection : frame) detection.colour = {0.6f, 0, 0.8f};
-  EXPECT_THAT(WriteAndLoad().frames[2].detections[0].colour, ElementsAre(0.6f, 0, 0.8f));
-  files_.detections[0][1].colour.clear();
-  WriteAndLoad();
-  EXPECT_FALSE(Has("colours.npy")) << "nor is there an old one";
+TEST_F(SequenceWriter, SomeCuesMayHaveGaps) {
+  for (const CueRow& row : kCueRows) {
+    files_ = Street();
+    files_.detections[2][0].appearance[row.cue] = {1, 0};
+    const Dataset dataset = WriteAndLoad();
+    EXPECT_EQ(Has(row.file), !row.complete) << row.name;
+    EXPECT_THAT(dataset.frames[0].detections[0].appearance[row.cue], IsEmpty()) << row.name;
+    EXPECT_EQ(dataset.frames[2].detections[0].appearance[row.cue].empty(), row.complete)
+        << row.name;
+  }
 }
 
 TEST_F(SequenceWriter, WhatAnEarlierRunLeftGoes) {
-  files_.detections[0][0].embedding = {1, 0};
+  files_.detections[0][0].appearance[Cue::kEmbedding] = {1, 0};
   WriteAndLoad();
   EXPECT_TRUE(Has("embeddings.npy"));
-  files_.detections[0][0].embedding.clear();
+  files_.detections[0][0].appearance[Cue::kEmbedding].clear();
   files_.detections[2].clear();
   EXPECT_EQ(WriteAndLoad().rows_read, 2);
   EXPECT_FALSE(Has("embeddings.npy")) << "it would have a row too many";

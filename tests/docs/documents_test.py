@@ -71,6 +71,12 @@ class Documents(unittest.TestCase):
         text = '# A `b` c\n[1](#a-b-c) [2](#other) [3](none.md) [4](https://x.y/z)\n'
         self.assertEqual(broken_links('docs/made_up.md', text), ['#other', 'none.md'])
 
+    def test_files_of_cues_are_described(self):
+        files = re.findall(r'"(\w+\.npy)"', read('include/sslcd/core/cue.h'))
+        self.assertIn('colours.npy', files)
+        formats = read('docs/formats.md')
+        self.assertEqual([name for name in files if f'| `{name}` |' not in formats], [])
+
     def test_links_lead_somewhere(self):
         pages = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md']
         pages += [os.path.relpath(p, ROOT)

@@ -131,7 +131,8 @@ TEST_F(ImageFrontendTest, IsTheSameForAnyNumberOfThreads) {
     ASSERT_EQ(a[i].detections.size(), b[i].detections.size());
     for (std::size_t k = 0; k < a[i].detections.size(); ++k) {
       EXPECT_EQ(a[i].detections[k].row, b[i].detections[k].row);
-      EXPECT_EQ(a[i].detections[k].colour, b[i].detections[k].colour);
+      EXPECT_EQ(a[i].detections[k].appearance[Cue::kColour],
+                b[i].detections[k].appearance[Cue::kColour]);
       EXPECT_TRUE(a[i].detections[k].T_cam_object.matrix() ==
                   b[i].detections[k].T_cam_object.matrix());
     }

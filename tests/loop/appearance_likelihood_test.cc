@@ -18,7 +18,7 @@ AppearanceView View(double viewpoint_rad, double cosine) {
 
 LayoutObject Car(const AppearanceView& view) {
   LayoutObject car;
-  car.embedding = {view};
+  car.appearance[Cue::kEmbedding] = {view};
   return car;
 }
 
@@ -40,8 +40,8 @@ TEST(AppearanceGain, KnowsTheViewingAngle) {
 TEST(AppearanceGain, FromOppositeSidesIsJudgedByWhatIsExpectedThere) {
   const LayoutObject front = Car(View(0, 1)), back = Car(View(M_PI, 0.7)), side = Car(View(0, 0.7));
   AppearanceOptions usual, alike;
-  usual.opposite_side = 0.45;
-  alike.opposite_side = 0.7;
+  usual.cosine[Cue::kEmbedding].opposite_side = 0.45;
+  alike.cosine[Cue::kEmbedding].opposite_side = 0.7;
   usual.limit = alike.limit = 100;
   EXPECT_GT(AppearanceGain(front, back, alike), AppearanceGain(front, back, usual) + 0.1);
   EXPECT_EQ(AppearanceGain(front, side, alike), AppearanceGain(front, side, usual));
@@ -51,21 +51,41 @@ TEST(AppearanceGain, IsEvidenceAndNeverAGate) {
   const AppearanceOptions options;
   for (const double cosine : {-1., 0., 0.5, 1.})
     EXPECT_LE(std::abs(Gain(0, cosine)), options.limit);
-  LayoutObject a, b;
-  a.colour = {View(0, 1)};
-  b.colour = {View(0, 1)};
-  EXPECT_GT(AppearanceGain(a, b, options), 0);
-  EXPECT_LE(AppearanceGain(a, b, options), options.limit / 3);
+}
+
+TEST(AppearanceGain, EachCueAloneIsEvidenceUpToItsLimit) {
+  const AppearanceOptions options;
+  for (const CueRow& row : kCueRows) {
+    LayoutObject a, same, other;
+    a.appearance[row.cue] = {View(0, 1)};
+    same.appearance[row.cue] = {View(0, 1)};
+    other.appearance[row.cue] = {View(0, 0)};
+    const double limit = row.limit_share.value_or(1) * options.limit;
+    EXPECT_GT(AppearanceGain(a, same, options), 0) << row.name;
+    EXPECT_LE(AppearanceGain(a, same, options), limit) << row.name;
+    EXPECT_LT(AppearanceGain(a, other, options), 0) << row.name;
+    EXPECT_GE(AppearanceGain(a, other, options), -limit) << row.name;
+  }
+}
+
+TEST(AppearanceGain, CuesAddUpToTheLimit) {
+  const AppearanceOptions options;
+  LayoutObject a = Car(View(0, 1)), b = Car(View(0, 0.5));
+  const double embedding = AppearanceGain(a, b, options);
+  a.appearance[Cue::kColour] = b.appearance[Cue::kColour] = {View(0, 1)};
+  EXPECT_NEAR(AppearanceGain(a, b, options), embedding + options.limit / 3, 1e-12);
+  b.appearance[Cue::kEmbedding] = {View(0, 1)};
+  EXPECT_EQ(AppearanceGain(a, b, options), options.limit);
 }
 
 TEST(AppearanceGain, IsZeroWhereNothingCanBeCompared) {
   LayoutObject a = Car(View(0, 1)), b;
   EXPECT_EQ(AppearanceGain(a, b, {}), 0);
-  b.embedding = {{0, 1, {1, 0, 0}}};
+  b.appearance[Cue::kEmbedding] = {{0, 1, {1, 0, 0}}};
   EXPECT_EQ(AppearanceGain(a, b, {}), 0) << "vectors of different lengths";
-  b.embedding = {{0, 1, {NAN, 0}}};
+  b.appearance[Cue::kEmbedding] = {{0, 1, {NAN, 0}}};
   EXPECT_EQ(AppearanceGain(a, b, {}), 0);
-  b.embedding = {{0, 0, {1, 0}}};
+  b.appearance[Cue::kEmbedding] = {{0, 0, {1, 0}}};
   EXPECT_EQ(AppearanceGain(a, b, {}), 0) << "no sightings";
 }
 
@@ -98,7 +118,8 @@ TEST(Semantics, HeadingsOfFrontAndBackAlikeTellNothing) {
   EXPECT_EQ(MatchMaps(row, row).decision, LoopDecision::kAmbiguous);
 }
 
-TEST(Semantics, AppearanceSettlesAGrid) {
+// A grid of objects that differ in this cue alone.
+std::vector<LayoutObject> Grid(Cue cue) {
   std::vector<LayoutObject> grid;
   for (int i = 0; i < 30; ++i) {
     grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
@@ -107,11 +128,18 @@ TEST(Semantics, AppearanceSettlesAGrid) {
     float norm = 0;
     for (const float v : vector) norm += v * v;
     for (float& v : vector) v /= std::sqrt(norm);
-    grid.back().embedding = {{0, 1, vector}};
+    grid.back().appearance[cue] = {{0, 1, vector}};
   }
-  const LayoutAnswer answer = MatchMaps(grid, grid);
-  ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
-  EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(10, 20, 0)), 0.01);
+  return grid;
+}
+
+TEST(Semantics, EachCueSettlesAGrid) {
+  for (const CueRow& row : kCueRows) {
+    const std::vector<LayoutObject> grid = Grid(row.cue);
+    const LayoutAnswer answer = MatchMaps(grid, grid);
+    ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << row.name << ": " << answer.reason;
+    EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(10, 20, 0)), 0.01) << row.name;
+  }
 }
 
 }  // namespace

@@ -138,6 +138,26 @@ TEST_F(ObjectMapTest, FuseKeepsEverySightingOnce) {
   EXPECT_TRUE(map.Near({-30, 1, 20}, 5).empty());
 }
 
+TEST_F(ObjectMapTest, LandmarksRememberEachCueAndKeepItWhenFused) {
+  for (const CueRow& row : kCueRows) {
+    SCOPED_TRACE(row.name);
+    ObjectMap map = Make();
+    std::vector<Detection> seen = {See(0, {3, 1, 20}), See(0, {-30, 1, 20})};
+    seen[0].appearance[row.cue] = {1, 0};
+    seen[1].appearance[row.cue] = {0, 1};
+    map.AddFrame(0, 0, Camera(0), seen, nullptr);
+    const auto views = [&map](const CueRow& of) { return map.at({1}).appearance[of.cue].Views(); };
+    ASSERT_EQ(views(row).size(), 1u);
+    EXPECT_EQ(views(row)[0].vector, (std::vector<float>{1, 0}));
+    map.Fuse({1}, {2});
+    int sightings = 0;
+    for (const AppearanceView& view : views(row)) sightings += view.count;
+    EXPECT_EQ(sightings, 2);
+    for (const CueRow& other : kCueRows)
+      EXPECT_EQ(views(other).empty(), other.cue != row.cue) << other.name;
+  }
+}
+
 TEST_F(ObjectMapTest, EmptyFramesAndMatchAlone) {
   ObjectMap map = Make();
   EXPECT_TRUE(map.AddFrame(0, 0, Camera(0), {}, nullptr).matched.empty());

@@ -95,7 +95,7 @@ TEST(Options, AllThatDoesNotFitTogetherIsNamedAtOnce) {
   options.filter.min_size_m = options.filter.max_size_m + 1;
   options.association.gate_m = options.map.search_radius_m + 1;
   options.loop.lag_m = options.loop.layout.local_m + 1;
-  AppearanceOptions& looks = options.loop.match.likelihood.appearance;
+  CosineStatistics& looks = options.loop.match.likelihood.appearance.cosine[Cue::kEmbedding];
   looks.other_object = looks.opposite_side + 0.01;
   const std::vector<FieldProblem> problems = Check(options);
   std::vector<std::string> keys;

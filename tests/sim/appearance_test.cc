@@ -51,7 +51,8 @@ double MeanCosine(const std::string& label) {
   for (int seed = 0; seed < kSeeds; ++seed) {
     Scene scene(label);
     AddAppearance(scene.world, {}, seed, scene.detections);
-    sum += Dot(scene.At(0).embedding, scene.At(1).embedding) / kSeeds;
+    sum += Dot(scene.At(0).appearance[Cue::kEmbedding], scene.At(1).appearance[Cue::kEmbedding]) /
+           kSeeds;
   }
   return sum;
 }
@@ -69,12 +70,15 @@ TEST(AddAppearance, VectorsAreOfUnitLengthAndDeterministic) {
   AddAppearance(b.world, {}, 3, b.detections);
   AddAppearance(c.world, {}, 4, c.detections);
   for (int frame : {0, 1}) {
-    EXPECT_NEAR(Dot(a.At(frame).embedding, a.At(frame).embedding), 1, 1e-5);
-    EXPECT_NEAR(Dot(a.At(frame).colour, a.At(frame).colour), 1, 1e-5);
-    EXPECT_EQ(a.At(frame).embedding, b.At(frame).embedding);
-    EXPECT_EQ(a.At(frame).colour, b.At(frame).colour);
+    EXPECT_NEAR(
+        Dot(a.At(frame).appearance[Cue::kEmbedding], a.At(frame).appearance[Cue::kEmbedding]), 1,
+        1e-5);
+    EXPECT_NEAR(Dot(a.At(frame).appearance[Cue::kColour], a.At(frame).appearance[Cue::kColour]), 1,
+                1e-5);
+    EXPECT_EQ(a.At(frame).appearance[Cue::kEmbedding], b.At(frame).appearance[Cue::kEmbedding]);
+    EXPECT_EQ(a.At(frame).appearance[Cue::kColour], b.At(frame).appearance[Cue::kColour]);
   }
-  EXPECT_NE(a.At(0).embedding, c.At(0).embedding);
+  EXPECT_NE(a.At(0).appearance[Cue::kEmbedding], c.At(0).appearance[Cue::kEmbedding]);
 }
 
 TEST(AddAppearance, ColourIsThatOfThePaint) {
@@ -82,9 +86,9 @@ TEST(AddAppearance, ColourIsThatOfThePaint) {
   blue.world.objects[0].paint = Vec3(0.1, 0.2, 0.6);
   AddAppearance(red.world, {}, 1, red.detections);
   AddAppearance(blue.world, {}, 2, blue.detections);
-  EXPECT_GT(Dot(red.At(0).colour, red.At(1).colour), 0.9);
-  EXPECT_LT(Dot(red.At(0).colour, blue.At(0).colour),
-            Dot(red.At(0).colour, red.At(1).colour) - 0.1);
+  EXPECT_GT(Dot(red.At(0).appearance[Cue::kColour], red.At(1).appearance[Cue::kColour]), 0.9);
+  EXPECT_LT(Dot(red.At(0).appearance[Cue::kColour], blue.At(0).appearance[Cue::kColour]),
+            Dot(red.At(0).appearance[Cue::kColour], red.At(1).appearance[Cue::kColour]) - 0.1);
 }
 
 TEST(DrawPaint, HalfOfAllCarsAreWhiteGreyOrBlack) {

@@ -113,7 +113,8 @@ TEST(Halv, RevisitsAreRealAndFromOtherDirections) {
 TEST(Halv, SameSeedSameSequence) {
   const HalvSequence a = MakeHalv(5), b = MakeHalv(5), c = MakeHalv(6);
   EXPECT_EQ(a.detections.identity, b.detections.identity);
-  EXPECT_EQ(a.detections.frames[9][0].embedding, b.detections.frames[9][0].embedding);
+  EXPECT_EQ(a.detections.frames[9][0].appearance[Cue::kEmbedding],
+            b.detections.frames[9][0].appearance[Cue::kEmbedding]);
   EXPECT_EQ(a.odometry.poses.back().translation(), b.odometry.poses.back().translation());
   EXPECT_NE(a.detections.identity, c.detections.identity);
 }

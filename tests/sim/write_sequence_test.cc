@@ -127,11 +127,11 @@ TEST_F(WriteSequenceTest, RefusesAFolderThatIsNotEmpty) {
 
 TEST_F(WriteSequenceTest, LeavesNoVectorsOfAnotherWorld) {
   for (auto& frame : detections_.frames)
-    for (Detection& detection : frame) detection.embedding = {1, 0};
+    for (Detection& detection : frame) detection.appearance[Cue::kEmbedding] = {1, 0};
   Write(folder_);
   EXPECT_TRUE(fs::exists(folder_ / "embeddings.npy"));
   for (auto& frame : detections_.frames)
-    for (Detection& detection : frame) detection.embedding.clear();
+    for (Detection& detection : frame) detection.appearance[Cue::kEmbedding].clear();
   Write(folder_, true);
   EXPECT_FALSE(fs::exists(folder_ / "embeddings.npy"));
 }

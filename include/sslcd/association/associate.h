@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslcd/association/gallery.h"
+#include "sslcd/core/cue.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/fields.h"
 
@@ -50,9 +51,8 @@ struct AssociationCandidate {
   std::vector<PlanarBelief> beliefs;
   double height = 0;
   double viewpoint_rad = 0;
-  std::optional<Box2d> projected_box;  ///< Eq. 1
-  const Gallery* colour = nullptr;
-  const Gallery* embedding = nullptr;
+  std::optional<Box2d> projected_box;           ///< Eq. 1
+  const PerCue<Gallery>* appearance = nullptr;  ///< null: unknown
 };
 
 /// W_d of Eq. 2 (queries x candidates); 0 = must not match.

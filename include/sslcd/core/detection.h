@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/cue.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
@@ -21,9 +22,8 @@ struct Detection {
   Pose T_cam_object;
   Vec3 dims{0, 0, 0};        ///< length, width, height [m], all > 0
   std::optional<Box2d> box;  ///< 2D box; none: the cue drops out of the association score
-  /// colour vector h (unit sum or unit norm, see perception/colour.h); empty: none
-  std::vector<float> colour;
-  std::vector<float> embedding;  ///< re-identification vector e, L2-normalised; empty: none
+  /// the vector of each cue, of unit length (that of a colour may have unit sum); empty: none
+  PerCue<std::vector<float>> appearance;
 };
 
 /// One frame as it enters the system.

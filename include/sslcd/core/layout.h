@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sslcd/core/cue.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/pose.h"
 
@@ -24,8 +25,8 @@ struct LayoutObject {
   Vec3 position{0, 0, 0};  ///< centre [m]
   double yaw = 0;          ///< about z; NaN: unknown [rad]
   Vec3 dims{0, 0, 0};      ///< length, width, height [m]; zero: unknown
-  /// one per direction it was seen from; empty: unknown
-  std::vector<AppearanceView> colour, embedding;
+  /// of each cue, one per direction the object was seen from; empty: unknown
+  PerCue<std::vector<AppearanceView>> appearance;
 };
 
 /// A turn about the vertical and a shift: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad,

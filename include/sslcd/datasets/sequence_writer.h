@@ -26,9 +26,9 @@ struct SequenceFiles {
 };
 
 /// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
-/// sequence.yaml, and where there are such things config.yaml, calib.txt, groundtruth.txt (TUM),
-/// embeddings.npy (a detection without one has a row of zeros) and colours.npy (all have one, or
-/// there is no file: the reader would fill gaps from images). All appear complete or none; then
+/// sequence.yaml, and where there are such things config.yaml, calib.txt, groundtruth.txt (TUM) and
+/// the files of cues (core/cue.h): embeddings.npy (a detection without one has a row of zeros) and
+/// colours.npy (every detection has one, or there is no file). All appear complete or none; then
 /// what an earlier run left of those that are missing (but config.yaml) is removed. Throws
 /// Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sslcd/association/gallery.h"
+#include "sslcd/core/cue.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/landmark.h"
 #include "sslcd/core/upright.h"
@@ -31,7 +32,7 @@ struct MapLandmark {
   UprightPose pose;    ///< in the world
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
   MotionTest motion;
-  Gallery colour, embedding;        ///< H_k, E_k
+  PerCue<Gallery> appearance;       ///< H_k, E_k
   std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
   double last_seen = 0;             ///< [s]
   double last_seen_at = 0;          ///< path travelled by then [m]
