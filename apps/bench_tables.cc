@@ -13,9 +13,9 @@
 #include "benchmark/foreign.h"
 #include "benchmark/halv_tables.h"
 #include "benchmark/results.h"
+#include "formats/atomic_file.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "datasets/sequence_writer.h"
 #include "from_images.h"
 #include "image_loader.h"
 #include "overlay.h"
@@ -11,7 +12,6 @@
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/datasets/sequence_writer.h"
 #include "threads.h"
 
 namespace sslcd::apps {

@@ -6,12 +6,12 @@
 #include <memory>
 
 #include "commands.h"
+#include "formats/atomic_file.h"
+#include "formats/g2o.h"
+#include "formats/metrics_json.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/formats/atomic_file.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/formats/metrics_json.h"
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 #include "threads.h"
 
 namespace sslcd::apps {

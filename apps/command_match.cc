@@ -4,12 +4,13 @@
 #include <memory>
 
 #include "commands.h"
+#include "core/for_each.h"
+#include "formats/atomic_file.h"
+#include "formats/pairs.h"
+#include "loop/layout_likelihood.h"
+#include "loop/paper_match.h"
 #include "sslcd/config/config.h"
-#include "sslcd/core/for_each.h"
-#include "sslcd/formats/atomic_file.h"
-#include "sslcd/formats/pairs.h"
 #include "sslcd/loop/layout_match.h"
-#include "sslcd/loop/paper_match.h"
 #include "threads.h"
 
 namespace sslcd::apps {
@@ -60,8 +61,7 @@ struct Answer {
 
 Answer MatchRobust(const LayoutPair& pair, const MatchConfiguration& configuration) {
   const LayoutMatchOptions& options = configuration.match;
-  const LayoutIndex index(pair.global, options.max_pair_m, options.reach_m);
-  const LayoutAnswer found = MatchLayouts(pair.local, index, options, configuration.decision);
+  const LayoutAnswer found = MatchLayouts(pair.local, pair.global, options, configuration.decision);
   Answer answer{found.decision, {}, found.score, found.second_score};
   if (!found.hypotheses.empty()) {
     answer.pose = found.hypotheses[0].pose;

@@ -5,7 +5,10 @@
 #include <memory>
 
 #include "commands.h"
+#include "datasets/run_folder.h"
+#include "eval/kitti_ground_truth.h"
 #include "evaluation.h"
+#include "formats/atomic_file.h"
 #include "from_images.h"
 #include "image_loader.h"
 #include "overwriting.h"
@@ -13,9 +16,6 @@
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/datasets/dataset.h"
-#include "sslcd/datasets/run_folder.h"
-#include "sslcd/eval/kitti_ground_truth.h"
-#include "sslcd/formats/atomic_file.h"
 #include "sslcd/pipeline/run.h"
 #include "threads.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/map_metrics.h"
+#include "eval/sequence_metrics.h"
 #include "sslcd/core/log.h"
-#include "sslcd/eval/map_metrics.h"
-#include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::apps {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "formats/map_json.h"
+#include "formats/metrics_json.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/loop_closure.h"
-#include "sslcd/core/trajectory.h"
-#include "sslcd/formats/map_json.h"
-#include "sslcd/formats/metrics_json.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd::apps {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "console.h"
+#include "core/median.h"
 #include "image_loader.h"
 #include "sslcd/core/log.h"
-#include "sslcd/core/median.h"
 
 namespace sslcd::apps {
 namespace {

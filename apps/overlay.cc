@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "console.h"
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd::apps {

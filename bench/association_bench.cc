@@ -7,9 +7,9 @@
 #include <chrono>
 #include <vector>
 
+#include "map/object_map.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
-#include "sslcd/map/object_map.h"
 
 namespace sslcd {
 namespace {

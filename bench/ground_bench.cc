@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/closing/loop_options.h"
+#include "core/median.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/median.h"
 #include "sslcd/ground/ground_alignment.h"
 #include "stereo/stereo_folder.h"
 

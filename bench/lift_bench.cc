@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "eval/iou3d.h"
+#include "formats/boxes.h"
+#include "formats/calib.h"
 #include "sim/halv.h"
 #include "sslcd/core/error.h"
-#include "sslcd/eval/iou3d.h"
-#include "sslcd/formats/boxes.h"
-#include "sslcd/formats/calib.h"
 #include "sslcd/formats/poses.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"

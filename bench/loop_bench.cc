@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "closing/pass_map.h"
+#include "loop/pose_tracks.h"
 #include "sim/random.h"
 #include "sslcd/loop/layout_match.h"
-#include "sslcd/loop/pose_tracks.h"
 
 namespace sslcd {
 namespace {

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "sslcd/optim/object_ba.h"
+#include "optim/object_ba.h"
 
 namespace sslcd {
 namespace {

@@ -15,8 +15,8 @@
 #include <cstdio>
 #include <numeric>
 
-#include "sslcd/core/median.h"
-#include "sslcd/eval/segment_error.h"
+#include "core/median.h"
+#include "eval/segment_error.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "stereo/stereo_folder.h"
 

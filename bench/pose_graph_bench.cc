@@ -8,11 +8,11 @@
 #include <functional>
 #include <string>
 
+#include "formats/atomic_file.h"
+#include "formats/g2o.h"
 #include "optim/pose_graph_world.h"
-#include "sslcd/formats/atomic_file.h"
-#include "sslcd/formats/g2o.h"
 #include "sslcd/formats/poses.h"
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
 namespace {

@@ -9,11 +9,13 @@
 #include <cstdlib>
 #include <limits>
 
+#include "eval/sequence_metrics.h"
 #include "sim/path.h"
 #include "sim/random.h"
 #include "sim/sensor.h"
-#include "sslcd/eval/sequence_metrics.h"
+#include "sslcd/core/timing.h"
 #include "sslcd/pipeline/mapper.h"
+#include "sslcd/pipeline/options.h"
 
 namespace sslcd {
 namespace {
@@ -86,7 +88,7 @@ void Measure(int repeats, std::uint64_t seed) {
     int keyframes = 0;
     for (const Frame& frame : frames) keyframes += mapper.AddFrame(frame).keyframe;
     if (i == 0) {
-      std::printf("%d keyframes, %.0f m\n", keyframes, mapper.frames().back().travelled);
+      std::printf("%d keyframes\n", keyframes);
       print_quality(mapper, "before Refine");
     }
     mapper.Refine();

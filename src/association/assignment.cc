@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/assignment.h"
+#include "association/assignment.h"
 
 #include <cassert>
 #include <limits>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/associate.h"
+#include "association/associate.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "sslcd/association/assignment.h"
-#include "sslcd/association/score.h"
+#include "association/assignment.h"
+#include "association/score.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/gallery.h"
+#include "association/gallery.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "sslcd/loop/layout_likelihood.h"
+#include "loop/layout_likelihood.h"
 
 namespace sslcd::baselines {
 namespace {

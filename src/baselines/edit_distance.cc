@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "sslcd/association/assignment.h"
+#include "association/assignment.h"
 
 namespace sslcd::baselines {
 namespace {

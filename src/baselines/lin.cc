@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "baselines/lin.h"
 
+#include "association/assignment.h"
 #include "baselines/edit_distance.h"
-#include "sslcd/association/assignment.h"
 
 namespace sslcd::baselines {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <memory>
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd::baselines {
 namespace {

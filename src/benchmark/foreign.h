@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::benchmark {

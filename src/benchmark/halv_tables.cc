@@ -8,7 +8,7 @@
 #include <set>
 
 #include "benchmark/paper_figures.h"
-#include "sslcd/eval/wilson.h"
+#include "eval/wilson.h"
 
 namespace sslcd::benchmark {
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "loop/paper_match.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/loop/layout_match.h"
@@ -13,9 +14,7 @@ namespace {
 
 // What is asked of a single look at two layouts, without memory of earlier ones.
 std::optional<PlaceAnswer> OneLook(const PlaceQuery& query) {
-  const LayoutMatchOptions options = Options().loop.match;
-  const LayoutIndex index(query.global, options.max_pair_m, options.reach_m);
-  const LayoutAnswer found = MatchLayouts(query.local, index, options);
+  const LayoutAnswer found = MatchLayouts(query.local, query.global, Options().loop.match);
   if (found.hypotheses.empty()) return std::nullopt;
   PlaceAnswer answer;
   answer.matches = found.hypotheses[0].fit.matches;

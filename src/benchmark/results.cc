@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
+#include "core/for_each.h"
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/for_each.h"
-#include "sslcd/formats/atomic_file.h"
 
 namespace sslcd::benchmark {
 namespace {

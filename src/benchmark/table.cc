@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "formats/csv.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/csv.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd::benchmark {
 namespace {

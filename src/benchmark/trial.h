@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "benchmark/method.h"
+#include "eval/revisits.h"
 #include "sim/halv.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/eval/revisits.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::benchmark {

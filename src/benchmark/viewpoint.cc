@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "benchmark/foreign.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd::benchmark {
 namespace {

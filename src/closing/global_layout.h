@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "closing/pass_map.h"
-#include "sslcd/closing/loop_options.h"
-#include "sslcd/loop/layout_index.h"
+#include "loop/layout_index.h"
+#include "sslcd/closing/options.h"
 
 namespace sslcd {
 

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "loop/decision.h"
+#include "loop/layout_likelihood.h"
 #include "refine/optimise_map.h"
 #include "refine/trajectory_correction.h"
-#include "sslcd/loop/decision.h"
-#include "sslcd/loop/layout_likelihood.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
 namespace {

@@ -7,7 +7,7 @@
 #include "closing/loop_meter.h"
 #include "closing/pass_map.h"
 #include "closing/path_graph.h"
-#include "sslcd/closing/loop_options.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/closing/place_matcher.h"
 
 namespace sslcd {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "optim/odometry_edge.h"
 #include "refine/trajectory_correction.h"
-#include "sslcd/optim/odometry_edge.h"
 
 namespace sslcd {
 

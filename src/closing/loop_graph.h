@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "sslcd/closing/loop_options.h"
-#include "sslcd/core/frame_store.h"
+#include "core/frame_store.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose_graph.h"
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "closing/pass_map.h"
-#include "sslcd/closing/loop_options.h"
+#include "loop/layout_index.h"
+#include "optim/drift.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/core/loop_closure.h"
-#include "sslcd/loop/layout_index.h"
-#include "sslcd/optim/drift.h"
 
 namespace sslcd {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/closing/loop_options.h"
+#include "sslcd/closing/options.h"
 
 namespace sslcd {
 

@@ -3,8 +3,8 @@
 
 #include "closing/pass_map.h"
 #include "closing/path_graph.h"
-#include "sslcd/closing/loop_options.h"
-#include "sslcd/loop/pose_tracks.h"
+#include "loop/pose_tracks.h"
+#include "sslcd/closing/options.h"
 
 namespace sslcd {
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "sslcd/association/gallery.h"
+#include "association/gallery.h"
+#include "map/map_state.h"
 #include "sslcd/core/cue.h"
 #include "sslcd/core/layout.h"
-#include "sslcd/map/map_state.h"
 
 namespace sslcd {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "sslcd/loop/decision.h"
-#include "sslcd/optim/odometry_edge.h"
-#include "sslcd/optim/odometry_factors.h"
+#include "loop/decision.h"
+#include "optim/odometry_edge.h"
+#include "optim/odometry_factors.h"
 
 namespace sslcd {
 namespace {

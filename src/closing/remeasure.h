@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "closing/loop_ledger.h"
-#include "sslcd/core/relative_pose.h"
-#include "sslcd/optim/odometry_noise.h"
+#include "optim/odometry_noise.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 

@@ -8,8 +8,8 @@
 #include "closing/global_layout.h"
 #include "closing/loop_finder.h"
 #include "closing/loop_prior.h"
-#include "sslcd/loop/decision.h"
-#include "sslcd/loop/pose_tracks.h"
+#include "loop/decision.h"
+#include "loop/pose_tracks.h"
 
 namespace sslcd {
 namespace {

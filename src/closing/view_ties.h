@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "closing/path_graph.h"
-#include "sslcd/closing/loop_options.h"
+#include "core/frame_store.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/closing/view_aligner.h"
-#include "sslcd/core/frame_store.h"
+#include "sslcd/core/loop_closure.h"
 
 namespace sslcd {
 

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
+#include "formats/text_rows.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

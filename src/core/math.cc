@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/core/math.h"
+#include "core/math.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/core/pose.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <cmath>
+
+#include "core/math.h"
 
 namespace sslcd {
 
@@ -40,6 +43,20 @@ lie::SO3<double> GravityFrame::Upright(double yaw_rad) const {
 double GravityFrame::YawOf(const lie::SO3<double>& R_world_object) const {
   const Vec3 heading = R_world_object * Vec3(Vec3::UnitX());
   return std::atan2(heading.dot(left), heading.dot(forward));
+}
+
+Pose ToPose(const UprightPose& upright, const GravityFrame& gravity) {
+  return Pose(gravity.Upright(upright.yaw), upright.position);
+}
+
+UprightPose ToUpright(const Pose& T_world_object, const GravityFrame& gravity) {
+  return {T_world_object.translation(), gravity.YawOf(T_world_object.so3())};
+}
+
+bool Agrees(const RelativePose& measured, const Pose& T_a_b, double probability) {
+  const Vec6 error = (measured.T_a_b.inverse() * T_a_b).Log();
+  const Eigen::Matrix<double, 6, 6> covariance = measured.covariance;
+  return error.dot(covariance.ldlt().solve(error)) < Chi2Quantile(probability, 6);
 }
 
 }  // namespace sslcd

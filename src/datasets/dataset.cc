@@ -11,11 +11,11 @@
 #include "datasets/sequence_yaml.h"
 #include "datasets/stamps.h"
 #include "datasets/tracklets.h"
+#include "formats/calib.h"
 #include "formats/files.h"
+#include "formats/npy.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/calib.h"
-#include "sslcd/formats/npy.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "formats/files.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "datasets/image_size.h"
 #include "datasets/stamps.h"
+#include "formats/calib.h"
 #include "sslcd/core/cue.h"
-#include "sslcd/formats/calib.h"
 
 namespace sslcd {
 

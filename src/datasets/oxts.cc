@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "formats/files.h"
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

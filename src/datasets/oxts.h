@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/calib.h"
 #include "sslcd/core/pose.h"
-#include "sslcd/formats/calib.h"
 
 namespace sslcd {
 

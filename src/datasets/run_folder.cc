@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/datasets/run_folder.h"
+#include "datasets/run_folder.h"
 
 #include <filesystem>
 
-#include "sslcd/formats/atomic_file.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/formats/loops_csv.h"
-#include "sslcd/formats/ply.h"
+#include "formats/atomic_file.h"
+#include "formats/g2o.h"
+#include "formats/loops_csv.h"
+#include "formats/ply.h"
 #include "sslcd/formats/poses.h"
 
 namespace sslcd {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/datasets/sequence_writer.h"
+#include "datasets/sequence_writer.h"
 
 #include <algorithm>
 
 #include "datasets/sequence_yaml.h"
 #include "datasets/stamps.h"
+#include "formats/atomic_file.h"
+#include "formats/calib.h"
+#include "formats/npy.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
-#include "sslcd/formats/calib.h"
 #include "sslcd/formats/detections.h"
-#include "sslcd/formats/npy.h"
 #include "sslcd/formats/poses.h"
 
 namespace sslcd {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "formats/number_text.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "formats/number_text.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/median.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

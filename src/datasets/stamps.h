@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 

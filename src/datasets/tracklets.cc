@@ -5,8 +5,8 @@
 #include <cmath>
 #include <pugixml.hpp>
 
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sslcd/core/sigmoid.h"
+#include "core/sigmoid.h"
 
 namespace sslcd {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "detectors/prepare.h"
-#include "sslcd/inference/tensor.h"
+#include "inference/tensor.h"
 
 namespace sslcd {
 

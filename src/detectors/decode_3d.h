@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "detectors/decode_2d.h"
+#include "inference/tensor.h"
 #include "sslcd/core/detection.h"
-#include "sslcd/inference/tensor.h"
 
 namespace sslcd {
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sigmoid.h"
 #include "detectors/decode_3d.h"
+#include "formats/npy.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/sigmoid.h"
-#include "sslcd/formats/npy.h"
 
 namespace sslcd {
 namespace {

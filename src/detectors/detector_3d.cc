@@ -6,8 +6,8 @@
 
 #include "detectors/decode_3d.h"
 #include "detectors/model.h"
+#include "perception/projection.h"
 #include "sslcd/core/error.h"
-#include "sslcd/perception/projection.h"
 
 namespace sslcd {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "detectors/model_description.h"
 #include "detectors/prepare.h"
+#include "inference/session.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/detectors/model_description.h"
-#include "sslcd/inference/session.h"
 
 namespace sslcd {
 

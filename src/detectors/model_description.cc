@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/detectors/model_description.h"
+#include "detectors/model_description.h"
 
 #include <cmath>
 #include <filesystem>

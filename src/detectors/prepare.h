@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "detectors/model_description.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/image.h"
-#include "sslcd/detectors/model_description.h"
 
 namespace sslcd {
 

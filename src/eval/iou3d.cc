@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/iou3d.h"
+#include "eval/iou3d.h"
 
 #include <algorithm>
 #include <cmath>

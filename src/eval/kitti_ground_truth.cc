@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/kitti_ground_truth.h"
+#include "eval/kitti_ground_truth.h"
 
 #include <cmath>
 #include <utility>
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/map_metrics.h"
+#include "eval/map_metrics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <unordered_map>
 
 #include "eval/identities.h"
+#include "eval/iou3d.h"
 #include "sslcd/core/error.h"
-#include "sslcd/eval/iou3d.h"
 
 namespace sslcd {
 namespace {

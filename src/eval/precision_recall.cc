@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/precision_recall.h"
+#include "eval/precision_recall.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/revisits.h"
+#include "eval/revisits.h"
 
 #include <algorithm>
 #include <cmath>

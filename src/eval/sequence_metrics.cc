@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/sequence_metrics.h"
+#include "eval/sequence_metrics.h"
 
 #include <algorithm>
 #include <iterator>
@@ -9,7 +9,7 @@
 
 #include "eval/identities.h"
 #include "eval/path.h"
-#include "sslcd/eval/revisits.h"
+#include "eval/revisits.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd {

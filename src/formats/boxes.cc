@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/boxes.h"
+#include "formats/boxes.h"
 
 #include <cmath>
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 

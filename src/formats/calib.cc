@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/calib.h"
+#include "formats/calib.h"
 
 #include <filesystem>
 #include <map>
@@ -9,7 +9,7 @@
 #include "formats/files.h"
 #include "formats/number_text.h"
 #include "formats/rigid.h"
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/sigmoid.h"
 #include "formats/files.h"
 #include "formats/number_text.h"
-#include "sslcd/core/sigmoid.h"
-#include "sslcd/core/upright.h"
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 namespace {

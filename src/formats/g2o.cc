@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/g2o.h"
+#include "formats/g2o.h"
 
 #include <Eigen/Cholesky>
 
@@ -12,7 +12,7 @@
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
 #include "formats/rigid.h"
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

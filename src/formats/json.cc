@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/json.h"
+#include "formats/json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/loops_csv.h"
+#include "formats/loops_csv.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "formats/csv.h"
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
-#include "sslcd/formats/csv.h"
 
 namespace sslcd {
 

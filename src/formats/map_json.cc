@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/map_json.h"
+#include "formats/map_json.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "formats/json.h"
 #include "formats/json_text.h"
-#include "sslcd/formats/json.h"
 
 namespace sslcd {
 namespace {

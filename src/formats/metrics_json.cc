@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/metrics_json.h"
+#include "formats/metrics_json.h"
 
 #include <nlohmann/json.hpp>
 

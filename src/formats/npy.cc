@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/npy.h"
+#include "formats/npy.h"
 
 #include <charconv>
 #include <cstring>
 #include <string_view>
 
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/pairs.h"
+#include "formats/pairs.h"
 
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

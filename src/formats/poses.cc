@@ -6,7 +6,7 @@
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
 #include "formats/rigid.h"
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 
 #include <algorithm>
 #include <cerrno>

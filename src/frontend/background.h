@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "sslcd/core/source.h"
+#include "core/source.h"
 
 namespace sslcd {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/frontend/class_file.h"
+#include "frontend/class_file.h"
 
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <limits>
 
+#include "formats/text_rows.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/text_rows.h"
 
 namespace sslcd {
 namespace {

@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "frontend/background.h"
+#include "frontend/class_file.h"
 #include "frontend/ground_check.h"
 #include "frontend/object_finder.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/frontend/class_file.h"
 
 namespace sslcd {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "detectors/model_description.h"
 #include "sslcd/core/error.h"
-#include "sslcd/detectors/model_description.h"
 
 namespace sslcd {
 

@@ -4,9 +4,9 @@
 #include <iterator>
 #include <utility>
 
+#include "detectors/model_description.h"
+#include "formats/boxes.h"
 #include "sslcd/core/log.h"
-#include "sslcd/detectors/model_description.h"
-#include "sslcd/formats/boxes.h"
 
 namespace sslcd {
 namespace {

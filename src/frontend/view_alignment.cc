@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/frontend/view_alignment.h"
+#include "sslcd/frontend/stereo_files.h"
 
 #include <algorithm>
 #include <optional>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/for_each.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/for_each.h"
 #include "sslcd/core/log.h"
 #include "sslcd/ground/ground_alignment.h"
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <utility>
 
+#include "core/median.h"
 #include "ground/ground_search.h"
-#include "sslcd/core/median.h"
 #include "stereo/grey.h"
 
 namespace sslcd {

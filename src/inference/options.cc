@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/inference/session.h"
+#include "sslcd/inference/options.h"
 
 namespace sslcd {
 

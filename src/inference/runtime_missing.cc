@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stands for runtime.cc and session.cc where ONNX Runtime's header is not installed.
+#include "inference/session.h"
 #include "sslcd/core/error.h"
-#include "sslcd/inference/session.h"
 
 namespace sslcd {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "sslcd/core/median.h"
+#include "core/median.h"
 
 namespace sslcd {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sslcd/core/median.h"
+#include "core/median.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/appearance_likelihood.h"
+#include "loop/appearance_likelihood.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sslcd/loop/pose_search.h"
+#include "loop/pose_search.h"
 
 namespace sslcd {
 

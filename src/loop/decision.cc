@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/decision.h"
+#include "loop/decision.h"
 
 #include <cmath>
 
-#include "sslcd/core/math.h"
+#include "core/math.h"
 
 namespace sslcd {
 namespace {

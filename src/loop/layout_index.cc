@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/layout_index.h"
+#include "loop/layout_index.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/layout_likelihood.h"
+#include "loop/layout_likelihood.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
+#include "core/math.h"
 #include "loop/convex_hull.h"
 #include "loop/heading_density.h"
-#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {

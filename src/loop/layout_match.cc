@@ -5,6 +5,11 @@
 #include <limits>
 #include <string>
 
+#include "loop/decision.h"
+#include "loop/layout_index.h"
+#include "loop/layout_likelihood.h"
+#include "loop/pose_search.h"
+
 namespace sslcd {
 namespace {
 
@@ -23,6 +28,20 @@ double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
   return found.empty() ? -std::numeric_limits<double>::infinity() : found[0].fit.evidence;
 }
 
+// Objects with a position that is finite.
+struct UsableObjects {
+  std::vector<LayoutObject> objects;
+  std::vector<int> origin;  // their indices in the list given
+
+  explicit UsableObjects(const std::vector<LayoutObject>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!all[i].position.allFinite()) continue;
+      objects.push_back(all[i]);
+      origin.push_back(static_cast<int>(i));
+    }
+  }
+};
+
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
@@ -37,21 +56,15 @@ void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options) {
 LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                           const LayoutMatchOptions& options, const SingleLookOptions& decision) {
   LayoutAnswer answer;
-  std::vector<LayoutObject> usable;
-  std::vector<int> origin;
-  for (std::size_t i = 0; i < local.size(); ++i) {
-    if (!local[i].position.allFinite()) continue;
-    usable.push_back(local[i]);
-    origin.push_back(static_cast<int>(i));
-  }
+  const UsableObjects usable(local);
   const std::string needed = std::to_string(options.search.min_matches);
-  const std::size_t fewest = std::min(usable.size(), index.objects().size());
+  const std::size_t fewest = std::min(usable.objects.size(), index.objects().size());
   if (fewest < static_cast<std::size_t>(options.search.min_matches)) {
     answer.reason = std::to_string(fewest) + " objects are too few: " + needed + " have to agree";
     return answer;
   }
   std::vector<PoseHypothesis>& found = answer.hypotheses;
-  found = SearchPoses(LayoutLikelihood(usable, index, options.likelihood), options.search);
+  found = SearchPoses(LayoutLikelihood(usable.objects, index, options.likelihood), options.search);
   if (found.empty()) {
     answer.reason = "no pose brings " + needed + " objects together";
     return answer;
@@ -59,11 +72,22 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
   std::vector<double> evidence;
   for (PoseHypothesis& hypothesis : found) {
     evidence.push_back(hypothesis.fit.evidence);
-    for (auto& [i, j] : hypothesis.fit.matches) i = origin[i];
+    for (auto& [i, j] : hypothesis.fit.matches) i = usable.origin[i];
   }
   static_cast<LoopVerdict&>(answer) = DecideSingleLook(
-      evidence, found[0].fit.matches.size(), [&] { return MirrorEvidence(usable, index, options); },
-      decision);
+      evidence, found[0].fit.matches.size(),
+      [&] { return MirrorEvidence(usable.objects, index, options); }, decision);
+  return answer;
+}
+
+LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local,
+                          const std::vector<LayoutObject>& global,
+                          const LayoutMatchOptions& options, const SingleLookOptions& decision) {
+  const UsableObjects usable(global);
+  LayoutAnswer answer = MatchLayouts(
+      local, LayoutIndex(usable.objects, options.max_pair_m, options.reach_m), options, decision);
+  for (PoseHypothesis& hypothesis : answer.hypotheses)
+    for (auto& [i, j] : hypothesis.fit.matches) j = usable.origin[j];
   return answer;
 }
 

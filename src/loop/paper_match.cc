@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/paper_match.h"
+#include "loop/paper_match.h"
 
-#include "sslcd/loop/layout.h"
-#include "sslcd/loop/object_graph.h"
-#include "sslcd/loop/semantics.h"
+#include "loop/layout.h"
+#include "loop/object_graph.h"
+#include "loop/semantics.h"
 
 namespace sslcd {
 namespace {

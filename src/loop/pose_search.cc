@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/pose_search.h"
+#include "loop/pose_search.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/pose_tracks.h"
+#include "loop/pose_tracks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "sslcd/core/math.h"
+#include "core/math.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {

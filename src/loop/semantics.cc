@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/semantics.h"
+#include "loop/semantics.h"
 
 #include <cmath>
 #include <numeric>

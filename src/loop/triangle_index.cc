@@ -7,7 +7,7 @@
 #include <map>
 
 #include "loop/kd_forest.h"
-#include "sslcd/loop/layout_index.h"
+#include "loop/layout_index.h"
 
 namespace sslcd {
 namespace {

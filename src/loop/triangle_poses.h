@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "loop/coarse_poses.h"
-#include "sslcd/loop/layout_index.h"
+#include "loop/layout_index.h"
 
 namespace sslcd {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "sslcd/loop/layout_likelihood.h"
+#include "loop/layout_likelihood.h"
 
 namespace sslcd {
 

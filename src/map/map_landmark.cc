@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/map/map_landmark.h"
+#include "map/map_landmark.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/map/object_map.h"
+#include "map/object_map.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sslcd/perception/projection.h"
+#include "perception/projection.h"
 
 namespace sslcd {
 

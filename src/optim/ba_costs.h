@@ -3,7 +3,7 @@
 
 #include <ceres/sized_cost_function.h>
 
-#include "sslcd/optim/cost_functors.h"
+#include "optim/cost_functors.h"
 
 /// The residuals that bundle adjustment evaluates thousands of, with their derivatives in closed
 /// form: a fifth of the time of automatic ones. Derivatives are given such that their product with

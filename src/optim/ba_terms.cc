@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "optim/ba_costs.h"
+#include "optim/cost_functors.h"
 #include "optim/marginal_prior.h"
 #include "optim/pose_graph_cost.h"
-#include "sslcd/optim/cost_functors.h"
 
 namespace sslcd {
 namespace {

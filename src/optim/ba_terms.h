@@ -9,8 +9,8 @@
 #include <array>
 #include <vector>
 
+#include "optim/object_ba.h"
 #include "optim/pose_manifold.h"
-#include "sslcd/optim/object_ba.h"
 
 namespace sslcd {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/drift.h"
+#include "optim/drift.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

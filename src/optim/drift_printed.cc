@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Cholesky>
 
-#include "sslcd/optim/drift.h"
+#include "optim/drift.h"
 
 namespace sslcd {
 

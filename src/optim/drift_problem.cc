@@ -6,7 +6,7 @@
 #include <complex>
 #include <limits>
 
-#include "sslcd/core/median.h"
+#include "core/median.h"
 
 namespace sslcd::drift {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/optim/drift.h"
+#include "optim/drift.h"
 
 /// What SolveDrift works on: the pairs in gravity-aligned axes (z up), and where to start.
 namespace sslcd::drift {

@@ -3,7 +3,7 @@
 
 #include <ceres/cost_function.h>
 
-#include "sslcd/optim/object_ba.h"
+#include "optim/object_ba.h"
 
 namespace sslcd {
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/object_ba.h"
+#include "optim/object_ba.h"
 
 #include <ceres/solver.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "optim/ba_terms.h"
-#include "sslcd/core/median.h"
-#include "sslcd/optim/cost_functors.h"
+#include "optim/cost_functors.h"
 
 namespace sslcd {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/math.h"
 #include "optim/pose_graph_chains.h"
 #include "optim/pose_graph_cost.h"
 #include "optim/pose_graph_index.h"
 #include "optim/pose_graph_tree.h"
-#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "perception/kmeans.h"
 #include "sslcd/core/error.h"
-#include "sslcd/perception/kmeans.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/perception/projection.h"
+#include "perception/projection.h"
 
 #include <algorithm>
 #include <array>

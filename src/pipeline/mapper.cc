@@ -7,10 +7,14 @@
 #include "closing/loop_closer.h"
 #include "closing/remeasure.h"
 #include "closing/view_ties.h"
+#include "core/frame_store.h"
+#include "optim/odometry_edge.h"
 #include "pipeline/gravity_aligner.h"
 #include "pipeline/sliding_window.h"
 #include "refine/refine_map.h"
 #include "sslcd/core/error.h"
+#include "sslcd/core/timing.h"
+#include "sslcd/pipeline/options.h"
 
 namespace sslcd {
 namespace {
@@ -82,8 +86,8 @@ Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
 double Mapper::scale() const { return impl_->scale(); }
-const ObjectMap& Mapper::map() const { return impl_->state.map; }
-const FrameStore& Mapper::frames() const { return impl_->state.frames; }
+const GravityFrame& Mapper::gravity() const { return impl_->state.map.gravity(); }
+NoiseScale Mapper::noise_scale() const { return impl_->state.map.noise_scale(); }
 const std::vector<ViewTie>& Mapper::view_ties() const { return impl_->view_ties; }
 TimingTable& Mapper::timing() { return impl_->timing; }
 std::vector<LoopClosure> Mapper::LoopClosures() const { return impl_->loops.ledger().Rows(); }
@@ -154,11 +158,34 @@ BaSummary Mapper::Refine() {
 
 Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;
-  for (const FrameRecord& record : frames()) {
+  for (const FrameRecord& record : impl_->state.frames) {
     trajectory.stamps.push_back(record.stamp);
     trajectory.poses.push_back(record.T_world_cam);
   }
   return trajectory;
+}
+
+PoseGraph Mapper::Graph() const {
+  PoseGraph graph;
+  const FrameStore& frames = impl_->state.frames;
+  for (int i = 0; i < frames.size(); ++i) {
+    graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
+    if (i == 0) continue;
+    const OdometryEdge step =
+        OdometryBetween(frames, i - 1, i, impl_->options.ba.odometry, gravity().up, impl_->scale());
+    graph.edges.push_back(
+        {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
+  }
+  for (const LoopClosure& loop : LoopClosures()) {
+    // else the tie would count twice
+    if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;
+    graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
+                           Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
+  }
+  for (const ViewTie& tie : impl_->view_ties)
+    graph.edges.push_back({frames[tie.from].frame, frames[tie.to].frame, tie.pose.T_a_b,
+                           tie.pose.covariance.inverse(), true});
+  return graph;
 }
 
 std::vector<MapObject> Mapper::Objects() const {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "sslcd/optim/odometry_edge.h"
-
 namespace sslcd {
 namespace {
 
@@ -24,29 +22,6 @@ bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hook
   });
 }
 
-PoseGraph GraphOf(const Mapper& mapper, const OdometryNoise& noise) {
-  PoseGraph graph;
-  const FrameStore& frames = mapper.frames();
-  const Vec3& up = mapper.map().gravity().up;
-  for (int i = 0; i < frames.size(); ++i) {
-    graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
-    if (i == 0) continue;
-    const OdometryEdge step = OdometryBetween(frames, i - 1, i, noise, up, mapper.scale());
-    graph.edges.push_back(
-        {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
-  }
-  for (const LoopClosure& loop : mapper.LoopClosures()) {
-    // else the tie would count twice
-    if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;
-    graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
-                           Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});
-  }
-  for (const ViewTie& tie : mapper.view_ties())
-    graph.edges.push_back({frames[tie.from].frame, frames[tie.to].frame, tie.pose.T_a_b,
-                           tie.pose.covariance.inverse(), true});
-  return graph;
-}
-
 }  // namespace
 
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context,
@@ -58,7 +33,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
   return RunSequence(source, static_cast<int>(frames.size()), context, options, hooks);
 }
 
-RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context,
+RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context,
                       const Options& options, const RunHooks& hooks) {
   RunResult result;
   Mapper mapper(options, context);
@@ -81,12 +56,12 @@ RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext&
   }
   if (options.refine.enabled) result.refinement = mapper.Refine();
   result.trajectory = mapper.CameraTrajectory();
-  result.graph = GraphOf(mapper, options.ba.odometry);
+  result.graph = mapper.Graph();
   result.loops = mapper.LoopClosures();
   result.objects = mapper.Objects();
   result.views_tied = static_cast<int>(mapper.view_ties().size());
   result.scale = mapper.scale();
-  result.noise_scale = mapper.map().noise_scale();
+  result.noise_scale = mapper.noise_scale();
   result.timing = mapper.timing();
   return result;
 }

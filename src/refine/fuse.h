@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "sslcd/map/map_state.h"
+#include "map/map_state.h"
 #include "sslcd/refine/options.h"
 
 /// Landmarks that turn out to be one object become one: the confirmed one of the two, else the one

@@ -4,8 +4,10 @@
 #include <map>
 #include <vector>
 
-#include "sslcd/core/relative_pose.h"
-#include "sslcd/map/map_state.h"
+#include "map/map_state.h"
+#include "optim/odometry_noise.h"
+#include "sslcd/core/loop_closure.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/refine/options.h"
 
 namespace sslcd {

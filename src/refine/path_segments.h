@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "sslcd/map/map_state.h"
+#include "map/map_state.h"
 
 namespace sslcd {
 

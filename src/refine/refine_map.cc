@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
+#include "core/median.h"
 #include "refine/fuse.h"
 #include "refine/path_segments.h"
 #include "refine/trajectory_correction.h"
-#include "sslcd/core/median.h"
 
 namespace sslcd {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "sslcd/map/map_state.h"
+#include "map/map_state.h"
 
 /// What happens to trajectory and map when keyframes move: after an optimisation, after a loop
 /// closure.

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 
+#include "core/for_each.h"
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/for_each.h"
-#include "sslcd/formats/atomic_file.h"
 
 namespace sslcd::render {
 namespace {

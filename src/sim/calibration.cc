@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "eval/iou3d.h"
 #include "sim/random.h"
 #include "sslcd/core/error.h"
-#include "sslcd/eval/iou3d.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd::sim {

@@ -8,7 +8,7 @@
 #include "sim/sensor.h"
 #include "sim/world.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd::sim {
 

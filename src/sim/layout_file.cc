@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "formats/json.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/json.h"
 
 namespace sslcd::sim {
 namespace {

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "perception/projection.h"
 #include "sim/check_fields.h"
 #include "sim/random.h"
 #include "sim/streams.h"
 #include "sim/visibility.h"
-#include "sslcd/perception/projection.h"
 
 namespace sslcd::sim {
 namespace {

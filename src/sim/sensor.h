@@ -8,7 +8,7 @@
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd::sim {
 

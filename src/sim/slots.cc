@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sslcd/eval/iou3d.h"
+#include "eval/iou3d.h"
 
 namespace sslcd::sim {
 namespace {

@@ -10,7 +10,6 @@
 #include "sslcd/core/fields.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/pose.h"
-#include "sslcd/core/trajectory.h"
 
 namespace sslcd::sim {
 

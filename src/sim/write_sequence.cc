@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sslcd/datasets/sequence_writer.h"
-#include "sslcd/formats/atomic_file.h"
+#include "datasets/sequence_writer.h"
+#include "formats/atomic_file.h"
 
 namespace sslcd::sim {
 

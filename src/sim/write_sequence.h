@@ -5,7 +5,7 @@
 
 #include "sim/sensor.h"
 #include "sim/world.h"
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd::sim {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
+#include "core/median.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/median.h"
 #include "stereo/bundle.h"
 #include "stereo/image_pyramids.h"
 #include "visual_odometry/corners.h"

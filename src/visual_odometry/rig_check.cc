@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/visual_odometry/rig_check.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "sslcd/core/median.h"
-#include "sslcd/visual_odometry/row_error.h"
+#include "core/median.h"
+#include "visual_odometry/row_error.h"
 
 namespace sslcd {
 namespace {

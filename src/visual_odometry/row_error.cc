@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/visual_odometry/row_error.h"
+#include "visual_odometry/row_error.h"
 
 #include <array>
 #include <cmath>
 
-#include "sslcd/core/median.h"
+#include "core/median.h"
 #include "stereo/geometry.h"
 #include "stereo/image_pyramids.h"
 #include "visual_odometry/corners.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/associate.h"
+#include "association/associate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/score.h"
+#include "association/score.h"
 
 #include <gtest/gtest.h>
 

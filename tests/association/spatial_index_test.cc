@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/association/spatial_index.h"
+#include "association/spatial_index.h"
 
 #include <gtest/gtest.h>
 

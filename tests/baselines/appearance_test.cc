@@ -9,8 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
 #include "temp_folder.h"
 
 namespace sslcd::baselines {

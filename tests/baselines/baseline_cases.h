@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "baselines/answer.h"
-#include "sslcd/loop/layout_likelihood.h"
+#include "loop/layout_likelihood.h"
 
 namespace sslcd::baselines {
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "baselines/options.h"
-#include "sslcd/formats/pairs.h"
-#include "sslcd/loop/layout_likelihood.h"
+#include "formats/pairs.h"
+#include "loop/layout_likelihood.h"
 #include "temp_folder.h"
 
 namespace sslcd::baselines {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
 #include "temp_folder.h"
 
 namespace sslcd::baselines {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "formats/atomic_file.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/atomic_file.h"
 #include "sslcd/formats/poses.h"
 #include "temp_folder.h"
 

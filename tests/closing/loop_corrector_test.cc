@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "loop/layout_likelihood.h"
 #include "refine/trajectory_correction.h"
 #include "two_passes.h"
 

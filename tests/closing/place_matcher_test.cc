@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/closing/place_matcher.h"
 
+#include "eval/sequence_metrics.h"
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
 #include "sslcd/loop/layout_match.h"
+#include "sslcd/pipeline/options.h"
 
 namespace sslcd {
 namespace {
@@ -16,9 +18,7 @@ RunResult RunWith(const Drives& drives, PlaceMatcher matcher, const Options& opt
 
 // sslcd's own matching of two layouts, without anything that it knows from earlier attempts.
 std::optional<PlaceAnswer> MatchOnce(const PlaceQuery& query) {
-  const LayoutMatchOptions options;
-  const LayoutIndex index(query.global, options.max_pair_m, options.reach_m);
-  const LayoutAnswer found = MatchLayouts(query.local, index, options);
+  const LayoutAnswer found = MatchLayouts(query.local, query.global);
   if (found.hypotheses.empty()) return std::nullopt;
   PlaceAnswer answer;
   answer.matches = found.hypotheses[0].fit.matches;

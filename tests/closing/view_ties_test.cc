@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/median.h"
+#include "sslcd/core/pose_graph.h"
+#include "sslcd/pipeline/options.h"
 
 namespace sslcd {
 namespace {

@@ -9,7 +9,7 @@
 #include "sslcd/core/image.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/log.h"
-#include "sslcd/core/upright.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 namespace {

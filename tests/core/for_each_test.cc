@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/core/for_each.h"
+#include "core/for_each.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/core/frame_store.h"
+#include "core/frame_store.h"
 
 #include <gtest/gtest.h>
 

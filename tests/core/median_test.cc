@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/core/median.h"
+#include "core/median.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/core/relative_pose.h"
+#include "sslcd/core/pose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/datasets/dataset.h"
 
-#include "sslcd/formats/npy.h"
+#include "formats/npy.h"
 #include "temp_folder.h"
 
 namespace sslcd {

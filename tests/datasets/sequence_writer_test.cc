@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/datasets/sequence_writer.h"
+#include "datasets/sequence_writer.h"
 
-#include "sslcd/core/upright.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/datasets/dataset.h"
 #include "temp_folder.h"
 

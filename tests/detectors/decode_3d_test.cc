@@ -8,10 +8,10 @@
 
 #include "../inference/test_models.h"
 #include "../support/temp_folder.h"
+#include "formats/npy.h"
+#include "perception/projection.h"
 #include "sslcd/detectors/detector_3d.h"
-#include "sslcd/formats/npy.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/perception/projection.h"
 
 namespace sslcd {
 namespace {

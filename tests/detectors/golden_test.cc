@@ -6,10 +6,10 @@
 #include <opencv2/core.hpp>
 
 #include "../inference/test_models.h"
+#include "formats/text_rows.h"
 #include "sslcd/detectors/detector_2d.h"
 #include "sslcd/detectors/detector_3d.h"
 #include "sslcd/detectors/embedder.h"
-#include "sslcd/formats/text_rows.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd {

@@ -7,9 +7,9 @@
 
 #include "../inference/test_models.h"
 #include "../support/temp_folder.h"
+#include "formats/text_rows.h"
 #include "sslcd/detectors/detector_2d.h"
 #include "sslcd/detectors/embedder.h"
-#include "sslcd/formats/text_rows.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/iou3d.h"
+#include "eval/iou3d.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "iou3d_reference.h"
-#include "sslcd/core/upright.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/kitti_ground_truth.h"
+#include "eval/kitti_ground_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // The map's figures against tools/eval_map.py, on real detections and ground truth.
 #include <gtest/gtest.h>
 
+#include "core/sigmoid.h"
+#include "eval/map_metrics.h"
 #include "judge.h"
-#include "sslcd/core/sigmoid.h"
-#include "sslcd/eval/map_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
 
 namespace sslcd {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/map_metrics.h"
+#include "eval/map_metrics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "core/sigmoid.h"
 #include "sslcd/core/error.h"
-#include "sslcd/core/sigmoid.h"
-#include "sslcd/core/upright.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 namespace {

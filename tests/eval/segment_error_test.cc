@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/segment_error.h"
+#include "eval/segment_error.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <random>
 
+#include "eval/kitti_ground_truth.h"
+#include "eval/sequence_metrics.h"
 #include "judge.h"
-#include "sslcd/eval/kitti_ground_truth.h"
-#include "sslcd/eval/sequence_metrics.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/sequence_metrics.h"
+#include "eval/sequence_metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/eval/wilson.h"
+#include "eval/wilson.h"
 
 #include <gtest/gtest.h>
 

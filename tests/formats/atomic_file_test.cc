@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/atomic_file.h"
+#include "formats/atomic_file.h"
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 #include "temp_folder.h"
 
 namespace sslcd {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/calib.h"
+#include "formats/calib.h"
 
 #include "temp_folder.h"
 

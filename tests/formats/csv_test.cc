@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/csv.h"
+#include "formats/csv.h"
 
 #include <gtest/gtest.h>
 

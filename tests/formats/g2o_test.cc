@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/g2o.h"
+#include "formats/g2o.h"
 
 #include <gtest/gtest.h>
 

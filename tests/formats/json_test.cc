@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/json.h"
+#include "formats/json.h"
 
 #include "temp_folder.h"
 

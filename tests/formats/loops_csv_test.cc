@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/loops_csv.h"
+#include "formats/loops_csv.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/map_json.h"
+#include "formats/map_json.h"
 
 #include <limits>
 
-#include "sslcd/formats/text_rows.h"
+#include "formats/text_rows.h"
 #include "temp_folder.h"
 
 namespace sslcd {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/npy.h"
+#include "formats/npy.h"
 
 #include "temp_folder.h"
 

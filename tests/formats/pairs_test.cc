@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/pairs.h"
+#include "formats/pairs.h"
 
 #include <cmath>
 

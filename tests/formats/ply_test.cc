@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/formats/ply.h"
+#include "formats/ply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/frontend/class_file.h"
+#include "frontend/class_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/frontend/view_alignment.h"
+#include "sslcd/frontend/stereo_files.h"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@ import sys
 from collections import namedtuple
 from pathlib import Path
 
-OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}, "include/sslcd/optim/cost_functors.h": {"ceres"}}
+OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "pugixml.hpp": "pugixml", "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}

@@ -10,6 +10,7 @@ CMAKE = """
 sslcd_module(core)
 sslcd_module(io LINK core PRIVATE ${SSLCD_YAML_CPP})
 sslcd_module(map LINK core)
+sslcd_module(perception PRIVATE opencv_core)
   sslcd_module(optim LINK core map PRIVATE Ceres::ceres)
   add_subdirectory(src/sim)
   add_subdirectory(src/render)
@@ -20,7 +21,7 @@ GOOD = {
     "src/render/CMakeLists.txt": "sslcd_room(render LINK sim)\n",
     "include/sslcd/core/pose.h": "#include <vector>\n#include <Eigen/Core>\n#include <lie/se3.h>\n",
     "include/sslcd/map/map.h": '#include <map>\n#include "sslcd/core/pose.h"\n',
-    "include/sslcd/optim/cost_functors.h": "#include <ceres/jet.h>\n",
+    "include/sslcd/perception/opencv_image.h": "#include <opencv2/core.hpp>\n",
     "src/io/config.cc": '#include <yaml-cpp/yaml.h>\n#include "sslcd/core/pose.h"\n',
     "src/map/cells.h": "",
     "src/optim/ba.h": "#include <ceres/problem.h>\n",
@@ -84,6 +85,13 @@ class CheckLayers(unittest.TestCase):
         self.expect_one("src/optim/fit.cc", "#  include <flann/flann.hpp>\n", "optim does not link flann")
         self.expect_one("src/map/model.cc", "#include <onnxruntime_c_api.h>\n", "map does not link onnxruntime_c_api.h")
 
+    def test_outside_library_shown_by_a_module_that_is_linked(self):
+        cmake = CMAKE + "sslcd_module(fit LINK optim PRIVATE Ceres::ceres)\n"
+        fit = {"CMakeLists.txt": cmake, "src/fit/fit.cc": '#include "optim/ba.h"\n'}
+        self.assertEqual(self.breaches(fit), [])
+        self.assertEqual(self.breaches({**fit, "src/optim/ba.h": "", "src/optim/solve.cc": "#include <ceres/problem.h>\n"}),
+                         ["CMakeLists.txt: fit links ceres, which it does not include"])
+
     def test_files_left_out_are_no_libraries(self):
         cmake = CMAKE.replace("sslcd_module(map LINK core)", "sslcd_module(map LINK core WITHOUT ceres.cc)")
         breaches = self.breaches({"CMakeLists.txt": cmake, "src/map/map.cc": "#include <ceres/problem.h>\n"})
@@ -117,6 +125,7 @@ class CheckLayers(unittest.TestCase):
         self.expect_one("tests/io/config_test.cc", '#include "map/cells.h"\n#include "optim/ba.h"\n',
                         "optim/ba.h is private to optim, which is not named")
         self.expect_one("bench/a.cc", '#include "map/cells.h"\n', "private to map")
+        self.expect_one("bench/a.cc", '#include "map/other.h"\n', "there is no map/other.h")
 
     def test_program_names_what_it_does_not_include(self):
         self.expect_one("tests/io/CMakeLists.txt", "sslcd_test_module(io LINK sslcd ROOMS core map)\n", "core is named")

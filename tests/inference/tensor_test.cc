@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/inference/tensor.h"
+#include "inference/tensor.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "inference/session.h"
 #include "sslcd/core/error.h"
-#include "sslcd/inference/session.h"
 
 namespace sslcd {
 

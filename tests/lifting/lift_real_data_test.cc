@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "sslcd/formats/calib.h"
+#include "formats/calib.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/perception/opencv_image.h"
 #include "support/temp_folder.h"

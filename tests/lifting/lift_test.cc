@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "sslcd/core/error.h"
+#include "sslcd/pipeline/options.h"
 #include "stereo/stereo_scene.h"
 
 namespace sslcd {

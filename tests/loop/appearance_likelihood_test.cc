@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/appearance_likelihood.h"
+#include "loop/appearance_likelihood.h"
 
 #include <gtest/gtest.h>
 
@@ -104,8 +104,8 @@ TEST(Semantics, HeadingsTellAHalfTurn) {
   std::vector<LayoutObject> local = SeenFrom(row, turned, {21, 0}, 40, 0, 1), blind = local;
   for (LayoutObject& object : local) object.yaw = WrapAngle(object.yaw - turned.yaw);
   for (LayoutObject& object : blind) object.yaw = NAN;
-  EXPECT_EQ(MatchMaps(blind, row).decision, LoopDecision::kAmbiguous);
-  const LayoutAnswer answer = MatchMaps(local, row);
+  EXPECT_EQ(MatchLayouts(blind, row).decision, LoopDecision::kAmbiguous);
+  const LayoutAnswer answer = MatchLayouts(local, row);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - turned.yaw), 0, 0.01);
 }
@@ -113,9 +113,9 @@ TEST(Semantics, HeadingsTellAHalfTurn) {
 TEST(Semantics, HeadingsOfFrontAndBackAlikeTellNothing) {
   std::vector<LayoutObject> row = Row();
   for (LayoutObject& object : row) object.symmetry = Symmetry::kPi;
-  EXPECT_EQ(MatchMaps(row, row).decision, LoopDecision::kAmbiguous);
+  EXPECT_EQ(MatchLayouts(row, row).decision, LoopDecision::kAmbiguous);
   for (LayoutObject& object : row) object.symmetry = Symmetry::kFull;
-  EXPECT_EQ(MatchMaps(row, row).decision, LoopDecision::kAmbiguous);
+  EXPECT_EQ(MatchLayouts(row, row).decision, LoopDecision::kAmbiguous);
 }
 
 // A grid of objects that differ in this cue alone.
@@ -136,7 +136,7 @@ std::vector<LayoutObject> Grid(Cue cue) {
 TEST(Semantics, EachCueSettlesAGrid) {
   for (const CueRow& row : kCueRows) {
     const std::vector<LayoutObject> grid = Grid(row.cue);
-    const LayoutAnswer answer = MatchMaps(grid, grid);
+    const LayoutAnswer answer = MatchLayouts(grid, grid);
     ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << row.name << ": " << answer.reason;
     EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(10, 20, 0)), 0.01) << row.name;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/decision.h"
+#include "loop/decision.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

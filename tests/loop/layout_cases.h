@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "loop/layout_likelihood.h"
 #include "sslcd/loop/layout_match.h"
 
 namespace sslcd {
@@ -46,14 +47,6 @@ inline std::vector<LayoutObject> SeenFrom(const std::vector<LayoutObject>& objec
         Vec3(c * d.x() + s * d.y() + noise(), -s * d.x() + c * d.y() + noise(), d.z());
   }
   return seen;
-}
-
-inline LayoutAnswer MatchMaps(const std::vector<LayoutObject>& local,
-                              const std::vector<LayoutObject>& global,
-                              const LayoutMatchOptions& options = {},
-                              const SingleLookOptions& decision = {}) {
-  return MatchLayouts(local, LayoutIndex(global, options.max_pair_m, options.reach_m), options,
-                      decision);
 }
 
 /// How far two poses take a point apart. [m]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/layout_likelihood.h"
+#include "loop/layout_likelihood.h"
 
 #include <gtest/gtest.h>
 

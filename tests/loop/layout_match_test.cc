@@ -16,7 +16,7 @@ TEST(MatchLayouts, FindsItsPlaceInAStrewnMap) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 1);
   const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2);
   ASSERT_GE(local.size(), 6u);
-  const LayoutAnswer answer = MatchMaps(local, map);
+  const LayoutAnswer answer = MatchLayouts(local, map);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   ASSERT_FALSE(answer.hypotheses.empty());
   EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
@@ -29,7 +29,7 @@ TEST(MatchLayouts, HoldsFromAnyDirection) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 3);
   for (double yaw = -3; yaw <= 3; yaw += 0.5) {
     const YawShift pose{yaw, {5, 300, 0}};
-    const LayoutAnswer answer = MatchMaps(SeenFrom(map, pose, {-5, 0}, 18, 0.1, 4), map);
+    const LayoutAnswer answer = MatchLayouts(SeenFrom(map, pose, {-5, 0}, 18, 0.1, 4), map);
     ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << "yaw " << yaw << ": " << answer.reason;
     EXPECT_NEAR(WrapAngle(answer.hypotheses[0].pose.yaw - yaw), 0, 0.03);
   }
@@ -41,7 +41,7 @@ TEST(MatchLayouts, RefusesWhatIsTooLittle) {
     const std::vector<LayoutObject> few(map.begin(),
                                         map.begin() + static_cast<std::ptrdiff_t>(count));
     for (const LayoutAnswer& answer :
-         {MatchMaps(few, map), MatchMaps(map, few), MatchMaps(few, few)}) {
+         {MatchLayouts(few, map), MatchLayouts(map, few), MatchLayouts(few, few)}) {
       EXPECT_EQ(answer.decision, LoopDecision::kNone) << count << " objects";
       EXPECT_THAT(answer.reason, testing::Not(testing::IsEmpty()));
     }
@@ -52,9 +52,9 @@ TEST(MatchLayouts, DoesNotMatchTheMirrorImage) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const std::vector<LayoutObject> map = Strewn(100, 60, seed);
     std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 20, 0.1, seed);
-    ASSERT_EQ(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted);
+    ASSERT_EQ(MatchLayouts(mirrored, map).decision, LoopDecision::kAccepted);
     for (LayoutObject& object : mirrored) object.position.y() *= -1;
-    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
+    EXPECT_NE(MatchLayouts(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
   }
 }
 
@@ -64,11 +64,11 @@ TEST(MatchLayouts, DoesNotMatchTheMirrorImageOfAFewObjects) {
     const std::vector<LayoutObject> map = Strewn(80, 90, seed);
     std::vector<LayoutObject> mirrored = SeenFrom(map, kPose, {0, 0}, 16, 0.3, seed);
     if (mirrored.size() < 6 || mirrored.size() > 12 ||
-        MatchMaps(mirrored, map).decision != LoopDecision::kAccepted)
+        MatchLayouts(mirrored, map).decision != LoopDecision::kAccepted)
       continue;
     ++cases;
     for (LayoutObject& object : mirrored) object.position.y() *= -1;
-    EXPECT_NE(MatchMaps(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
+    EXPECT_NE(MatchLayouts(mirrored, map).decision, LoopDecision::kAccepted) << "seed " << seed;
   }
   EXPECT_GT(cases, 30);
 }
@@ -78,7 +78,7 @@ TEST(MatchLayouts,
   const std::vector<LayoutObject> map = Strewn(40, 60, 5);
   std::vector<LayoutObject> mirrored = map;
   for (LayoutObject& object : mirrored) object.position.y() *= -1;
-  for (const PoseHypothesis& hypothesis : MatchMaps(mirrored, map).hypotheses)
+  for (const PoseHypothesis& hypothesis : MatchLayouts(mirrored, map).hypotheses)
     EXPECT_LT(hypothesis.fit.matches.size(), mirrored.size() / 2);
 }
 
@@ -87,15 +87,15 @@ TEST(MatchLayouts, IsLostInAPerfectGrid) {
   for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
   const std::vector<LayoutObject> part = SeenFrom(grid, kPose, {5, 12}, 7.5, 0., 1);
   ASSERT_GE(part.size(), 8u);
-  EXPECT_EQ(MatchMaps(part, grid).decision, LoopDecision::kAmbiguous) << "many shifts fit";
-  EXPECT_EQ(MatchMaps(grid, grid).decision, LoopDecision::kAmbiguous)
+  EXPECT_EQ(MatchLayouts(part, grid).decision, LoopDecision::kAmbiguous) << "many shifts fit";
+  EXPECT_EQ(MatchLayouts(grid, grid).decision, LoopDecision::kAmbiguous)
       << "the half-turn fits as well";
 }
 
 TEST(MatchLayouts, IsLostOnAnEvenLine) {
   std::vector<LayoutObject> even;
   for (int i = 0; i < 8; ++i) even.push_back(ObjectAt({6. * i, 0.1 * i, 0}));
-  EXPECT_EQ(MatchMaps(even, even).decision, LoopDecision::kAmbiguous)
+  EXPECT_EQ(MatchLayouts(even, even).decision, LoopDecision::kAmbiguous)
       << "the half-turn fits as well";
 }
 
@@ -103,15 +103,15 @@ TEST(MatchLayouts, UnevenSpacingsTellTheEndsOfALineApart) {
   std::vector<LayoutObject> line;
   for (const double x : {0., 7., 12., 21., 35., 41., 60.})
     line.push_back(ObjectAt({x, 0.2 * x, 0}));
-  const LayoutAnswer answer = MatchMaps(line, line);
+  const LayoutAnswer answer = MatchLayouts(line, line);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, {}, Vec3(60, 12, 0)), 0.01);
 }
 
 TEST(MatchLayouts, ObjectsOnOneSpotAreNoLayout) {
   const std::vector<LayoutObject> heap(12, ObjectAt({3, 4, 0}));
-  EXPECT_EQ(MatchMaps(heap, heap).decision, LoopDecision::kNone);
-  EXPECT_EQ(MatchMaps(heap, Strewn(60, 80, 1)).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchLayouts(heap, heap).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchLayouts(heap, Strewn(60, 80, 1)).decision, LoopDecision::kNone);
 }
 
 TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
@@ -120,13 +120,13 @@ TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
   three.resize(3);
   std::vector<LayoutObject> doubled = three;
   for (int copy = 0; copy < 4; ++copy) doubled.insert(doubled.end(), three.begin(), three.end());
-  EXPECT_NE(MatchMaps(doubled, map).decision, LoopDecision::kAccepted)
+  EXPECT_NE(MatchLayouts(doubled, map).decision, LoopDecision::kAccepted)
       << "three places, seen five times each";
 
   std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), global = map;
   local.push_back(local[0]);
   global.push_back(global[0]);
-  const LayoutAnswer answer = MatchMaps(local, global);
+  const LayoutAnswer answer = MatchLayouts(local, global);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   EXPECT_LT(ShiftBetween(answer.hypotheses[0].pose, kPose, local[0].position), 0.5);
 }
@@ -134,22 +134,23 @@ TEST(MatchLayouts, DuplicateLandmarksDoNotCountTwice) {
 TEST(MatchLayouts, LeavesOutWhatIsNotFinite) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 1);
   std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), dirty = map;
-  const LayoutAnswer clean = MatchMaps(local, map);
+  const LayoutAnswer clean = MatchLayouts(local, map);
   dirty.push_back(ObjectAt({std::nan(""), 0, 0}));
   local.push_back(ObjectAt({0, INFINITY, 0}));
-  const LayoutAnswer answer = MatchMaps(local, dirty);
+  const LayoutAnswer answer = MatchLayouts(local, dirty);
   EXPECT_EQ(answer.decision, clean.decision);
   EXPECT_EQ(answer.score, clean.score);
   const std::vector<LayoutObject> nothing(9, ObjectAt({std::nan(""), std::nan(""), 0}));
-  EXPECT_EQ(MatchMaps(nothing, map).decision, LoopDecision::kNone);
-  EXPECT_EQ(MatchMaps(local, nothing).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchLayouts(nothing, map).decision, LoopDecision::kNone);
+  EXPECT_EQ(MatchLayouts(local, nothing).decision, LoopDecision::kNone);
 }
 
 TEST(MatchLayouts, MatchesNameTheObjectsOfTheCaller) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 1);
-  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.1, 2);
+  std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 5}, 18, 0.1, 2), dirty = map;
   local.insert(local.begin(), ObjectAt({std::nan(""), 0, 0}));
-  const LayoutAnswer answer = MatchMaps(local, map);
+  dirty.insert(dirty.begin() + 20, 3, ObjectAt({0, std::nan(""), 0}));
+  const LayoutAnswer answer = MatchLayouts(local, map);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted);
   for (const auto& [i, j] : answer.hypotheses[0].fit.matches)
     EXPECT_LT((Apply(kPose, local[i].position) - map[j].position).norm(), 1.);
@@ -158,7 +159,7 @@ TEST(MatchLayouts, MatchesNameTheObjectsOfTheCaller) {
 TEST(MatchLayouts, AnyLabelNumberIsFine) {
   std::vector<LayoutObject> map = Strewn(60, 80, 1);
   for (LayoutObject& object : map) object.label = object.label * 1000000000 - 1;
-  const LayoutAnswer answer = MatchMaps(SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), map);
+  const LayoutAnswer answer = MatchLayouts(SeenFrom(map, kPose, {10, 5}, 18, 0.2, 2), map);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
 }
 
@@ -176,7 +177,7 @@ TEST(MatchLayouts, WithoutARivalTheMarginIsThatOverChance) {
   for (const double chance : {-10., 3.}) {
     SingleLookOptions decision;
     decision.min_evidence = chance;
-    const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options, decision);
+    const LayoutAnswer answer = MatchLayouts(UnevenLine(), UnevenLine(), options, decision);
     ASSERT_EQ(answer.hypotheses.size(), 1u);
     const double evidence = answer.hypotheses[0].fit.evidence;
     EXPECT_NEAR(answer.score, evidence - chance, 1e-9);
@@ -203,7 +204,7 @@ TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
     for (const double chance : {-10., 15., -2000.}) {
       SingleLookOptions decision;
       decision.min_evidence = chance;
-      const LayoutAnswer answer = MatchMaps(place, WithCopies(place, copies), {}, decision);
+      const LayoutAnswer answer = MatchLayouts(place, WithCopies(place, copies), {}, decision);
       ASSERT_EQ(static_cast<int>(answer.hypotheses.size()), copies + 1);
       const auto evidence = [&](std::size_t i) { return answer.hypotheses[i].fit.evidence; };
       const auto log_odds = [&](std::size_t of) {
@@ -221,16 +222,16 @@ TEST(MatchLayouts, TheMarginIsTheLogOddsAgainstAllRivalsTogether) {
 
 TEST(MatchLayouts, TheSmallerOfBothMapsSaysWhetherThereIsEnough) {
   const std::vector<LayoutObject> map = Strewn(60, 80, 1), three(map.begin(), map.begin() + 3);
-  for (const LayoutAnswer& answer : {MatchMaps(three, map), MatchMaps(map, three)})
+  for (const LayoutAnswer& answer : {MatchLayouts(three, map), MatchLayouts(map, three)})
     EXPECT_THAT(answer.reason, testing::StartsWith("3 objects are too few"));
 }
 
 TEST(MatchLayouts, AsManyObjectsAsHaveToAgreeAreEnough) {
   LayoutMatchOptions options;
   options.search.min_matches = 7;
-  EXPECT_EQ(MatchMaps(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
+  EXPECT_EQ(MatchLayouts(UnevenLine(), UnevenLine(), options).decision, LoopDecision::kAccepted);
   options.search.min_matches = 8;
-  const LayoutAnswer answer = MatchMaps(UnevenLine(), UnevenLine(), options);
+  const LayoutAnswer answer = MatchLayouts(UnevenLine(), UnevenLine(), options);
   EXPECT_EQ(answer.decision, LoopDecision::kNone);
   EXPECT_THAT(answer.reason, testing::StartsWith("7 objects are too few"));
 }
@@ -245,12 +246,12 @@ TEST(MatchLayouts, TheMirrorImageTurnsHeadingsToo) {
   SingleLookOptions options;
   options.min_evidence = -1000;  // nothing but the mirror image refuses
   options.min_margin = -1000;
-  EXPECT_EQ(MatchMaps(map, map, {}, options).decision, LoopDecision::kAccepted);
-  LayoutAnswer answer = MatchMaps(mirrored, map, {}, options);
+  EXPECT_EQ(MatchLayouts(map, map, {}, options).decision, LoopDecision::kAccepted);
+  LayoutAnswer answer = MatchLayouts(mirrored, map, {}, options);
   EXPECT_EQ(answer.decision, LoopDecision::kNone);
   EXPECT_THAT(answer.reason, testing::HasSubstr("mirror"));
   options.mirror_gain = 1000;
-  answer = MatchMaps(mirrored, map, {}, options);
+  answer = MatchLayouts(mirrored, map, {}, options);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
 }
 
@@ -262,7 +263,7 @@ TEST(MatchLayouts, TheMirrorImageTurnsPositionsToo) {
   SingleLookOptions options;
   options.min_evidence = -1000;  // nothing but the mirror image refuses
   options.min_margin = -1000;
-  const LayoutAnswer answer = MatchMaps(mirrored, map, {}, options);
+  const LayoutAnswer answer = MatchLayouts(mirrored, map, {}, options);
   ASSERT_FALSE(answer.hypotheses.empty());
   EXPECT_EQ(answer.decision, LoopDecision::kNone);
   EXPECT_THAT(answer.reason, testing::HasSubstr("mirror"));
@@ -272,7 +273,7 @@ TEST(MatchLayouts, AMirrorImageThatFitsNowhereSpeaksForThePose) {
   const std::vector<LayoutObject> map = Strewn(12, 40, 6);
   LayoutMatchOptions options;
   options.search.min_matches = 12;
-  const LayoutAnswer answer = MatchMaps(map, map, options);
+  const LayoutAnswer answer = MatchLayouts(map, map, options);
   EXPECT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
 }
 

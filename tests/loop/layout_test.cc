@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/layout.h"
+#include "loop/layout.h"
 
 #include <gtest/gtest.h>
 

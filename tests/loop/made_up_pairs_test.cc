@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "formats/pairs.h"
 #include "layout_cases.h"
-#include "sslcd/formats/pairs.h"
 
 namespace sslcd {
 namespace {
@@ -25,7 +25,7 @@ TEST(MadeUpPairs, WhatIsInTheMapIsFoundWhereItIs) {
   ASSERT_EQ(pairs.size(), 32u);
   int right = 0, wrong = 0;
   for (const LayoutPair& pair : pairs) {
-    const LayoutAnswer answer = MatchMaps(pair.local, pair.global);
+    const LayoutAnswer answer = MatchLayouts(pair.local, pair.global);
     if (answer.decision != LoopDecision::kAccepted) continue;
     const YawShift& pose = answer.hypotheses[0].pose;
     const bool is_right = ShiftBetween(pose, pair.truth, pair.local[0].position) < 1 &&
@@ -43,7 +43,7 @@ TEST(MadeUpPairs, WhatIsInAnotherWorldIsRefused) {
   ASSERT_EQ(pairs.size(), 8u);
   int accepted = 0;
   for (const LayoutPair& pair : pairs) {
-    const LayoutAnswer answer = MatchMaps(pair.local, pair.global);
+    const LayoutAnswer answer = MatchLayouts(pair.local, pair.global);
     EXPECT_LT(answer.score, 5) << "pair " << pair.id;
     if (answer.decision != LoopDecision::kAccepted) continue;
     ++accepted;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/object_graph.h"
+#include "loop/object_graph.h"
 
 #include <gtest/gtest.h>
 

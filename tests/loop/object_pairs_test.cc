@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
+#include "formats/pairs.h"
 #include "layout_cases.h"
-#include "sslcd/formats/pairs.h"
 
 namespace sslcd {
 namespace {
@@ -35,7 +35,7 @@ Count Judge(const std::vector<LayoutPair>& pairs, const std::string& scene) {
   Count count;
   for (const LayoutPair& pair : pairs) {
     if (pair.scene.rfind(scene, 0) != 0) continue;
-    const LayoutAnswer answer = MatchMaps(pair.local, pair.global);
+    const LayoutAnswer answer = MatchLayouts(pair.local, pair.global);
     if (answer.decision != LoopDecision::kAccepted) {
       ++count.refused;
       continue;
@@ -68,7 +68,7 @@ TEST(ObjectPairs, TwoScansOfOneRealPlace) {
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << "skipped: no data (object-pairs), set SSLCD_DATA_DIR";
   const LayoutPair pair = ReadLayoutPairs(file).at(0);
-  const LayoutAnswer answer = MatchMaps(pair.local, pair.global);
+  const LayoutAnswer answer = MatchLayouts(pair.local, pair.global);
   ASSERT_EQ(answer.decision, LoopDecision::kAccepted) << answer.reason;
   EXPECT_GT(answer.score, 10);
   const YawShift& pose = answer.hypotheses[0].pose;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/paper_match.h"
+#include "loop/paper_match.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "sslcd/loop/layout.h"
-#include "sslcd/loop/semantics.h"
+#include "loop/layout.h"
+#include "loop/semantics.h"
 
 namespace sslcd {
 namespace {

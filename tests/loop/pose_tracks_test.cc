@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/loop/pose_tracks.h"
+#include "loop/pose_tracks.h"
 
 #include <gtest/gtest.h>
 

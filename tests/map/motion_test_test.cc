@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/map/motion_test.h"
+#include "map/motion_test.h"
 
 #include <gtest/gtest.h>
 

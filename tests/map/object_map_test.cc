@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/map/object_map.h"
+#include "map/object_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/cost_functors.h"
+#include "optim/cost_functors.h"
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/gradient_checker.h>

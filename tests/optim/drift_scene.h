@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "sslcd/core/upright.h"
-#include "sslcd/optim/drift.h"
+#include "optim/drift.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <map>
 
+#include "formats/g2o.h"
 #include "pose_graph_world.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/object_ba.h"
+#include "optim/object_ba.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/odometry_factors.h"
+#include "optim/odometry_factors.h"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
+#include "formats/g2o.h"
+#include "formats/text_rows.h"
 #include "pose_graph_world.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/formats/text_rows.h"
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
 namespace {

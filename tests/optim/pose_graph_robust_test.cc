@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/math.h"
 #include "pose_graph_world.h"
-#include "sslcd/core/math.h"
 
 namespace sslcd {
 namespace {

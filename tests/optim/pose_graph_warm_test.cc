@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "pose_graph_world.h"
-#include "sslcd/optim/pose_graph_robust.h"
+#include "sslcd/optim/pose_graph_solver.h"
 
 namespace sslcd {
 namespace {

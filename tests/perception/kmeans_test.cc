@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/perception/kmeans.h"
+#include "perception/kmeans.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "eval/map_metrics.h"
 #include "figures.h"
 #include "sslcd/datasets/dataset.h"
-#include "sslcd/eval/map_metrics.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "sslcd/pipeline/run.h"
 

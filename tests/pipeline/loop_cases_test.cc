@@ -5,9 +5,9 @@
 #include <set>
 #include <tuple>
 
+#include "core/median.h"
 #include "loop_drives.h"
 #include "sim/halv.h"
-#include "sslcd/core/median.h"
 
 namespace sslcd {
 namespace {

@@ -7,11 +7,11 @@
 #include <limits>
 #include <tuple>
 
+#include "formats/g2o.h"
+#include "formats/loops_csv.h"
+#include "formats/map_json.h"
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/formats/loops_csv.h"
-#include "sslcd/formats/map_json.h"
 #include "sslcd/formats/poses.h"
 
 namespace sslcd {

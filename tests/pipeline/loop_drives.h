@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "eval/sequence_metrics.h"
 #include "sim/path.h"
 #include "sim/random.h"
 #include "sim/sensor.h"
-#include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd {

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "eval/kitti_ground_truth.h"
+#include "eval/sequence_metrics.h"
 #include "figures.h"
 #include "sslcd/datasets/dataset.h"
-#include "sslcd/eval/kitti_ground_truth.h"
-#include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd {

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/frame_store.h"
+#include "formats/g2o.h"
+#include "formats/map_json.h"
 #include "sim/sensor.h"
 #include "sim/world.h"
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
-#include "sslcd/formats/g2o.h"
-#include "sslcd/formats/map_json.h"
 #include "sslcd/formats/poses.h"
 
 namespace sslcd {
@@ -128,7 +129,7 @@ TEST(RunSequence, FramesThatComeOneByOneAreTheSame) {
     EXPECT_EQ(done, static_cast<int>(next)) << "a frame is asked for when it is needed, no sooner";
     last_total = total;
   };
-  const Source<Frame> source = [&]() -> std::optional<Frame> {
+  const FrameSource source = [&]() -> std::optional<Frame> {
     return next < scene.frames.size() ? std::optional<Frame>(scene.frames[next++]) : std::nullopt;
   };
   const RunResult streamed = RunSequence(source, 7, scene.context, {}, hooks);
@@ -162,7 +163,7 @@ TEST(RunSequence, ASourceMayBeEmptyOrThrow) {
   EXPECT_TRUE(nothing.objects.empty());
   EXPECT_FALSE(nothing.stopped);
   int asked = 0;
-  const Source<Frame> broken = [&]() -> std::optional<Frame> {
+  const FrameSource broken = [&]() -> std::optional<Frame> {
     if (asked == 3) throw Error(ErrorKind::kBadInput, "the camera is gone");
     return scene.frames[asked++];
   };
@@ -200,7 +201,7 @@ TEST(Mapper, RefusesBadFramesAndStaysAsItWas) {
   Frame nan = scene.frames[3];
   nan.T_odom_cam.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(mapper.AddFrame(nan), Error);
-  EXPECT_EQ(mapper.frames().size(), 3u);
+  EXPECT_EQ(mapper.CameraTrajectory().size(), 3u);
   EXPECT_NO_THROW(mapper.AddFrame(scene.frames[3]));
 }
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
+#include "eval/kitti_ground_truth.h"
+#include "eval/sequence_metrics.h"
 #include "sslcd/datasets/dataset.h"
-#include "sslcd/eval/kitti_ground_truth.h"
-#include "sslcd/eval/sequence_metrics.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd {

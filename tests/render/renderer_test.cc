@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "perception/projection.h"
 #include "sslcd/core/error.h"
-#include "sslcd/perception/projection.h"
 
 namespace sslcd::render {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "eval/iou3d.h"
 #include "sslcd/core/error.h"
-#include "sslcd/eval/iou3d.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "temp_folder.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sslcd/core/median.h"
+#include "core/median.h"
 #include "stereo/stereo_scene.h"
 
 namespace sslcd {

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "formats/calib.h"
 #include "sslcd/core/error.h"
-#include "sslcd/formats/calib.h"
 #include "sslcd/formats/poses.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/visual_odometry/rig_check.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {
 

@@ -6,11 +6,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "perception/projection.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/perception/opencv_image.h"
-#include "sslcd/perception/projection.h"
 
 namespace sslcd {
 

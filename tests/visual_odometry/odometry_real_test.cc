@@ -2,7 +2,7 @@
 // Real data; skipped where it is absent.
 #include <gtest/gtest.h>
 
-#include "sslcd/eval/segment_error.h"
+#include "eval/segment_error.h"
 #include "stereo/stereo_folder.h"
 #include "support/temp_folder.h"
 

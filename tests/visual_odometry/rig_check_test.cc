@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/visual_odometry/rig_check.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 #include <gtest/gtest.h>
 

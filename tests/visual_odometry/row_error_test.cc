@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sslcd/visual_odometry/row_error.h"
+#include "visual_odometry/row_error.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sslcd/core/relative_pose.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 

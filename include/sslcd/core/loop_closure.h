@@ -19,6 +19,14 @@ enum class LoopDecision {
 /// "none", "ambiguous", "accepted".
 const char* ToString(LoopDecision decision);
 
+/// What is decided about a loop, and why.
+struct LoopVerdict {
+  LoopDecision decision = LoopDecision::kNone;
+  std::string reason;       ///< why it was refused, or what speaks for it; for people
+  double score = 0;         ///< log odds that the best pose is the right one [nats]
+  double second_score = 0;  ///< the same of the second best
+};
+
 /// One attempt to close a loop, successful or not: a row of loops.csv.
 struct LoopClosure {
   int newest_frame = 0;  ///< where it was looked for; the query frame may be an earlier one
@@ -33,6 +41,12 @@ struct LoopClosure {
   bool by_views = false;  ///< measured along a tie between aligned images, not by its objects
   double viewpoint_change_rad = 0;
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global
+};
+
+/// Two cameras whose relative pose was measured, by the indices of their frames.
+struct ViewTie {
+  int from = 0, to = 0;
+  RelativePose pose;  ///< T_from_to
 };
 
 }  // namespace sslcd

@@ -3,6 +3,7 @@
 
 #include <lie/se3.h>
 #include <Eigen/Core>
+#include <vector>
 
 namespace sslcd {
 
@@ -40,6 +41,43 @@ struct GravityFrame {
 
   /// Yaw of a rotation: direction of its x axis projected to the horizontal. [rad]
   double YawOf(const lie::SO3<double>& R_world_object) const;
+};
+
+/// Pose of a gravity-aligned object: where its centre is and which way it faces. Roll and pitch are
+/// zero (paper III-A.1).
+struct UprightPose {
+  Vec3 position{0, 0, 0};  ///< centre in the world [m]
+  double yaw = 0;          ///< about the world's up, see GravityFrame [rad]
+};
+
+/// T_world_object.
+Pose ToPose(const UprightPose& upright, const GravityFrame& gravity);
+/// Drops roll and pitch.
+UprightPose ToUpright(const Pose& T_world_object, const GravityFrame& gravity);
+
+/// Where one camera stands in another one's frame, as measured.
+struct RelativePose {
+  Pose T_a_b;
+  /// Of the right perturbation T_a_b Exp(d), d = [translation, rotation].
+  Pose::Matrix6 covariance = Pose::Matrix6::Identity();
+};
+
+/// T_a_c from T_a_b and T_b_c, whose errors are independent.
+inline RelativePose Compose(const RelativePose& ab, const RelativePose& bc) {
+  // T_a_b Exp(d) T_b_c = T_a_b T_b_c Exp(Adj(T_b_c^-1) d)
+  const Pose::Matrix6 adjoint = bc.T_a_b.inverse().Adj();
+  return {ab.T_a_b * bc.T_a_b, adjoint * ab.covariance * adjoint.transpose() + bc.covariance};
+}
+
+/// Whether `T_a_b` lies within the measurement's confidence region of that probability.
+bool Agrees(const RelativePose& measured, const Pose& T_a_b, double probability);
+
+/// Stamped poses, in time order. `poses[i]` is T_world_cam at `stamps[i]` [s]; both of the same
+/// length.
+struct Trajectory {
+  std::vector<double> stamps;
+  std::vector<Pose> poses;
+  std::size_t size() const { return poses.size(); }
 };
 
 }  // namespace sslcd

@@ -8,7 +8,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/label.h"
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/formats/detections.h"
 #include "sslcd/formats/poses.h"
 

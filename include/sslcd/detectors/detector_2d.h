@@ -8,7 +8,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/inference/session.h"
+#include "sslcd/inference/options.h"
 
 namespace sslcd {
 
@@ -16,7 +16,7 @@ namespace sslcd {
 class Detector2d {
  public:
   /// Reads `model_yaml` (detectors/model_description.h) and loads the model it names. Throws Error
-  /// when the description is wrong, the model cannot be loaded (inference/session.h), or its inputs
+  /// when the description is wrong, the model cannot be loaded, or its inputs
   /// and outputs have other shapes than the description says; the message has both.
   static Detector2d Load(const std::string& model_yaml, const InferenceOptions& options = {});
   Detector2d(Detector2d&&) noexcept;

@@ -9,7 +9,7 @@
 #include "sslcd/core/detection.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/inference/session.h"
+#include "sslcd/inference/options.h"
 
 namespace sslcd {
 

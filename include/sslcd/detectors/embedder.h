@@ -8,7 +8,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/inference/session.h"
+#include "sslcd/inference/options.h"
 
 namespace sslcd {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sslcd/core/pose.h"
-#include "sslcd/core/trajectory.h"
 
 namespace sslcd {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sslcd/core/trajectory.h"
+#include "sslcd/core/pose.h"
 
 namespace sslcd {
 

@@ -6,7 +6,7 @@
 
 #include "sslcd/core/fields.h"
 #include "sslcd/ground/ground_alignment.h"
-#include "sslcd/inference/session.h"
+#include "sslcd/inference/options.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/visual_odometry/odometry.h"
 

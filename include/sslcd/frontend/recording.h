@@ -10,7 +10,6 @@
 #include "sslcd/frontend/adapt.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/frontend/stereo_files.h"
-#include "sslcd/frontend/view_alignment.h"
 
 namespace sslcd {
 

@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/closing/view_aligner.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/image.h"
-#include "sslcd/visual_odometry/rig_check.h"
+#include "sslcd/frontend/options.h"
+#include "sslcd/visual_odometry/odometry.h"
 
 namespace sslcd {
 
@@ -42,5 +44,21 @@ RigCheck CheckRig(const StereoFiles& files, const StereoCamera& camera,
 /// AlignmentRange of the left camera, by the height of the first left image. None: no image can be
 /// read, or the camera sees no near ground. [m]
 std::optional<double> AlignmentRange(const StereoFiles& files, const Camera& left, double height_m);
+
+/// How a ground aligner works.
+struct GroundAlignerOptions {
+  /// find the disparity at infinity (CheckRig) when the first frames are to be aligned; needed
+  /// where nobody has done so before
+  bool check_rig = false;
+  int threads = 1;  ///< the answers do not depend on it
+  /// after each pair; one call at a time
+  std::function<void(int done, int total)> progress;
+};
+
+/// Aligns frames by the ground in their stereo images (AlignGround), which are read again from
+/// `files`; for MapperContext::view_aligner. One warning says what is wrong with images that cannot
+/// be used; the aligner throws nothing. It answers nothing more when `files` are stopped.
+ViewAligner MakeGroundAligner(StereoFiles files, const StereoCamera& camera,
+                              const VisionOptions& vision, GroundAlignerOptions options = {});
 
 }  // namespace sslcd

@@ -6,7 +6,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
-#include "sslcd/core/relative_pose.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/ground/ground_plane.h"
 
 namespace sslcd {

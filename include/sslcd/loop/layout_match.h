@@ -1,30 +1,40 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <utility>
 #include <vector>
 
-#include "sslcd/core/fields.h"
 #include "sslcd/core/layout.h"
-#include "sslcd/loop/decision.h"
-#include "sslcd/loop/layout_index.h"
-#include "sslcd/loop/pose_search.h"
+#include "sslcd/core/loop_closure.h"
+#include "sslcd/loop/options.h"
 
 namespace sslcd {
 
-/// How layouts are searched and scored.
-struct LayoutMatchOptions {
-  double max_pair_m = 50.;  ///< objects that are farther apart do not propose a pose together
-  double reach_m = 2.;  ///< a local object is compared with the map's objects within this distance
-  PoseSearchOptions search;
-  LayoutLikelihoodOptions likelihood;
+class LayoutIndex;
+
+/// How well a local layout agrees with the global one under a pose.
+struct LayoutFit {
+  /// local index, global index: one to one, in order of the local index
+  std::vector<std::pair<int, int>> matches;
+  /// log likelihood ratio of the layout under the pose [nats]
+  double score = 0;
+  double evidence = 0;  ///< the same when the pose is not given but has to be found in this map:
+                        ///< below 0, chance does it
+  /// how well matched objects agree, horizontally (standard deviation per axis) [m]
+  double sigma = 0;
+  int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
 };
-void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
+
+/// A pose that the local layout may have in the global one.
+struct PoseHypothesis {
+  YawShift pose;  ///< local to global
+  LayoutFit fit;  ///< how well the layouts agree under it
+};
 
 /// Where the local map lies in the global one, or why that cannot be told.
 struct LayoutAnswer : LoopVerdict {
   /// Distinct poses, best first; may be empty. The answer is the first. Matches are indices into
-  /// the local objects as given and into `index.objects()`.
+  /// the objects as given.
   std::vector<PoseHypothesis> hypotheses;
 };
 
@@ -33,8 +43,15 @@ struct LayoutAnswer : LoopVerdict {
 /// pose. Objects whose position is not finite take no part. Before a pose is accepted, the mirror
 /// image of the local map is searched as well: no camera ever sees it, so what it reaches is
 /// chance. Deterministic; never throws for odd layouts, but says so in the verdict.
+LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local,
+                          const std::vector<LayoutObject>& global,
+                          const LayoutMatchOptions& options = {},
+                          const SingleLookOptions& decision = {});
+
+/// The same in a map that is searched more than once. Matches are indices into `index.objects()`.
+/// For callers inside the library: its header is not installed.
 LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                          const LayoutMatchOptions& options,
+                          const LayoutMatchOptions& options = {},
                           const SingleLookOptions& decision = {});
 
 }  // namespace sslcd

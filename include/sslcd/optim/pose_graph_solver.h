@@ -4,40 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "sslcd/core/fields.h"
 #include "sslcd/core/pose_graph.h"
+#include "sslcd/optim/options.h"
 
 namespace sslcd {
 
-/// What a vertex may do.
-enum class PoseFreedom {
-  kFull,     ///< 6 DoF
-  kUpright,  ///< 4 DoF: translation and yaw about `up`. Roll and pitch are known (gravity) and stay
-             ///< as they are; of a measured rotation only the yaw counts
-  kPlanar,   ///< 3 DoF: as kUpright, and the height stays as it is
-};
 int DegreesOfFreedom(PoseFreedom freedom);
 
-/// Where the optimisation starts.
-enum class PoseGraphStart {
-  kAuto,     ///< from the given poses; or chordal, where these are far from the measurements and
-             ///< chordal is nearer
-  kGiven,    ///< from the given poses
-  kChordal,  ///< rotations from the chordal relaxation (Carlone et al., ICRA 2015), then linear
-             ///< translations
-};
-
-/// Pose graph optimisation, paper IV-D Eqs. 20, 21.
-struct PoseGraphOptions {
-  PoseFreedom freedom = PoseFreedom::kFull;
-  PoseGraphStart start = PoseGraphStart::kAuto;  ///< no key: callers that know better set it
-  int max_iterations = 100;                      ///< no key: of one solve
-  /// no key: the solver stops when an iteration lowers chi2 by a smaller fraction
-  double tolerance = 1e-6;
-  GravityFrame gravity;  ///< which way is up; for kUpright and kPlanar
-};
-void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options);
-
+/// What SolvePoseGraph did.
 struct PoseGraphSummary {
   bool usable = false;  ///< false: the graph is left as it was
   bool converged = false;
@@ -63,5 +37,25 @@ double Chi2(const PoseGraph& graph, const std::vector<double>& weights = {});
 /// is not usable says why.
 PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
                                 const std::vector<double>& weights = {});
+
+/// What SolveRobust did.
+struct RobustPoseGraphSummary {
+  /// chi2, of the given and of the returned poses, counts the kept loops only
+  PoseGraphSummary graph;
+  std::vector<double> edge_weight;  ///< per edge: 1 trusted or kept, 0 loop refused
+  int loops_kept = 0, loops_refused = 0;
+  int rounds = 0;         ///< weight updates; 0 where all loops agreed at once
+  double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
+};
+
+/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all
+/// loops ever proposed each time; a loop kept before may be refused once others contradict it, and
+/// come back. `kept_before`: per edge, 1 for loops that a former solve has kept and for new ones, 0
+/// for those it has refused; the vertices are where that solve has left them. If next to nothing
+/// changes from there, that is the answer, and a cheap one. Otherwise, or if it is empty, the start
+/// is the trusted edges' own geometry, which false loops cannot spoil. Never throws, as
+/// SolvePoseGraph.
+RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
+                                   const std::vector<double>& kept_before = {});
 
 }  // namespace sslcd

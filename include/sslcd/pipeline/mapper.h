@@ -7,16 +7,22 @@
 
 #include "sslcd/closing/place_matcher.h"
 #include "sslcd/closing/view_aligner.h"
+#include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
-#include "sslcd/core/frame_store.h"
+#include "sslcd/core/detection_noise.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/landmark.h"
 #include "sslcd/core/loop_closure.h"
-#include "sslcd/core/timing.h"
-#include "sslcd/core/trajectory.h"
-#include "sslcd/map/object_map.h"
-#include "sslcd/optim/object_ba.h"
-#include "sslcd/pipeline/options.h"
+#include "sslcd/core/pose.h"
+#include "sslcd/core/pose_graph.h"
+#include "sslcd/map/options.h"
+#include "sslcd/optim/options.h"
+#include "sslcd/perception/filter.h"
 
 namespace sslcd {
+
+class TimingTable;
+struct Options;
 
 /// What the mapper has to know about the world and the sensor before the first frame.
 struct MapperContext {
@@ -41,6 +47,7 @@ struct FrameReport {
 /// it. Not thread-safe; one mapper per sequence.
 class Mapper {
  public:
+  /// Options: pipeline/options.h
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
   /// A copy has all of the state and goes its own way, e.g. to Refine() in a thread of its own
@@ -61,16 +68,18 @@ class Mapper {
   /// optimised once more with that. May be called any time, and again.
   BaSummary Refine();
 
-  const ObjectMap& map() const;
-  const FrameStore& frames() const;
+  const GravityFrame& gravity() const;
+  NoiseScale noise_scale() const;          ///< what was learnt of the detector
   Trajectory CameraTrajectory() const;     ///< one pose a frame
   std::vector<MapObject> Objects() const;  ///< every landmark, by id
   /// every attempt, refused ones too
   std::vector<LoopClosure> LoopClosures() const;
   const std::vector<ViewTie>& view_ties() const;  ///< of the last Refine
+  /// Frames by their numbers, the metric odometry between them, accepted loops and view ties.
+  PoseGraph Graph() const;
   /// metres per odometry metre
   double scale() const;
-  TimingTable& timing();
+  TimingTable& timing();  ///< core/timing.h
 
  private:
   struct Impl;

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "sslcd/association/associate.h"
-#include "sslcd/closing/loop_options.h"
+#include "sslcd/association/options.h"
+#include "sslcd/closing/options.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/map/object_map.h"
-#include "sslcd/optim/object_ba.h"
+#include "sslcd/map/options.h"
+#include "sslcd/optim/options.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/perception/filter.h"
 #include "sslcd/refine/options.h"

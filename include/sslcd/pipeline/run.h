@@ -2,18 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/detection_noise.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/core/pose_graph.h"
-#include "sslcd/core/source.h"
 #include "sslcd/core/timing.h"
-#include "sslcd/core/trajectory.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/pipeline/mapper.h"
+#include "sslcd/pipeline/options.h"
 
 namespace sslcd {
+
+/// Hands out the frames of a sequence in order; none: that was the last one. May throw, and is not
+/// asked again then.
+using FrameSource = std::function<std::optional<Frame>()>;
 
 /// What a host may hang into an offline run. All optional, all called from the calling thread.
 struct RunHooks {
@@ -52,7 +58,7 @@ RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& con
 
 /// The same for frames that come one by one, e.g. made from images (frontend/image_frontend.h).
 /// `total` is for the progress only.
-RunResult RunSequence(const Source<Frame>& next, int total, const MapperContext& context,
+RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context,
                       const Options& options, const RunHooks& hooks = {});
 
 }  // namespace sslcd

@@ -3,8 +3,8 @@
 
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
-#include "sslcd/map/object_map.h"
-#include "sslcd/optim/object_ba.h"
+#include "sslcd/map/options.h"
+#include "sslcd/optim/options.h"
 
 namespace sslcd {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "sslcd/core/upright.h"
+#include "sslcd/core/pose.h"
 #include "sslcd/pipeline/run.h"
 
 int main() {

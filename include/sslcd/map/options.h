@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/core/landmark.h"
+
+namespace sslcd {
+
+/// When an object counts as parked, and when as driving.
+struct MotionTestOptions {
+  double decide_at = 6.;       ///< log Bayes factor at which an object is called driving [nats]
+  double min_travel_m = 2.;    ///< an object that has moved less is not called driving
+  double min_speed_mps = 0.7;  ///< an object that is slower is not called driving
+  double settle_s = 1.5;  ///< a driving object that has stopped for this time is a new parked one
+
+  // No keys: properties of road users and of the models, set by hand; no search over them is
+  // recorded.
+  double speed_prior_mps = 8.;    ///< standard deviation of an unknown object's speed, per axis
+  double acceleration_mps2 = 2.;  ///< standard deviation of a driving object's acceleration
+  /// random walk of a parked object's position that camera drift causes
+  double wander_m_per_sqrt_s = 0.02;
+  double max_parked_speed_mps = 2.;  ///< a parked object's speed is below this, with one standard
+                                     ///< deviation to spare
+  /// limit of the log Bayes factor: the evidence that a change of state has to overcome [nats]
+  double memory = 10.;
+  double forget_after_s = 5.;  ///< the test of an object unseen for longer starts again
+};
+void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
+
+/// Life cycle of landmarks.
+struct MapOptions {
+  int confirm_sightings = 3;     ///< sightings that turn tentative into confirmed
+  double birth_score = 0.5;      ///< a detection with a lower score makes no new landmark
+  double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is dropped
+  double search_radius_m = 12.;  ///< a detection's landmark is searched for within this distance
+  /// after this length of path out of sight, only loop closure finds a landmark again: by then the
+  /// odometry may have drifted on to its neighbour
+  double memory_m = 60.;
+  /// learn the detector's noise scale from the scatter of its detections
+  bool learn_noise = true;
+  MotionTestOptions motion;
+};
+void DescribeFields(FieldVisitor& visitor, MapOptions& options);
+
+/// What one frame did to the map.
+struct MapUpdate {
+  std::vector<LandmarkId> matched;  ///< landmark of each detection; value -1: none
+  int born = 0, confirmed = 0, turned_dynamic = 0;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "association/gallery.h"
+#include "sslcd/association/options.h"
+#include "sslcd/core/cue.h"
+#include "sslcd/core/detection.h"
+
+namespace sslcd {
+
+/// Where something is in the horizontal plane of the world. [m, m^2]
+struct PlanarBelief {
+  Vec2 position{0, 0};
+  Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance =
+      Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
+};
+
+/// A detection d_i as association sees it.
+struct AssociationQuery {
+  const Detection* detection = nullptr;
+  PlanarBelief place;
+  double height = 0;         ///< of the centre above the world's origin [m]
+  double viewpoint_rad = 0;  ///< bearing of the camera in the object frame
+};
+
+/// A landmark o_k as association sees it in this frame.
+struct AssociationCandidate {
+  std::string label;
+  /// where it may be, the more plausible first (parked, driving); >= 1
+  std::vector<PlanarBelief> beliefs;
+  double height = 0;
+  double viewpoint_rad = 0;
+  std::optional<Box2d> projected_box;           ///< Eq. 1
+  const PerCue<Gallery>* appearance = nullptr;  ///< null: unknown
+};
+
+/// W_d of Eq. 2 (queries x candidates); 0 = must not match.
+Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
+                                  const std::vector<AssociationCandidate>& candidates,
+                                  const AssociationOptions& options);
+
+/// Index of the candidate for each query, -1 for none; one-to-one with the largest total score.
+std::vector<int> Associate(const std::vector<AssociationQuery>& queries,
+                           const std::vector<AssociationCandidate>& candidates,
+                           const AssociationOptions& options);
+
+}  // namespace sslcd

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sslcd/core/camera.h"
+#include "sslcd/core/detection.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// A sequence folder (docs/formats.md) in memory.
+struct SequenceFiles {
+  std::string comment;  ///< first line of sequence.yaml; empty: none
+  std::optional<StereoCamera> camera;
+  Trajectory odometry;                             ///< one pose a frame, with stamps
+  std::optional<Trajectory> groundtruth;           ///< for evaluation only
+  std::vector<std::vector<Detection>> detections;  ///< of each frame
+  Vec3 up_axis{0, -1, 0};
+  LabelTable labels;
+  std::string config_yaml;  ///< what `sslcd_run run` should be told of it; empty: there is none
+};
+
+/// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
+/// sequence.yaml, and where there are such things config.yaml, calib.txt, groundtruth.txt (TUM) and
+/// the files of cues (core/cue.h): embeddings.npy (a detection without one has a row of zeros) and
+/// colours.npy (every detection has one, or there is no file). All appear complete or none; then
+/// what an earlier run left of those that are missing (but config.yaml) is removed. Throws
+/// Error(kOutput).
+void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
+
+/// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not
+/// set, Error(kOutput) when it cannot be made.
+void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
+
+}  // namespace sslcd

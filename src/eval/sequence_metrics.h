@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "eval/precision_recall.h"
+#include "sslcd/core/detection.h"
+#include "sslcd/core/landmark.h"
+#include "sslcd/core/loop_closure.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// A run on a sequence with true poses and true identities. Poses are T_world_cam by frame number,
+/// in KITTI camera axes (x right, y down, z forward); the longer lists are cut to the shortest.
+struct SequenceRun {
+  std::vector<Pose> estimate, odometry, reference;
+  /// the detections as they went in: frame numbers and rows are used
+  std::vector<Frame> frames;
+  /// the true identity of each detection row; negative: a false alarm
+  std::vector<int> identities;
+  std::vector<LoopClosure> loops;  ///< only accepted ones count
+  std::vector<MapObject> objects;  ///< the final map; only confirmed ones count
+};
+
+struct SequenceMetricOptions {
+  double true_loop_m = 5.;          ///< a loop is wrong from this horizontal error on ...
+  double true_loop_height_m = 1.5;  ///< ... from this error in height on ...
+  double true_loop_rad = 5. * 0.017453292519943295;  ///< ... or from this error of rotation on
+  // A stretch of path that is revisited: `common` identities of its last `recent_m` were seen more
+  // than `old_m` before.
+  /// between the marks along the path, the first at old_m; a loop counts for marks this near
+  double spacing_m = 10.;
+  double recent_m = 40.;
+  double old_m = 60.;
+  int common = 5;
+};
+
+struct SequenceMetrics {
+  double ate = 0, ate_odometry = 0;  ///< after SE(3) alignment, RMSE [m]
+  double path = 0;                   ///< length of the reference [m]
+  int loops = 0, wrong_loops = 0;
+  int wrong_in_height = 0;  ///< of the wrong loops, those that are off in height
+  /// true loops per bin of the change of heading
+  std::array<int, kViewpointBins> true_by_viewpoint{};
+  int revisited_stretches = 0;
+  double recall = 0;  ///< part of the revisited stretches in which a true loop was found
+  std::optional<double> loop_error_median_m, loop_error_median_rad;
+  int landmarks = 0, true_landmarks = 0;
+  double landmarks_per_true = 0;  ///< landmarks per identity that owns one
+  double purity = 0;              ///< see MapMetrics
+};
+
+/// Throws Error (kUsage): no poses; a loop, or a detection row of the map, that is out of range.
+SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run,
+                                       const SequenceMetricOptions& options = {});
+
+}  // namespace sslcd

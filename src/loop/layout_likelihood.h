@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "loop/appearance_likelihood.h"
+#include "loop/layout_index.h"
+#include "sslcd/core/layout.h"
+#include "sslcd/loop/layout_match.h"
+#include "sslcd/loop/options.h"
+
+namespace sslcd {
+
+/// How much better the local layout is explained by "this is the map, seen under this pose" than by
+/// "these are other objects, strewn at the map's density". A log likelihood ratio, in nats: it
+/// speaks the same language on dense lots and lonely poles, and knows rare labels from common ones.
+///
+/// Of one local layout on one map; refers to both, which have to outlive it. Positions are finite.
+/// It remembers what it has worked out, so not two threads at once.
+class LayoutLikelihood {
+ public:
+  LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
+                   const LayoutLikelihoodOptions& options);
+
+  const std::vector<LayoutObject>& local() const { return local_; }
+  const LayoutIndex& index() const { return index_; }
+
+  /// Matches under `pose` and what they say.
+  LayoutFit Evaluate(const YawShift& pose) const;
+
+  /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates
+  /// there. Remembers the way: a start that leads to a pose where an earlier one has been costs
+  /// little.
+  LayoutFit Refine(YawShift& pose, int rounds) const;
+
+ private:
+  struct Candidate {
+    int local, global;
+    double d2, z2;         // squared distance, horizontal and vertical [m^2]
+    double semantic_gain;  // label, heading, appearance [nats]
+    bool in_view;          // the map's object lies among the local ones
+  };
+  struct Edge {  // of the hull
+    Vec2 from, along;
+    double least;  // cross product with it of what is inside
+  };
+  struct Settled {
+    YawShift pose;
+    LayoutFit fit;
+  };
+  using Waypoint = std::array<double, 6>;  // rounds asked for, round, pose
+  std::vector<Candidate> Candidates(const YawShift& pose, bool with_view) const;
+  Settled Settle(const YawShift& pose) const;
+  YawShift Align(const LayoutFit& fit) const;
+  void PrepareLabels();
+  void PrepareHeadings();
+  void PrepareHull();
+  double HeadingGain(int local, const LayoutObject& global, double yaw) const;
+  double Appearance(int local, int global) const;
+  int OnMap(const YawShift& pose) const;
+  int CountInView(const YawShift& pose) const;
+  bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
+  LayoutFit Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
+                   double sigma) const;
+
+  const std::vector<LayoutObject>& local_;
+  const LayoutIndex& index_;
+  LayoutLikelihoodOptions options_;
+  static constexpr int kHeadings = 72;
+  // gain of each local object where its label is right; 0 if there is but one
+  std::vector<double> equal_label_;
+  double other_label_ = 0;              // ... and where it is wrong
+  std::vector<double> chance_heading_;  // of each local object: log density [1/rad]
+  std::vector<Vec2> corners_;           // of the local objects' convex hull, counter-clockwise
+  std::vector<Edge> hull_;
+  // log probability that none of so many is mapped
+  std::vector<double> none_mapped_;
+  mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
+  // where a way through a pose has led
+  mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;
+};
+
+/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points;
+/// else yaw 0.
+YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
+
+/// The point where a pose takes it.
+Vec3 Apply(const YawShift& pose, const Vec3& point);
+
+}  // namespace sslcd

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "association/gallery.h"
+#include "map/motion_test.h"
+#include "sslcd/core/cue.h"
+#include "sslcd/core/label.h"
+#include "sslcd/core/landmark.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// One detection that was matched to a landmark: what bundle adjustment needs of it.
+struct Sighting {
+  int frame = 0;
+  double stamp = 0;  ///< [s]
+  int detection_row = 0;
+  double score = 1.;
+  Pose T_cam_object;
+  Vec3 dims{0, 0, 0};  ///< length, width, height [m]
+};
+
+/// A landmark while the map is being built: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with
+/// its life cycle.
+struct MapLandmark {
+  LandmarkId id;
+  std::string label;
+  Symmetry symmetry = Symmetry::kNone;
+  LandmarkState state = LandmarkState::kTentative;
+  UprightPose pose;    ///< in the world
+  Vec3 dims{0, 0, 0};  ///< length, width, height [m]
+  MotionTest motion;
+  PerCue<Gallery> appearance;       ///< H_k, E_k
+  std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
+  double last_seen = 0;             ///< [s]
+  double last_seen_at = 0;          ///< path travelled by then [m]
+};
+
+/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around
+/// it. Weights fall with range, as the detections' precision does. At least one sighting.
+Vec3 FuseDims(const std::vector<Sighting>& sightings);
+
+/// Decides which way round the object stands by a vote of its sightings (a detector that takes
+/// front for back is wrong by half a turn, and bundle adjustment does not listen to that half
+/// turn). `yaws` are the sightings' yaws in the world. Returns `yaw` or `yaw + pi`, wrapped.
+double VoteHeading(double yaw, const std::vector<double>& yaws);
+
+}  // namespace sslcd

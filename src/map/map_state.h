@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/frame_store.h"
+#include "map/object_map.h"
+
+namespace sslcd {
+
+/// What a run knows: its frames, and the map of objects that they have seen. Copyable.
+struct MapState {
+  ObjectMap map;
+  FrameStore frames;
+
+  const GravityFrame& gravity() const { return map.gravity(); }
+};
+
+}  // namespace sslcd
