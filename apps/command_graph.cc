@@ -11,7 +11,7 @@
 #include "formats/metrics_json.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
-#include "sslcd/optim/pose_graph_solver.h"
+#include "sslcd/pose_graph/pose_graph.h"
 #include "threads.h"
 
 namespace sslcd::apps {

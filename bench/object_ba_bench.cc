@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "optim/object_ba.h"
+#include "bundle/object_ba.h"
 
 namespace sslcd {
 namespace {

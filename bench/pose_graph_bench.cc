@@ -10,9 +10,9 @@
 
 #include "formats/atomic_file.h"
 #include "formats/g2o.h"
-#include "optim/pose_graph_world.h"
+#include "pose_graph/pose_graph_world.h"
 #include "sslcd/formats/poses.h"
-#include "sslcd/optim/pose_graph_solver.h"
+#include "sslcd/pose_graph/pose_graph.h"
 
 namespace sslcd {
 namespace {

@@ -10,7 +10,7 @@
 #include "loop/layout_likelihood.h"
 #include "refine/optimise_map.h"
 #include "refine/trajectory_correction.h"
-#include "sslcd/optim/pose_graph_solver.h"
+#include "sslcd/pose_graph/pose_graph.h"
 
 namespace sslcd {
 namespace {

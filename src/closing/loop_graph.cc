@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "optim/odometry_edge.h"
+#include "odometry/odometry_edge.h"
 #include "refine/trajectory_correction.h"
 
 namespace sslcd {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_meter.h"
-#include "optim/odometry_noise.h"
+#include "odometry/odometry_noise.h"
 
 #include <algorithm>
 #include <cmath>

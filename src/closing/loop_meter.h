@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "closing/pass_map.h"
+#include "loop/drift.h"
 #include "loop/layout_index.h"
-#include "optim/drift.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/core/loop_closure.h"
 

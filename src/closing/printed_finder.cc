@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "closing/loop_finder.h"
+#include "loop/drift.h"
 #include "loop/paper_match.h"
-#include "optim/drift.h"
 
 namespace sslcd {
 namespace {

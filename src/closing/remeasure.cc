@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "loop/decision.h"
-#include "optim/odometry_edge.h"
-#include "optim/odometry_factors.h"
+#include "odometry/odometry_edge.h"
+#include "odometry/odometry_factors.h"
 
 namespace sslcd {
 namespace {

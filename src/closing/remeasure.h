@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "closing/loop_ledger.h"
-#include "optim/odometry_noise.h"
+#include "odometry/odometry_noise.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {

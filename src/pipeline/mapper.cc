@@ -8,7 +8,7 @@
 #include "closing/remeasure.h"
 #include "closing/view_ties.h"
 #include "core/frame_store.h"
-#include "optim/odometry_edge.h"
+#include "odometry/odometry_edge.h"
 #include "pipeline/gravity_aligner.h"
 #include "pipeline/sliding_window.h"
 #include "refine/refine_map.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "bundle/object_ba.h"
 #include "map/map_state.h"
-#include "optim/object_ba.h"
 #include "sslcd/pipeline/options.h"
 
 namespace sslcd {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "optim/object_ba.h"
+#include "bundle/object_ba.h"
 #include "refine/trajectory_correction.h"
 
 namespace sslcd {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "map/map_state.h"
-#include "optim/odometry_noise.h"
+#include "odometry/odometry_noise.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/refine/options.h"

@@ -26,9 +26,9 @@ const std::map<std::string, std::string>& ShownElsewhere() {
        "loop/appearance_likelihood_test.cc: both laps go the same way"},
       {"loop.match.search.refine",
        "loop/pose_search_test.cc, NoMorePosesThanAreRefined: the best pose is the first"},
-      {"loop.graph.drift_factor", "optim/pose_graph_robust_test.cc: no loop is false"},
+      {"loop.graph.drift_factor", "pose_graph/robust_test.cc: no loop is false"},
       {"loop.graph.inlier_probability",
-       "optim/pose_graph_robust_test.cc, ALoneLoopIsKeptUpToItsLimit: all loops are good"},
+       "pose_graph/robust_test.cc, ALoneLoopIsKeptUpToItsLimit: all loops are good"},
       {"loop.views.reach_m",
        "closing/view_ties_test.cc, ReachAsMuchPathAsTheKeyAllows: the block is small"}};
   return keys;

@@ -9,7 +9,7 @@
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
-#include "optim/odometry_noise.h"
+#include "odometry/odometry_noise.h"
 #include "sslcd/core/error.h"
 #include "stereo/tunnel.h"
 

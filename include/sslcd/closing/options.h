@@ -3,7 +3,8 @@
 
 #include "sslcd/core/fields.h"
 #include "sslcd/loop/options.h"
-#include "sslcd/optim/options.h"
+#include "sslcd/odometry/options.h"
+#include "sslcd/pose_graph/pose_graph.h"
 
 namespace sslcd {
 

@@ -89,6 +89,16 @@ struct LoopAcceptanceOptions {
 };
 void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options);
 
+/// How matched objects are aligned, paper IV-D.
+struct DriftOptions {
+  bool six_dof = true;           ///< also correct roll and pitch; false: yaw and shift only
+  double tilt_sigma_rad = 0.03;  ///< standard deviation of the local map's vertical
+  /// scale of the Cauchy loss on each pair's position and heading, in sigmas; 0: none
+  double loss_scale = 2.;
+  int max_iterations = 30;  ///< of Gauss-Newton, at most; no key: a test raises it
+};
+void DescribeFields(FieldVisitor& visitor, DriftOptions& options);
+
 /// The paper's two-stage graph matching. It prints none of these values; K and delta are those of
 /// the layout test that its authors published, mu weighs both kinds of properties alike, and tau
 /// lets an object pass that is half a metre off in size and one metre in position, with vectors of

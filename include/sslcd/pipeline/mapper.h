@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslcd/bundle/options.h"
 #include "sslcd/closing/place_matcher.h"
 #include "sslcd/closing/view_aligner.h"
 #include "sslcd/core/camera.h"
@@ -16,7 +17,6 @@
 #include "sslcd/core/pose.h"
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/map/options.h"
-#include "sslcd/optim/options.h"
 #include "sslcd/perception/filter.h"
 
 namespace sslcd {

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "sslcd/association/options.h"
+#include "sslcd/bundle/options.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/map/options.h"
-#include "sslcd/optim/options.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/perception/filter.h"
 #include "sslcd/refine/options.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/bundle/options.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/map/options.h"
-#include "sslcd/optim/options.h"
 
 namespace sslcd {
 

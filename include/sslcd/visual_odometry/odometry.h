@@ -11,7 +11,7 @@
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
-#include "sslcd/optim/options.h"
+#include "sslcd/odometry/options.h"
 
 namespace sslcd {
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "sslcd/core/fields.h"
+#include "sslcd/odometry/options.h"
+
+namespace sslcd {
+
+/// Object bundle adjustment, paper III-C.
+struct BaOptions {
+  enum class Residual { kRobust, kPaper };
+  enum class Solver { kLevenbergMarquardt, kGaussNewton };
+  Residual residual = Residual::kRobust;
+  Solver solver = Solver::kLevenbergMarquardt;
+  int max_iterations = 30;
+  double loss_scale = 3.;  ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
+  /// robust: factor on detection sigmas, because errors of successive frames are alike
+  double correlation = 2.;
+  OdometryNoise odometry;
+};
+void DescribeFields(FieldVisitor& visitor, BaOptions& options);
+
+/// What a bundle adjustment did.
+struct BaSummary {
+  bool usable = false;  ///< false: the problem is left as it was
+  bool converged = false;
+  int iterations = 0;
+  double initial_cost = 0, final_cost = 0;
+  std::string message;  ///< one line
+};
+
+}  // namespace sslcd

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bundle/marginal_prior.h"
+
+#include <lie/se3_map.h>
+
+#include <ceres/crs_matrix.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <set>
+
+#include "bundle/ba_terms.h"
+#include "pose_graph/pose_manifold.h"
+
+namespace sslcd {
+namespace {
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+}  // namespace
+
+MarginalPriorCost::MarginalPriorCost(const BaPrior& prior) : prior_(prior) {
+  for (std::size_t i = 0; i < prior.cameras.size(); ++i)
+    mutable_parameter_block_sizes()->push_back(7);
+  for (std::size_t k = 0; k < prior.objects.size(); ++k)
+    mutable_parameter_block_sizes()->push_back(4);
+  mutable_parameter_block_sizes()->push_back(1);
+  set_num_residuals(static_cast<int>(prior.J.rows()));
+}
+
+bool MarginalPriorCost::Evaluate(double const* const* blocks, double* residuals,
+                                 double** jacobians) const {
+  const int cameras = static_cast<int>(prior_.cameras.size()),
+            objects = static_cast<int>(prior_.objects.size());
+  const int rows = static_cast<int>(prior_.J.rows());
+  Eigen::VectorXd difference(prior_.J.cols());
+  int column = 0;
+  for (int i = 0; i < cameras; ++i, column += 6) {
+    const Pose T = lie::SE3Map<const double>(blocks[i]);
+    const Vec6 log = (prior_.cameras[i].inverse() * T).Log();
+    difference.segment<6>(column) = log;
+    if (jacobians == nullptr || jacobians[i] == nullptr) continue;
+    Eigen::Matrix<double, 6, 7, Eigen::RowMajor> to_tangent;
+    PoseManifold().MinusJacobian(blocks[i], to_tangent.data());
+    Eigen::Map<RowMajor>(jacobians[i], rows, 7) =
+        prior_.J.middleCols<6>(column) * Pose::RightJacobianInverse(log) * to_tangent;
+  }
+  for (int k = 0; k < objects; ++k, column += 4) {
+    const double* x = blocks[cameras + k];
+    const UprightPose& x0 = prior_.objects[k];
+    difference.segment<3>(column) = Vec3(x[0], x[1], x[2]) - x0.position;
+    difference[column + 3] = WrapAngle(x[3] - x0.yaw);
+    if (jacobians != nullptr && jacobians[cameras + k] != nullptr)
+      Eigen::Map<RowMajor>(jacobians[cameras + k], rows, 4) = prior_.J.middleCols<4>(column);
+  }
+  difference[column] = *blocks[cameras + objects] - prior_.log_scale;
+  if (jacobians != nullptr && jacobians[cameras + objects] != nullptr)
+    Eigen::Map<Eigen::VectorXd>(jacobians[cameras + objects], rows) = prior_.J.col(column);
+  Eigen::Map<Eigen::VectorXd>(residuals, rows) = prior_.r0 + prior_.J * difference;
+  return true;
+}
+
+namespace {
+
+// 0.5 x^T H x + b^T x, over states in the order of `names`.
+struct Quadratic {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd b;
+};
+
+// Eliminates the first `dropped` states: Schur complement, with a pseudo-inverse because the data
+// may leave some free.
+Quadratic Eliminate(const Quadratic& q, int dropped) {
+  const int kept = static_cast<int>(q.H.rows()) - dropped;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q.H.topLeftCorner(dropped, dropped));
+  const double floor = 1e-12 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
+  const Eigen::MatrixXd H_inverse =
+      eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+  const Eigen::MatrixXd coupling = q.H.bottomLeftCorner(kept, dropped) * H_inverse;
+  return {q.H.bottomRightCorner(kept, kept) - coupling * q.H.topRightCorner(dropped, kept),
+          q.b.tail(kept) - coupling * q.b.head(dropped)};
+}
+
+// H = J^T J and b = J^T r0.
+void SquareRoot(const Quadratic& q, BaPrior& prior) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (q.H + q.H.transpose()));
+  const double floor = 1e-10 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
+  const Eigen::VectorXd root =
+      eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? std::sqrt(v) : 0.; });
+  const Eigen::VectorXd inverse_root = root.unaryExpr([](double v) { return v > 0 ? 1. / v : 0.; });
+  prior.J = root.asDiagonal() * eigen.eigenvectors().transpose();
+  prior.r0 = inverse_root.asDiagonal() * eigen.eigenvectors().transpose() * q.b;
+}
+
+}  // namespace
+
+BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
+                    const std::vector<int>& objects, const BaOptions& options) {
+  const std::set<int> gone_cameras(cameras.begin(), cameras.end()),
+      gone_objects(objects.begin(), objects.end());
+  BaTerms terms(problem, options);
+
+  // Residuals that touch what goes, and the states that those residuals touch: what stays of them
+  // is the prior's subject.
+  std::set<ceres::ResidualBlockId> residuals;
+  const auto collect = [&](double* block) {
+    std::vector<ceres::ResidualBlockId> touching;
+    terms.ceres().GetResidualBlocksForParameterBlock(block, &touching);
+    residuals.insert(touching.begin(), touching.end());
+  };
+  for (const int i : gone_cameras) collect(terms.camera(i));
+  for (const int k : gone_objects) collect(terms.object(k));
+  // the scale's own prior; odometry that stays is taken out again below
+  collect(terms.log_scale());
+  std::set<double*> gone, touched;
+  for (const int i : gone_cameras) gone.insert(terms.camera(i));
+  for (const int k : gone_objects) gone.insert(terms.object(k));
+  std::vector<ceres::ResidualBlockId> used;
+  terms.ceres().GetResidualBlocks(&used);  // in the order they were added: deterministic
+  const auto keep_out = [&](ceres::ResidualBlockId id) {
+    if (residuals.count(id) == 0) return true;
+    std::vector<double*> blocks;
+    terms.ceres().GetParameterBlocksForResidualBlock(id, &blocks);
+    const bool scale_only = blocks.size() == 1 && blocks[0] == terms.log_scale();
+    const bool is_prior =
+        !problem.prior.empty() && blocks.back() == terms.log_scale() && blocks.size() != 3;
+    const bool touches_gone =
+        std::any_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
+    if (!scale_only && !is_prior && !touches_gone) return true;
+    touched.insert(blocks.begin(), blocks.end());
+    return false;
+  };
+  used.erase(std::remove_if(used.begin(), used.end(), keep_out), used.end());
+
+  BaPrior prior;
+  std::vector<double*> blocks;
+  int dropped = 0;
+  for (const int i : gone_cameras) blocks.push_back(terms.camera(i)), dropped += 6;
+  for (const int k : gone_objects)
+    blocks.push_back(terms.object(k)),
+        dropped += problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4;
+  for (std::size_t i = 0; i < problem.cameras.size(); ++i) {
+    if (gone_cameras.count(i) || !touched.count(terms.camera(i))) continue;
+    blocks.push_back(terms.camera(i));
+    prior.frames.push_back(problem.cameras[i].frame);
+    prior.cameras.push_back(problem.cameras[i].T_world_cam);
+  }
+  std::vector<int> columns_of_object;
+  for (std::size_t k = 0; k < problem.objects.size(); ++k) {
+    if (gone_objects.count(k) || !touched.count(terms.object(k))) continue;
+    blocks.push_back(terms.object(k));
+    prior.object_ids.push_back(problem.objects[k].id);
+    prior.objects.push_back(problem.objects[k].pose);
+    columns_of_object.push_back(problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4);
+  }
+  blocks.push_back(terms.log_scale());
+  prior.log_scale = problem.log_scale;
+
+  ceres::Problem::EvaluateOptions evaluate;
+  evaluate.parameter_blocks = blocks;
+  evaluate.residual_blocks = used;
+  std::vector<double> r;
+  ceres::CRSMatrix sparse;
+  if (!terms.ceres().Evaluate(evaluate, nullptr, &r, nullptr, &sparse)) return {};
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row)
+    for (int at = sparse.rows[row]; at < sparse.rows[row + 1]; ++at)
+      J(row, sparse.cols[at]) = sparse.values[at];
+  const Eigen::Map<const Eigen::VectorXd> residual(r.data(), r.size());
+  SquareRoot(Eliminate({J.transpose() * J, J.transpose() * residual}, dropped), prior);
+
+  // Objects without yaw take part with three columns; give them the zero fourth one that BaPrior's
+  // layout has.
+  Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(
+      prior.J.rows(), 6 * prior.cameras.size() + 4 * prior.objects.size() + 1);
+  int from = 0, to = 0;
+  const auto copy = [&](int columns, int room) {
+    wide.middleCols(to, columns) = prior.J.middleCols(from, columns);
+    from += columns;
+    to += room;
+  };
+  for (std::size_t i = 0; i < prior.cameras.size(); ++i) copy(6, 6);
+  for (const int columns : columns_of_object) copy(columns, 4);
+  if (from < prior.J.cols()) copy(1, 1);  // the scale; absent where it is held constant
+  prior.J = wide;
+  return prior;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "loop/drift_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "core/median.h"
+
+namespace sslcd::drift {
+namespace {
+
+double Loss(double mean_square, double scale) {
+  return scale > 0 ? scale * scale * std::log1p(mean_square / (scale * scale)) : mean_square;
+}
+
+double Cost(const Problem& problem, const State& state) {
+  double cost = 0;
+  for (const Match& match : problem.matches) {
+    const Vec3 e = PositionError(match, problem, state).cwiseQuotient(match.sigma);
+    cost += 3 * Loss(e.squaredNorm() / 3, problem.loss_scale);
+    if (match.period > 0)
+      cost += Loss(std::pow(YawError(match, state) / match.sigma_yaw, 2), problem.loss_scale);
+  }
+  return cost;
+}
+
+/// The shift that goes with a yaw: the median over the matches, which a few wrong ones do not move.
+State WithYaw(double yaw, const Problem& problem) {
+  State state{Rotation::RotZ(yaw), Vec3(Vec3::Zero())};
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> shifts;
+    for (const Match& match : problem.matches)
+      shifts.push_back((match.global - state.R * Vec3(match.local - problem.centre))[axis]);
+    state.t[axis] = Median(shifts);
+  }
+  return state;
+}
+
+/// Weighted Procrustes about the vertical: the argument of the sum is the yaw, its modulus how
+/// sharply the positions fix it (the concentration of a von Mises distribution, about 1/sigma^2).
+std::complex<double> Procrustes(const Problem& problem) {
+  Vec3 middle = Vec3::Zero();
+  double weights = 0;
+  for (const Match& match : problem.matches) {
+    middle += match.weight() * match.global;
+    weights += match.weight();
+  }
+  middle /= weights;
+  std::complex<double> sum = 0;
+  for (const Match& match : problem.matches) {
+    const Vec3 local = match.local - problem.centre, global = match.global - middle;
+    sum += match.weight() * std::conj(std::complex<double>(local.x(), local.y())) *
+           std::complex<double>(global.x(), global.y());
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::string Check(const std::vector<DriftPair>& pairs) {
+  if (pairs.empty()) return "no matched objects";
+  for (const DriftPair& pair : pairs) {
+    for (const Pose* T : {&pair.T_world_local, &pair.T_world_global})
+      if (!std::all_of(T->data(), T->data() + 7, [](double x) { return std::isfinite(x); }))
+        return "a matched object's pose is not finite";
+    for (const double sigma : {pair.sigma_horizontal_m, pair.sigma_vertical_m, pair.sigma_yaw_rad})
+      if (!(sigma > 0 && std::isfinite(sigma))) return "a matched object's sigma is not positive";
+  }
+  return "";
+}
+
+Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity,
+                    double loss_scale) {
+  const Mat3 to_gravity = gravity.Basis().transpose();
+  Problem problem{{}, Vec3(Vec3::Zero()), loss_scale};
+  double weights = 0;
+  for (const DriftPair& pair : pairs) {
+    const Match match{to_gravity * pair.T_world_local.translation(),
+                      to_gravity * pair.T_world_global.translation(),
+                      gravity.YawOf(pair.T_world_local.so3()),
+                      gravity.YawOf(pair.T_world_global.so3()),
+                      YawPeriod(pair.symmetry),
+                      Vec3(pair.sigma_horizontal_m, pair.sigma_horizontal_m, pair.sigma_vertical_m),
+                      pair.sigma_yaw_rad};
+    problem.matches.push_back(match);
+    problem.centre += match.weight() * match.local;
+    weights += match.weight();
+  }
+  problem.centre /= weights;
+  return problem;
+}
+
+Mat3 UprightInverse(double yaw) { return Rotation::RotZ(-yaw).matrix(); }
+
+Vec3 PositionError(const Match& match, const Problem& problem, const State& state) {
+  return UprightInverse(match.yaw_global) *
+         (state.R * Vec3(match.local - problem.centre) + state.t - match.global);
+}
+
+Vec3 Heading(const Match& match, const State& state) {
+  return state.R * Vec3(std::cos(match.yaw_local), std::sin(match.yaw_local), 0);
+}
+
+double YawError(const Match& match, const State& state) {
+  const Vec3 heading = Heading(match, state);
+  return WrapAngle(std::atan2(heading.y(), heading.x()) - match.yaw_global, match.period);
+}
+
+std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
+                               std::string& reason) {
+  std::vector<double> yaws;
+  const std::complex<double> positions = Procrustes(problem);
+  const bool fixed_by_positions = std::abs(positions) * max_yaw_sigma_rad * max_yaw_sigma_rad >= 1;
+  if (fixed_by_positions) yaws.push_back(std::arg(positions));
+  bool any_heading = false, fixed_by_headings = false;
+  for (const Match& match : problem.matches) {
+    if (!(match.period > 0)) continue;
+    any_heading = true;
+    fixed_by_headings |= match.period > M_PI + 1e-9;
+    for (double turn = 0; turn < 2 * M_PI - 1e-9; turn += match.period)
+      yaws.push_back(match.yaw_global - match.yaw_local + turn);
+  }
+  if (!fixed_by_positions && !fixed_by_headings) {
+    reason =
+        any_heading
+            ? "the yaw is open by half a turn: objects on one spot, whose front and back are alike"
+            : "nothing fixes the yaw: objects on one spot, without a heading";
+    return std::nullopt;
+  }
+  State best;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const double yaw : yaws) {
+    const State state = WithYaw(yaw, problem);
+    const double cost = Cost(problem, state);
+    if (cost < lowest) {
+      lowest = cost;
+      best = state;
+    }
+  }
+  return Start{best, fixed_by_positions};
+}
+
+}  // namespace sslcd::drift

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/odometry_edge.h"
+
+namespace sslcd {
+
+OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryNoise& noise,
+                             const Vec3& up, double scale) {
+  OdometryEdge edge;
+  edge.T_from_to = frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam;
+  const Vec3 up_here = frames[to].T_world_cam.so3().inverse() * up;
+  edge.information = InformationOf(SigmasOf(edge.T_from_to, noise), up_here);
+  edge.T_from_to.translation() *= scale;
+  return edge;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/frame_store.h"
+#include "odometry/odometry_noise.h"
+#include "sslcd/core/pose.h"
+
+namespace sslcd {
+
+/// What the odometry says of two frames, as an edge of a pose graph.
+struct OdometryEdge {
+  Pose T_from_to;  ///< metric
+  Eigen::Matrix<double, 6, 6> information;
+
+  RelativePose Measurement() const { return {T_from_to, information.inverse()}; }
+};
+
+/// `from`, `to`: indices of frames. `up`: unit vector against gravity in the world. `scale`: metres
+/// per odometry metre.
+OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryNoise& noise,
+                             const Vec3& up, double scale);
+
+}  // namespace sslcd

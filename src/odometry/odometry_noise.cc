@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/odometry_noise.h"
+
+#include <cmath>
+
+namespace sslcd {
+
+void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
+  visitor.Real("translation_floor_m", noise.translation_floor_m, 1e-6, 10,
+               "standard deviation of the translation between any two frames");
+  visitor.Real("translation_walk", noise.translation_walk, 0, 10,
+               "random walk of the horizontal translation, m per sqrt(m) of path");
+  visitor.Real("vertical_walk", noise.vertical_walk, 0, 10,
+               "random walk of the vertical translation, m per sqrt(m) of path");
+  visitor.Real("rotation_floor_rad", noise.rotation_floor_rad, 1e-7, 1,
+               "standard deviation of the rotation between any two frames");
+  visitor.Real("rotation_walk", noise.rotation_walk, 0, 1,
+               "random walk of the rotation, rad per sqrt(m) of path");
+  visitor.Real("rotation_turn", noise.rotation_turn, 0, 1,
+               "standard deviation of the rotation per turn, rad per rad");
+  visitor.Real("scale_prior", noise.scale_prior, 0, 1,
+               "standard deviation of the logarithm of the odometry's scale; 0: the scale is one");
+}
+
+OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
+  const double root = std::sqrt(T_from_to.translation().norm());
+  const double turn = T_from_to.so3().Log().norm();
+  const double walked = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * root);
+  return {std::hypot(noise.translation_floor_m, noise.translation_walk * root),
+          std::hypot(noise.translation_floor_m, noise.vertical_walk * root),
+          std::hypot(walked, noise.rotation_turn * turn)};
+}
+
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,
+                              const Vec3& up) {
+  const Eigen::Matrix3d vertical = up * up.transpose(),
+                        horizontal = Eigen::Matrix3d::Identity() - vertical;
+  return {horizontal / (factors.horizontal * sigmas.horizontal) + vertical / sigmas.vertical,
+          (horizontal + vertical / factors.heading) / sigmas.rotation};
+}
+
+Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up) {
+  const OdometryWhitening whitening = WhiteningOf(sigmas, {}, up);
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  information.topLeftCorner<3, 3>() = whitening.translation * whitening.translation;
+  information.bottomRightCorner<3, 3>() = whitening.rotation * whitening.rotation;
+  return information;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/pose_graph/pose_graph.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "pose_graph/chordal.h"
+#include "pose_graph/cost.h"
+#include "pose_graph/index.h"
+#include "pose_graph/pose_manifold.h"
+#include "sslcd/core/error.h"
+
+namespace sslcd {
+namespace {
+
+using Ends = std::vector<std::pair<int, int>>;
+
+double Chi2Of(const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
+              const std::vector<Pose>& poses) {
+  double chi2 = 0;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
+    chi2 += weights[e] * error.dot(graph.edges[e].information * error);
+  }
+  return chi2;
+}
+
+// Fixed vertices, and the first vertex of each part that has none.
+std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& component) {
+  std::vector<bool> anchored(graph.vertices.size()), held(graph.vertices.size());
+  for (std::size_t v = 0; v < anchored.size(); ++v)
+    if (graph.vertices[v].fixed) anchored[v] = held[component[v]] = true;
+  for (std::size_t v = 0; v < anchored.size(); ++v)
+    if (!held[component[v]]) anchored[v] = held[component[v]] = true;
+  return anchored;
+}
+
+// A chordal start pays where the poses are this much further from the measurements than noise
+// explains, or where one of them is turned this far: beyond, a linearised rotation leads astray.
+constexpr double kFarFromMeasurements = 10, kFarTurned = 0.5;
+
+bool IsFar(double chi2, const PoseGraph& graph, const Ends& ends,
+           const std::vector<double>& weights, const std::vector<Pose>& poses) {
+  if (chi2 > kFarFromMeasurements * 6 * static_cast<double>(graph.edges.size())) return true;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
+    if (weights[e] > 0 && error.tail<3>().norm() > kFarTurned) return true;
+  }
+  return false;
+}
+
+ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
+  ceres::Solver::Options ceres_options;
+  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.logging_type = ceres::SILENT;
+  ceres_options.num_threads = 1;
+  ceres_options.initial_trust_region_radius = 1e10;  // the first step is Gauss-Newton's
+  return ceres_options;
+}
+
+}  // namespace
+
+int DegreesOfFreedom(PoseFreedom freedom) {
+  return freedom == PoseFreedom::kFull ? 6 : freedom == PoseFreedom::kUpright ? 4 : 3;
+}
+
+void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options) {
+  visitor.Enum("freedom", options.freedom, {"full", "upright", "planar"},
+               "freedom of a pose; full: 6 DoF; upright: translation and yaw; planar: horizontal "
+               "translation and yaw");
+}
+
+Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose& T_world_to) {
+  return (edge.T_from_to.inverse() * (T_world_from.inverse() * T_world_to)).Log();
+}
+
+double Chi2(const PoseGraph& graph, const std::vector<double>& weights) {
+  const PoseGraphIndex index = IndexPoseGraph(graph);
+  if (!index.trouble.empty()) throw Error(ErrorKind::kBadInput, "pose graph: " + index.trouble);
+  return Chi2Of(graph, index.ends,
+                weights.empty() ? std::vector<double>(graph.edges.size(), 1.) : weights,
+                PosesOf(graph));
+}
+
+PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
+                                const std::vector<double>& given_weights) {
+  PoseGraphSummary summary;
+  const PoseGraphIndex index = IndexPoseGraph(graph);
+  if (!index.trouble.empty() || graph.edges.empty()) {
+    summary.message =
+        index.trouble.empty() ? "nothing to optimise: no edges" : "not optimised: " + index.trouble;
+    return summary;
+  }
+  std::vector<double> weights = given_weights;
+  weights.resize(graph.edges.size(), 1.);
+  std::vector<bool> use;
+  for (const double weight : weights) use.push_back(weight > 0);
+  const std::vector<int> component =
+      Components(static_cast<int>(graph.vertices.size()), index.ends, use);
+  summary.components = 1 + *std::max_element(component.begin(), component.end());
+  const std::vector<bool> anchored = Anchors(graph, component);
+
+  std::vector<Pose> poses = PosesOf(graph);
+  summary.initial_chi2 = Chi2Of(graph, index.ends, weights, poses);
+  const bool try_chordal =
+      options.start == PoseGraphStart::kChordal ||
+      (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
+       IsFar(summary.initial_chi2, graph, index.ends, weights, poses));
+  if (try_chordal) {
+    const auto chordal = ChordalStart(graph, index.ends, weights, anchored);
+    summary.chordal =
+        chordal && (options.start == PoseGraphStart::kChordal ||
+                    Chi2Of(graph, index.ends, weights, *chordal) < summary.initial_chi2);
+    if (summary.chordal) poses = *chordal;
+  }
+
+  PoseManifold full;
+  UprightManifold upright(options.gravity, options.freedom == PoseFreedom::kPlanar);
+  ceres::Manifold* manifold = &full;
+  if (options.freedom != PoseFreedom::kFull) manifold = &upright;
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  for (std::size_t v = 0; v < poses.size(); ++v) {
+    problem.AddParameterBlock(poses[v].data(), 7, manifold);
+    if (anchored[v]) problem.SetParameterBlockConstant(poses[v].data());
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (weights[e] == 0) continue;
+    Pose& from = poses[index.ends[e].first];
+    Pose& to = poses[index.ends[e].second];
+    const PoseGraph::Edge edge =
+        EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
+    problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
+  }
+  ceres::Solver::Summary result;
+  ceres::Solve(CeresOptions(options), &problem, &result);
+  summary.usable = result.IsSolutionUsable();
+  summary.converged = result.termination_type == ceres::CONVERGENCE ||
+                      result.termination_type == ceres::USER_SUCCESS;
+  summary.iterations = static_cast<int>(result.iterations.size()) - 1;
+  summary.message = result.message;
+  if (!summary.usable) return summary;
+  for (std::size_t v = 0; v < poses.size(); ++v) graph.vertices[v].T_world_vertex = poses[v];
+  summary.final_chi2 = Chi2Of(graph, index.ends, weights, poses);
+  return summary;
+}
+
+}  // namespace sslcd

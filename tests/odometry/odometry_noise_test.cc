@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry/odometry_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sslcd {
+namespace {
+
+TEST(OdometryNoise, HeightHasAWalkOfItsOwn) {
+  OdometryNoise noise;
+  noise.translation_floor_m = 0.3;
+  noise.translation_walk = 0.04;
+  noise.vertical_walk = 0.08;
+  const OdometrySigmas sigmas = SigmasOf(Pose::Trans(0, 0, 100), noise);
+  EXPECT_NEAR(sigmas.horizontal, 0.5, 1e-12);
+  EXPECT_NEAR(sigmas.vertical, std::hypot(0.3, 0.8), 1e-12);
+}
+
+TEST(OdometryNoise, InformationIsThatOfTheAxes) {
+  Eigen::Matrix<double, 6, 1> expected;
+  expected << 100, 25, 100, 1e4, 1e4, 1e4;  // camera axes: y is down
+  const auto information = InformationOf({0.1, 0.2, 0.01}, Vec3(0, -1, 0));
+  EXPECT_TRUE(information.isApprox(Eigen::Matrix<double, 6, 6>(expected.asDiagonal()), 1e-12))
+      << information;
+}
+
+TEST(OdometryNoise, FactorsAreOnTheHorizontalPartAndTheHeading) {
+  const OdometryWhitening whitening = WhiteningOf({0.1, 0.2, 0.01}, {2, 5}, Vec3::UnitZ());
+  EXPECT_TRUE(whitening.translation.diagonal().isApprox(Vec3(5, 5, 5), 1e-12));
+  EXPECT_TRUE(whitening.rotation.diagonal().isApprox(Vec3(100, 100, 20), 1e-12));
+}
+
+}  // namespace
+}  // namespace sslcd
