@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Warnings, sanitizers and ccache: for our own targets only, never part of what an installed target hands on.
+# Warnings, sanitizers and ccache: for our own targets only, never part of what an installed target
+# hands on.
 add_library(sslcd_compiler INTERFACE)
 target_compile_options(sslcd_compiler INTERFACE -Wall -Wextra -Wshadow -Wno-unused-parameter)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # false alarms from inside Eigen, with GCC 12 to 14
@@ -9,9 +10,11 @@ if(SSLCD_WARNINGS_AS_ERRORS)
   target_compile_options(sslcd_compiler INTERFACE -Werror)
 endif()
 if(SSLCD_SANITIZE)
-  add_compile_options(-fsanitize=${SSLCD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_compile_options(-fsanitize=${SSLCD_SANITIZE} -fno-omit-frame-pointer
+    -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${SSLCD_SANITIZE})
-  # Under AddressSanitizer Eigen allocates in a way of its own; matrices that Ceres' library made could then not be freed here.
+  # Under AddressSanitizer Eigen allocates in a way of its own; matrices that Ceres' library made
+  # could then not be freed here.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 find_program(SSLCD_CCACHE ccache)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Embree 3 or 4 as the target sslcd_embree, where it is installed. Found by its header and library: Embree's own package
-# file asks for a TBB that a host may not have, and names no target that both versions share.
+# Embree 3 or 4 as the target sslcd_embree, where it is installed. Found by its header and library:
+# Embree's own package file asks for a TBB that a host may not have, and names no target that both
+# versions share.
 find_path(SSLCD_EMBREE_INCLUDE_DIR NAMES embree4/rtcore.h embree3/rtcore.h)
 find_library(SSLCD_EMBREE_LIBRARY NAMES embree4 embree3)
 mark_as_advanced(SSLCD_EMBREE_INCLUDE_DIR SSLCD_EMBREE_LIBRARY)
@@ -10,5 +11,6 @@ if(SSLCD_EMBREE_INCLUDE_DIR AND SSLCD_EMBREE_LIBRARY)
     IMPORTED_LOCATION ${SSLCD_EMBREE_LIBRARY}
     INTERFACE_INCLUDE_DIRECTORIES ${SSLCD_EMBREE_INCLUDE_DIR})
 else()
-  message(STATUS "Embree not found: no sslcd_sim --render (scripts/install_deps.sh test installs it)")
+  message(STATUS
+    "Embree not found: no sslcd_sim --render (scripts/install_deps.sh test installs it)")
 endif()

@@ -62,10 +62,12 @@ function(sslcd_library target)
   add_library(${target} ${objects})
   add_library(sslcd::${export_name} ALIAS ${target})
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_link_libraries(${target} PUBLIC sslcd_lie ${ARG_LINK} PRIVATE ${outside})
-  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0 EXPORT_NAME ${export_name})
+  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0
+    EXPORT_NAME ${export_name})
 endfunction()
 
 # Each case that a gtest filter names is a ctest entry; or all of them together are one. They run in
@@ -86,9 +88,9 @@ endfunction()
 #                   PROPERTY|REGRESSION|SLOW <gtest patterns>...)
 #   tests/NAME/*_test.cc as one executable, which sees the private headers of the module NAME and of
 #   ROOMS. CONTRIBUTING.md says what the labels mean. A test that no pattern names is a unit test.
-#   Unit tests are one ctest entry, property tests another: to start a process for each of a thousand
-#   cases would take longer than the cases. With EACH, and for REGRESSION and SLOW, each case is an
-#   entry, so that ctest lists what was skipped.
+#   Unit tests are one ctest entry, property tests another: to start a process for each of a
+#   thousand cases would take longer than the cases. With EACH, and for REGRESSION and SLOW, each
+#   case is an entry, so that ctest lists what was skipped.
 function(sslcd_test_module name)
   cmake_parse_arguments(ARG "EACH" "" "LINK;ROOMS;PROPERTY;REGRESSION;SLOW" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cc)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # sslcd_find_opencv(core imgcodecs ...): targets opencv_core, opencv_imgcodecs, ...
-# Debian and Ubuntu keep OpenCVConfig.cmake in libopencv-dev, which brings 200 more packages than the few modules
-# we use. Where only those are installed, their headers and libraries are found one by one.
+# Debian and Ubuntu keep OpenCVConfig.cmake in libopencv-dev, which brings 200 more packages than
+# the few modules we use. Where only those are installed, their headers and libraries are found one
+# by one.
 function(sslcd_find_opencv)
   find_package(OpenCV 4 QUIET COMPONENTS ${ARGN})
   if(OpenCV_FOUND)

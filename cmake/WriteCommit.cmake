@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# cmake -DSOURCE_DIR=... -DOUTPUT=... -P WriteCommit.cmake: the commit as a C++ header, touched only where it has changed.
+# cmake -DSOURCE_DIR=... -DOUTPUT=... -P WriteCommit.cmake: the commit as a C++ header, touched only
+# where it has changed.
 cmake_minimum_required(VERSION 3.22)
 execute_process(COMMAND git -C ${SOURCE_DIR} describe --always --dirty --abbrev=12 --exclude=*
   OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)

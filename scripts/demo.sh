@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# From a fresh machine to closed loops: installs what is missing, builds the tools, writes HALV-sim's first case (round a car
-# park, and back past the same cars the other way) as a sequence folder and runs it through the same reader as real data.
+# From a fresh machine to closed loops: installs what is missing, builds the tools, writes
+# HALV-sim's first case (round a car park, and back past the same cars the other way) as a sequence
+# folder and runs it through the same reader as real data.
 #   scripts/demo.sh [OUT]      OUT: where the sequence and the results go (default runs/demo)
 # SSLCD_BUILD_DIR: where to build (default build/release).
 set -euo pipefail

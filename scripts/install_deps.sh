@@ -1,17 +1,19 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing where all is there.
+# Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing
+# where all is there.
 #   scripts/install_deps.sh [build|vision|test|dev]
 #     build   the library and the tools; enough for scripts/demo.sh
-#     vision  and ONNX Runtime, to run models (docs/models.md); where that cannot be had all else is installed
-#     test    and what the tests need, clang-format among it (default), and Embree for sslcd_sim --render (the demo needs
-#             it not)
+#     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
+#             cannot be had
+#     test    and what the tests need, with clang-format, and Embree for sslcd_sim --render (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, NumPy and Shapely
 set -euo pipefail
 
-build=(build-essential cmake ninja-build libeigen3-dev libceres-dev libflann-dev liblz4-dev libyaml-cpp-dev
-       libcli11-dev libspdlog-dev libopencv-core-dev libopencv-imgcodecs-dev
-       libopencv-imgproc-dev libopencv-video-dev libopencv-features2d-dev libopencv-calib3d-dev nlohmann-json3-dev ccache libpugixml-dev)
+build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libflann-dev liblz4-dev
+       libyaml-cpp-dev libpugixml-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+       libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
+       libopencv-features2d-dev libopencv-calib3d-dev)
 test=(libgtest-dev libgmock-dev python3 clang-format-14 libembree-dev)
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-numpy python3-shapely git)
 
@@ -67,5 +69,6 @@ if ((needed)); then
 fi
 
 if ((models)) && ! "${as_root[@]}" "$(dirname "$0")/install_onnxruntime.sh"; then
-  echo "dependencies: ONNX Runtime could not be installed: models cannot be run, all else works (docs/models.md)"
+  echo "dependencies: ONNX Runtime could not be installed: models cannot be run, all else works" \
+    "(docs/models.md)"
 fi

@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs ONNX Runtime, library and headers, as root; scripts/install_deps.sh calls it. The package libonnxruntime-dev where
-# the release has one (Debian 13). On Debian 12 the library from its Python wheel, to /usr/local/lib, and the headers from
-# Debian 13's package, to /usr/local/include/onnxruntime.
+# Installs ONNX Runtime, library and headers, as root; scripts/install_deps.sh calls it. The package
+# libonnxruntime-dev where the release has one (Debian 13). On Debian 12 the library from its Python
+# wheel, to /usr/local/lib, and the headers from Debian 13's package, to
+# /usr/local/include/onnxruntime.
 #   scripts/install_onnxruntime.sh [--is-there]
 set -euo pipefail
 version=1.21.1

@@ -1,8 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Everything from a fresh machine to the test report: installs what is missing, configures, builds, tests.
+# Everything from a fresh machine to the test report: installs what is missing, configures, builds,
+# tests.
 #   scripts/test.sh [ctest arguments, e.g. -L unit]
-# SSLCD_BUILD_DIR: where to build (default build/release). SSLCD_DATA_DIR: real data (see CONTRIBUTING.md).
+# SSLCD_BUILD_DIR: where to build (default build/release).
+# SSLCD_DATA_DIR: real data (see CONTRIBUTING.md).
 # SSLCD_CMAKE_ARGS: more arguments for configuring.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# clang-tidy 14 over the library and the tools (.clang-tidy says which checks), or over the files named.
+# clang-tidy 14 over the library and the tools (.clang-tidy says which checks), or over the files
+# named.
 #   scripts/tidy.sh [FILE...]
 set -euo pipefail
 cd "$(dirname "$0")/.."
