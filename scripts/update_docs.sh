@@ -11,19 +11,23 @@ configuration() {
   cat <<'TEXT'
 # Configuration
 
-`sslcd_run run` starts from the defaults of its mode (`--mode robust|paper`, or `mode:` in the file), then applies the file
-given with `--config`, then each `--set section.key=value`. What a file leaves out keeps its default. Everything is strict,
-and all problems are reported at once, with exit code 4:
+`sslcd_run run` starts from the defaults of its mode (`--mode robust|paper`, or `mode:` in the
+file), then applies the file given with `--config`, then each `--set section.key=value`. What a file
+leaves out keeps its default. Everything is strict, and all problems are reported at once, with exit
+code 4:
 ```
 error: config/mine.yaml:3:3: unknown key 'max_iteratons' in 'ba' - did you mean 'max_iterations'?
 config/mine.yaml:7:12: 'correlation' is 1000, must be in [1, 100]
 ```
-`sslcd_run check-config FILE` checks a file, `sslcd_run dump-config` prints the configuration that a run would use; every run
-folder holds its own as `config.yaml`. `config/default.yaml` holds all defaults, `config/paper.yaml` what `mode: paper`
-changes. Units are the suffix of a key (`_m`, `_s`, `_rad`, `_px`, `_mps`).
+`sslcd_run check-config FILE` checks a file, `sslcd_run dump-config` prints the configuration that a
+run would use; every run folder holds its own as `config.yaml`. `config/default.yaml` holds all
+defaults, `config/paper.yaml` what `mode: paper` changes. Units are the suffix of a key (`_m`, `_s`,
+`_rad`, `_px`, `_mps`).
 
-Paths in a file (`vision.detector`, `vision.embedder`, `vision.lift.classes`, `vision.inference.library`) are relative to that file, or else to the current folder; on the command
-line they are relative to the current folder. The `config.yaml` of a run names what was found by its absolute path.
+Paths in a file (`vision.detector`, `vision.embedder`, `vision.lift.classes`,
+`vision.inference.library`) are relative to that file, or else to the current folder; on the command
+line they are relative to the current folder. The `config.yaml` of a run names what was found by its
+absolute path.
 
 This page is written by `scripts/update_docs.sh` from the same field tables that load the files.
 
