@@ -38,8 +38,8 @@ class SequenceYamlReader {
     throw Error(ErrorKind::kBadInput, {path_, mark.line + 1, mark.column + 1}, message);
   }
 
-  /// A mapping with no key twice (yaml-cpp would keep both silently) and, unless `known` is empty,
-  /// only known ones.
+  /// Refuses duplicate keys (yaml-cpp keeps both silently) and, unless `known` is empty, unknown
+  /// keys.
   void CheckKeys(const YAML::Node& node, const std::set<std::string>& known) const {
     if (!node.IsMap()) Fail(node.Mark(), "expected a mapping 'key: value'");
     std::string names;
@@ -102,6 +102,27 @@ class SequenceYamlReader {
   std::string path_;
 };
 
+/// A word that no version of YAML takes for a number, a truth value or null.
+bool IsPlainWord(const std::string& text) {
+  static const std::set<std::string> reserved = {"y",    "n",     "yes", "no",  "on",
+                                                 "true", "false", "off", "null"};
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  std::string lower;
+  for (const char c : text) {
+    if (!is_letter(c) && c != '_' && (lower.empty() || !(c >= '0' && c <= '9'))) return false;
+    lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return !lower.empty() && reserved.count(lower) == 0;
+}
+
+/// A label as a key that every YAML reader takes for this text.
+std::string YamlKey(const std::string& label) {
+  if (IsPlainWord(label)) return label;
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << label;
+  return emitter.c_str();
+}
+
 }  // namespace
 
 SequenceInfo ReadSequenceYaml(const std::string& path) { return SequenceYamlReader(path).Read(); }
@@ -109,13 +130,15 @@ SequenceInfo ReadSequenceYaml(const std::string& path) { return SequenceYamlRead
 std::string SequenceYamlText(const SequenceInfo& info) {
   std::string text;
   if (info.up_axis)
-    text += FormatNumbers("up_axis: [%.9g, %.9g, %.9g]\n", info.up_axis->x(), info.up_axis->y(),
-                          info.up_axis->z());
+    text += "up_axis: [" + RoundedNumber(info.up_axis->x(), 9) + ", " +
+            RoundedNumber(info.up_axis->y(), 9) + ", " + RoundedNumber(info.up_axis->z(), 9) +
+            "]\n";
   if (info.image_width > 0)
-    text += FormatNumbers("image_size_px: [%d, %d]\n", info.image_width, info.image_height);
+    text += "image_size_px: [" + std::to_string(info.image_width) + ", " +
+            std::to_string(info.image_height) + "]\n";
   if (!info.labels.entries().empty()) text += "labels:\n";
   for (const auto& [label, of_label] : info.labels.entries())
-    text += "  " + label + ": {symmetry: " + ToString(of_label.symmetry) + "}\n";
+    text += "  " + YamlKey(label) + ": {symmetry: " + ToString(of_label.symmetry) + "}\n";
   return text;
 }
 

@@ -9,7 +9,7 @@
 
 namespace sslcd {
 
-/// What a sequence folder says about itself.
+/// The content of sequence.yaml.
 struct SequenceInfo {
   std::optional<Vec3> up_axis;            ///< unit vector in the world (odometry) frame
   int image_width = 0, image_height = 0;  ///< [px]; 0: not given
@@ -26,7 +26,7 @@ struct SequenceInfo {
 /// wrong values.
 SequenceInfo ReadSequenceYaml(const std::string& path);
 
-/// sequence.yaml's text.
+/// Returns the text of sequence.yaml. Labels are quoted if YAML could read them as another value.
 std::string SequenceYamlText(const SequenceInfo& info);
 
 }  // namespace sslcd

@@ -12,7 +12,7 @@
 namespace sslcd {
 namespace {
 
-std::string Seconds(double stamp) { return FormatNumbers("%.3f s", stamp); }
+std::string Seconds(double stamp) { return FixedNumber(stamp, 3) + " s"; }
 
 std::string Span(const std::vector<double>& stamps) {
   return std::to_string(stamps.size()) + " stamps from " + Seconds(stamps.front()) + " to " +
@@ -59,7 +59,7 @@ std::optional<std::string> GapWarning(const std::vector<double>& stamps) {
 
 std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory,
                           const std::string& path) {
-  // A single frame has no step to go by; KITTI's 0.1 s stands in.
+  // A single frame has no step; KITTI's 0.1 s replaces it.
   const double tolerance = 0.5 * (stamps.size() < 2 ? 0.1 : MedianStep(stamps));
   const std::vector<double>& given = trajectory.stamps;
   std::vector<Pose> poses;
@@ -82,7 +82,7 @@ std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& t
 
 std::string TimesText(const std::vector<double>& stamps) {
   std::string text;
-  for (const double stamp : stamps) text += FormatNumbers("%.6f\n", stamp);
+  for (const double stamp : stamps) text += FixedNumber(stamp, 6) + "\n";
   return text;
 }
 

@@ -19,8 +19,8 @@ struct Entry {
   std::vector<std::string> fields;
 };
 
-/// "key: field field ..." rows by key; where no row has one they are P0, P1, ... Fields become
-/// numbers only where they are used: dates are among them.
+/// Rows "key: field field ..." by key. Rows without keys are P0, P1, ... Fields become numbers only
+/// on use, since some are dates.
 class Entries {
  public:
   explicit Entries(const std::string& path) : path_(path) {
@@ -40,7 +40,7 @@ class Entries {
     if (entries_.empty()) entries_ = std::move(nameless);
   }
 
-  /// The first of the keys that is there, as `count` numbers; empty: none is.
+  /// The first existing key as `count` numbers; empty: the file has none of the keys.
   std::vector<double> Numbers(const std::vector<const char*>& keys, std::size_t count) {
     for (const char* key : keys) {
       const auto it = entries_.find(key);
@@ -92,11 +92,11 @@ class Entries {
     const auto pose =
         RigidFromMatrix(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data()),
                         Vec3(t[0], t[1], t[2]));
-    if (!pose) Fail("not a rotation matrix: mend the entry");
+    if (!pose) Fail("not a rotation matrix: correct the entry");
     return *pose;
   }
 
-  /// At the entry used last, or at the end of the file.
+  /// Fails at the entry used last, or at the end of the file.
   [[noreturn]] void Fail(const std::string& message) const {
     throw Error(ErrorKind::kBadInput,
                 {path_, used_line_ > 0 ? used_line_ : std::max(last_line_, 1)}, message);
@@ -129,9 +129,11 @@ std::string CalibRow(int number, const Camera& camera) {
   const Vec3& offset = camera.offset;
   const Vec3 column(camera.fx * offset.x() + camera.cx * offset.z(),
                     camera.fy * offset.y() + camera.cy * offset.z(), offset.z());
-  return FormatNumbers("P%d: %.12g 0 %.12g %.12g 0 %.12g %.12g %.12g 0 0 1 %.12g\n", number,
-                       camera.fx, camera.cx, column.x(), camera.fy, camera.cy, column.y(),
-                       column.z());
+  std::string row = "P" + std::to_string(number) + ":";
+  for (const double value : {camera.fx, 0., camera.cx, column.x(), 0., camera.fy, camera.cy,
+                             column.y(), 0., 0., 1., column.z()})
+    row += " " + RoundedNumber(value, 12);
+  return row + "\n";
 }
 
 }  // namespace
@@ -145,8 +147,8 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
     entries.Fail((grey ? std::string("no P0 (or P2) here, the left camera")
                        : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
                  "; found: " + entries.Keys() +
-                 ". Add it (grey images need both of their folders to be taken), or remove the "
-                 "file where nothing is projected");
+                 ". Add it (grey images are used only if both folders exist), or remove the "
+                 "file if nothing is projected");
   }
   calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
@@ -155,7 +157,7 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
     (*camera)->width = static_cast<int>(size[0]);
     (*camera)->height = static_cast<int>(size[1]);
   }
-  calibration.T_cam_velo = entries.Rigid({"Tr"});  // KITTI odometry: the rectification is in it
+  calibration.T_cam_velo = entries.Rigid({"Tr"});  // KITTI odometry: includes the rectification
   if (!calibration.T_cam_velo) {
     calibration.T_cam_velo = entries.Rigid({"Tr_velo_to_cam", "Tr_velo_cam"});
     const std::optional<Pose> rectification = entries.Rotation({"R0_rect", "R_rect"});

@@ -14,7 +14,7 @@
 namespace sslcd {
 namespace {
 
-/// Where a layout keeps its fields; -1: it has none.
+/// The columns of a row format; -1: it has no such column.
 struct Columns {
   int frame, label, box, dims, location, yaw, score;
 };
@@ -55,7 +55,7 @@ std::string LabelOf(const TextRows& row, DetectionFormat format, int column) {
   return label;
 }
 
-/// KITTI's rotation_y = 0 looks along the camera's x; up is -y of the camera.
+/// KITTI: rotation_y = 0 points along the camera's x axis; up is the camera's -y axis.
 lie::SO3<double> RotationFromYaw(double rotation_y) {
   const double c = std::cos(rotation_y), s = std::sin(rotation_y);
   Eigen::Matrix3d R;
@@ -65,7 +65,7 @@ lie::SO3<double> RotationFromYaw(double rotation_y) {
   return lie::SO3<double>::FromMatrix(R);
 }
 
-/// None: the row cannot be used (not finite, or a size that is not positive).
+/// None: the row is unusable (a value is not finite or a size is not positive).
 std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
                                   const Columns& columns) {
   bool finite = true;
@@ -94,7 +94,7 @@ class DetectionReader {
  public:
   explicit DetectionReader(const DetectionReadOptions& options) : options_(options) {}
 
-  /// `frame` < 0: the rows say which frame they are of.
+  /// `frame` < 0: the rows contain the frame number.
   void ReadFile(const std::string& path, int frame);
   DetectionFile Finish();
 
@@ -105,7 +105,7 @@ class DetectionReader {
   DetectionReadOptions options_;
   DetectionFile out_;
   std::size_t row_size_ = 0;
-  bool outside_unit_ = false;  // a score that cannot be a probability was seen
+  bool outside_unit_ = false;  // a score outside [0, 1] was read
   std::string first_dropped_;
 };
 
@@ -115,7 +115,7 @@ void DetectionReader::CheckLayout(const TextRows& row, int frame) {
     row_size_ = row.size();
     const bool per_frame = out_.format == DetectionFormat::kKittiObject;
     if (per_frame && frame < 0)
-      row.Fail("KITTI object rows say no frame number: name the folder of %06d.txt files instead");
+      row.Fail("KITTI object rows have no frame number: name the folder of %06d.txt files instead");
     if (!per_frame && frame >= 0)
       row.Fail("these rows have frame numbers of their own: name this file, not its folder");
   }
@@ -171,7 +171,7 @@ DetectionFile DetectionReader::Finish() {
   if (out_.dropped > 0) {
     out_.warnings.push_back(
         first_dropped_ + ": dropped " + std::to_string(out_.dropped) +
-        " detection(s), this the first: a value is not finite or a size not positive");
+        " detection(s), the first one here: a value is not finite or a size is not positive");
   }
   return std::move(out_);
 }
@@ -185,18 +185,24 @@ std::string TrackingRow(int frame, const Detection& detection) {
   const double rotation_y = WrapAngle(-GravityFrame().YawOf(detection.T_cam_object.so3()));
   const double alpha = WrapAngle(rotation_y - std::atan2(centre.x(), centre.z()));
   const Vec3& d = detection.dims;
-  return std::to_string(frame) + " -1 " + detection.label +
-         FormatNumbers(" -1 -1 %.4f %.2f %.2f %.2f %.2f %.4f %.4f %.4f %.4f %.4f %.4f %.5f %.3f\n",
-                       alpha, box.left, box.top, box.right, box.bottom, d.z(), d.y(), d.x(),
-                       centre.x(), centre.y() + 0.5 * d.z(), centre.z(), rotation_y,
-                       detection.score);
+  std::string row = std::to_string(frame) + " -1 " + detection.label + " -1 -1";
+  const auto add = [&row](double value, int decimals) {
+    row += " " + FixedNumber(value, decimals);
+  };
+  add(alpha, 4);
+  for (const double side : {box.left, box.top, box.right, box.bottom}) add(side, 2);
+  for (const double size : {d.z(), d.y(), d.x()}) add(size, 4);
+  for (const double position : {centre.x(), centre.y() + 0.5 * d.z(), centre.z()}) add(position, 4);
+  add(rotation_y, 5);
+  add(detection.score, 3);
+  return row + "\n";
 }
 
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, DetectionReadOptions& options) {
   visitor.Enum("score", options.score, {"auto", "probability", "logit"},
-               "what the score column holds; auto: logits if any lies outside [0, 1]");
+               "meaning of the score column; auto: logits if any score lies outside [0, 1]");
 }
 
 const char* ToString(DetectionFormat format) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <charconv>
-#include <cstdio>
 #include <string>
 
 namespace sslcd {
@@ -13,7 +12,7 @@ inline std::string ShortestNumber(double value) {
   return std::string(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
-/// With a fixed number of decimals; never "-0.000".
+/// The number with this many decimals, whatever the locale; never "-0.000".
 inline std::string FixedNumber(double value, int decimals) {
   char buffer[400];
   std::string text(
@@ -23,12 +22,12 @@ inline std::string FixedNumber(double value, int decimals) {
   return text;
 }
 
-/// Numbers as printf writes them; a whole row of a table fits.
-template <class... Values>
-std::string FormatNumbers(const char* format, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
+/// The number with this many significant digits, like printf's %g, whatever the locale.
+inline std::string RoundedNumber(double value, int digits) {
+  char buffer[400];
+  return std::string(
+      buffer,
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits).ptr);
 }
 
 }  // namespace sslcd

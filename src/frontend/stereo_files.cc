@@ -2,32 +2,29 @@
 #include "sslcd/frontend/stereo_files.h"
 
 #include <algorithm>
-#include <cstdio>
 
+#include "formats/number_text.h"
 #include "sslcd/core/log.h"
 #include "sslcd/ground/ground_alignment.h"
 
 namespace sslcd {
 namespace {
 
-std::string Pixels(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3f px", value);
-  return text;
-}
+std::string Pixels(double value) { return FixedNumber(value, 3) + " px"; }
 
 void LogRig(const RigCheck& check, const StereoCamera& camera) {
   const std::string rows =
       "rows of left and right images differ by " + Pixels(check.row_error.value());
   if (check.disparity_at_infinity != camera.disparity_at_infinity) {
-    Log(LogLevel::kWarning,
-        "calibration is off: " + rows + ". As points move, the disparity at infinity is " +
-            Pixels(check.disparity_at_infinity) + ", which is used instead of " +
-            Pixels(camera.disparity_at_infinity) + "; vision.odometry.calibrate: false leaves it");
+    Log(LogLevel::kWarning, "calibration is off: " + rows +
+                                ". The motion of points gives a disparity at infinity of " +
+                                Pixels(check.disparity_at_infinity) + ", which replaces " +
+                                Pixels(camera.disparity_at_infinity) +
+                                "; vision.odometry.calibrate: false keeps the calibration");
   } else if (check.unsure) {
-    Log(LogLevel::kWarning,
-        "calibration is off: " + rows +
-            ", and no frames tell by how much columns do, so distances may be some per cent off");
+    Log(LogLevel::kWarning, "calibration is off: " + rows +
+                                ", but no frames show the error of the columns, so distances may "
+                                "be wrong by some per cent");
   } else {
     Log(LogLevel::kInfo, rows);
   }

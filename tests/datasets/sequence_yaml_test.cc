@@ -53,5 +53,30 @@ TEST(SequenceYaml, ErrorsNameTheirPlace) {
   refuse("labels: {Car\n", {"s.yaml:"});
 }
 
+TEST(SequenceYaml, LabelsComeBackAsWritten) {
+  const std::vector<std::string> labels = {
+      "Car",       "light_2", "yes",         "No",          "null", "1", "-",
+      "a: b",      "a #b",    "{x}",         "\"q\"",       "'",    "~", "B\\n",
+      "two words", " x ",     "line\nbreak", "Stra\u00dfe", ""};
+  SequenceInfo info;
+  for (const std::string& label : labels) info.labels.Set(label, {Symmetry::kPi});
+  const TempFolder folder;
+  const std::string text = SequenceYamlText(info);
+  const SequenceInfo read = ReadSequenceYaml(folder.Write("s.yaml", text));
+  EXPECT_EQ(read.labels.entries().size(), labels.size());
+  for (const std::string& label : labels)
+    EXPECT_EQ(read.labels.entries().count(label), 1u) << label;
+}
+
+TEST(SequenceYaml, QuotesLabelsThatOtherReadersTakeForValues) {
+  SequenceInfo info;
+  info.labels.Set("Car", {});
+  info.labels.Set("Yes", {});
+  info.labels.Set("1", {});
+  EXPECT_EQ(SequenceYamlText(info),
+            "labels:\n  \"1\": {symmetry: none}\n  Car: {symmetry: none}\n"
+            "  \"Yes\": {symmetry: none}\n");
+}
+
 }  // namespace
 }  // namespace sslcd
