@@ -82,15 +82,7 @@ Dataset Load(RunArguments& a, const Console& console) {
   return dataset;
 }
 
-std::string LabelsOf(const RunArguments& a, const Dataset& dataset) {
-  const std::filesystem::path path =
-      std::filesystem::path(a.request.path) / "label_02" / (a.request.sequence + ".txt");
-  const bool tracking = dataset.format == "kitti-tracking";
-  return tracking && std::filesystem::is_regular_file(path) ? path.string() : "";
-}
-
-// The true identity of each detection row, where a sequence folder has them and there are true
-// poses to go with them.
+// The true identity of each detection row. Empty without landmark_ids.txt or ground-truth poses.
 std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path detections(dataset.detections_path),
       path = detections.parent_path() / "landmark_ids.txt";
@@ -127,12 +119,13 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
 
 struct Mapped {
   RunResult result;
-  // as they went in: from the dataset, or as the frontend has completed them
+  // the input frames: from the dataset, or completed by the frontend
   std::vector<Frame> frames;
-  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
+  std::optional<Error> failure;  // the error that ended the run early; earlier frames are kept
 };
 
-// Makes what the dataset lacks; none: nothing is lacking. Takes the frames out of `dataset` then.
+// Makes the odometry or detections that the dataset lacks and then takes the frames out of
+// `dataset`. None: nothing is lacking.
 std::optional<ImageFrontend> MakeFrontend(const ImageRequest& request, Dataset& dataset,
                                           const Configuration& configuration, int threads) {
   if (!request.odometry && !request.detections) return std::nullopt;
@@ -157,7 +150,7 @@ Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& da
   RunHooks hooks;
   hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
   hooks.stop = [] { return Interrupted(); };
-  // else they have their colours, where the images have any
+  // the frontend has measured the colours of its own detections
   if (!a.images.detects()) hooks.with_image = WithImage;
   CatchInterrupt();
   Mapped mapped;
@@ -174,7 +167,7 @@ Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& da
     return frame;
   };
   mapped.result = RunSequence(next, total, context, configuration.options, hooks);
-  mapped.result.stopped = Interrupted();  // perhaps while views were aligned
+  mapped.result.stopped = Interrupted();  // may have happened during view alignment
   const FrontendReport report = frontend->Finish();
   mapped.result.timing.Append(report.timing);
   console.EndProgress();
@@ -205,7 +198,7 @@ Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> id
   evaluation.odometry = mapped.result.odometry;
   evaluation.map = &outputs.map;
   evaluation.detections = &mapped.frames;
-  evaluation.labels_path = LabelsOf(a, dataset);
+  evaluation.labels_path = dataset.groundtruth_boxes_path;
   evaluation.identities = std::move(identities);
   evaluation.loops = mapped.result.loops;
   return Evaluate(evaluation);
@@ -214,8 +207,8 @@ Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> id
 int Run(RunArguments& a, const Console& console) {
   if (a.out.empty()) a.out = "runs/latest";
   a.images.AddTo(a.config);
-  const Configuration given = a.config.Load();  // wrong ones first,
-  MakeWritableFolder(a.out);                    // and rather now than after the run
+  const Configuration given = a.config.Load();  // reports wrong options first
+  MakeWritableFolder(a.out);                    // fails before the run, not after it
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file},

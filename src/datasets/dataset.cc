@@ -49,6 +49,7 @@ class DatasetLoader {
   Dataset Load() {
     out_.format = layout_.format;
     out_.name = layout_.name;
+    out_.groundtruth_boxes_path = layout_.groundtruth_boxes;
     if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
     out_.labels = info_.labels;
     if (!layout_.calib.empty()) calibration_ = layout_.read_calibration(layout_.calib);

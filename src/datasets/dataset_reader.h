@@ -39,6 +39,7 @@ struct DatasetLayout {
 
   /// `odometry` is the ground truth, and becomes that when other odometry is named.
   bool odometry_is_truth = false;
+  std::string groundtruth_boxes;  ///< annotated boxes, KITTI tracking rows
   /// What to add to the folder where odometry or detections are missing, for messages; empty: the
   /// format has no place for them.
   std::string odometry_file, detections_file;

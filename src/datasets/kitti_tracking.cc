@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr ImageSize kImageSize = {1242, 375};  // a few sequences are some pixels off
+constexpr ImageSize kImageSize = {1242, 375};  // a few sequences differ by some pixels
 
 bool LooksLikeKittiTracking(const std::string& folder) {
   return IsFolder(fs::path(folder) / "calib") || IsFolder(fs::path(folder) / "label_02");
@@ -30,6 +30,7 @@ DatasetLayout FindKittiTracking(const std::string& folder, const std::string& se
   DatasetLayout layout;
   layout.name = sequence;
   layout.groundtruth = IfFile(root / "oxts" / file);
+  layout.groundtruth_boxes = IfFile(root / "label_02" / file);
   layout.calib = IfFile(root / "calib" / file);
   layout.images = IfFolder(root / "image_02" / sequence);
   layout.images_right = IfFolder(root / "image_03" / sequence);

@@ -50,6 +50,7 @@ TEST(KittiTracking, LoadsWhatTheRequestNames) {
   request.detections = "boxes/0007.txt";
   const Dataset dataset = LoadDataset(request);
   EXPECT_EQ(dataset.format, "kitti-tracking");
+  EXPECT_EQ(dataset.groundtruth_boxes_path, folder.path() + "/label_02/0007.txt");
   EXPECT_EQ(dataset.name, "0007");
   ASSERT_EQ(dataset.frames.size(), 2u);
   EXPECT_NEAR(dataset.frames[1].stamp, 0.1, 1e-12);
@@ -85,7 +86,7 @@ TEST(KittiTracking, PacketsWithoutCalibrationAreNoGroundTruth) {
   EXPECT_FALSE(dataset.groundtruth.has_value());
   EXPECT_THAT(dataset.warnings, Contains(HasSubstr("not used as ground truth")));
   request.groundtruth = "oxts";
-  ExpectError([&] { LoadDataset(request); }, {"does not lead from IMU to camera"});
+  ExpectError([&] { LoadDataset(request); }, {"lacks the transform from IMU to camera"});
 }
 
 TEST(KittiOdometry, FindsSequencesAndPoses) {

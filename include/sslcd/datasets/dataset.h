@@ -14,32 +14,33 @@
 
 namespace sslcd {
 
-/// "auto", which means told by what is in the folder, then the dataset formats in the order in
-/// which a folder is compared with them: "sequence", "kitti-odometry", "kitti-raw",
-/// "kitti-tracking" (docs/formats.md).
+/// Returns "auto" (detect the format from the folder) and the names of the dataset formats in the
+/// order of detection: "sequence", "kitti-odometry", "kitti-raw", "kitti-tracking"
+/// (docs/formats.md).
 std::vector<std::string> DatasetFormatNames();
 
-/// How much a part is wanted that can be made from images, too. Where there is no odometry, the
-/// frames' poses are the identity, and there are as many as stamps, else as the last left image's
-/// number says; without detections, theirs are none.
+/// Whether odometry or detections must exist; both can also be made from images. Without odometry
+/// all poses are the identity, and the number of frames is the number of stamps, or follows from
+/// the number of the last left image if there are no stamps. Without detections the frames have
+/// none.
 enum class PartPolicy {
-  kNeeded,   ///< an error where there is none
-  kIfThere,  ///< none is no error where there are left and right images
+  kNeeded,   ///< a missing part is an error
+  kIfThere,  ///< a missing part is an error unless there are left and right images
   kIgnored,  ///< not read
 };
 
-/// What to load. Empty paths mean the standard place of the format; others are tried relative to
-/// `path`, then to the current folder. Where one leads to a folder that holds SEQUENCE.txt, that
-/// file is meant.
+/// The dataset to load. An empty path means the format's standard place. Any other path is relative
+/// to `path`, otherwise to the current folder. A folder that contains SEQUENCE.txt stands for that
+/// file.
 struct DatasetRequest {
   std::string path;
   std::string format = "auto";  ///< one of DatasetFormatNames()
-  std::string sequence;         ///< "0007"; may be empty where there is only one
-  std::string detections;       ///< required for KITTI tracking, which brings none
-  std::string odometry;         ///< likewise
+  std::string sequence;         ///< e.g. "0007"; may be empty if there is only one
+  std::string detections;       ///< required for KITTI tracking, whose folders have none
+  std::string odometry;         ///< required for KITTI tracking
   std::string groundtruth;
   DetectionReadOptions detection_options;
-  int max_frames = 0;  ///< only the first so many; 0: all
+  int max_frames = 0;  ///< load only the first frames; 0: all
   PartPolicy odometry_policy = PartPolicy::kNeeded, detections_policy = PartPolicy::kNeeded;
 };
 
@@ -47,34 +48,38 @@ struct DatasetRequest {
 /// named exception: a KITTI raw drive without `odometry` uses its GPS/IMU poses (then there is no
 /// ground truth, and a warning says so).
 struct Dataset {
-  std::string format;  ///< as found, never "auto"
+  std::string format;  ///< the detected format, never "auto"
   std::string name;
   std::vector<Frame> frames;  ///< one per pose; frames[i].index == i, stamps increase
-  /// P2, of grey images P0; none: no calibration, nothing can be projected
+  /// P2 (grey images: P0); none: no calibration, so nothing can be projected
   std::optional<Camera> camera;
   std::optional<Camera> camera_right;  ///< P3 or P1
-  /// unit vector in the odometry's world: sequence.yaml, else -y, or +z for a VINS-Fusion csv
+  /// unit vector in the odometry's world: from sequence.yaml, otherwise -y, or +z for a VINS-Fusion
+  /// csv
   Vec3 up_axis{0, -1, 0};
   LabelTable labels;
-  /// rows without stamps got those of the frames
+  /// T_world_cam; poses without stamps get those of the frames
   std::optional<Trajectory> groundtruth;
-  std::string odometry_path, detections_path, groundtruth_path;  ///< as found; empty: there is none
-  PoseFormat odometry_format = PoseFormat::kAuto;                ///< kKitti for GPS/IMU packets
-  /// detection rows; the following are among them
+  /// resolved paths; empty: there is none
+  std::string odometry_path, detections_path, groundtruth_path;
+  /// annotated boxes of the sequence (ReadKittiTrackingLabels); empty: there are none
+  std::string groundtruth_boxes_path;
+  PoseFormat odometry_format = PoseFormat::kAuto;  ///< kKitti for GPS/IMU packets
+  /// all detection rows, including those counted below
   int rows_read = 0;
-  /// not finite, or sizes that are not positive
+  /// rows with values that are not finite or sizes that are not positive
   int rows_dropped = 0;
-  int rows_dont_care = 0;   ///< class DontCare
-  int rows_beyond_end = 0;  ///< of frames that have no pose
-  /// what was put up with, a sentence each
+  int rows_dont_care = 0;   ///< rows of class DontCare
+  int rows_beyond_end = 0;  ///< rows of frames without a pose
+  /// tolerated defects of the dataset, one sentence each
   std::vector<std::string> warnings;
 };
 
 /// Loads a dataset folder.
-/// Stamps come from times.txt (raw drives: timestamps.txt), else from the odometry, else every 0.1
-/// s. Odometry without stamps must have as many rows as there are stamps; odometry with stamps is
-/// looked up by stamp, to half a frame step. Throws Error (kBadInput, or kUsage for a choice the
-/// caller has to make) saying where and what to do.
+/// Stamps come from times.txt (raw drives: timestamps.txt), otherwise from the odometry, otherwise
+/// they are 0.1 s apart. Odometry without stamps must have one row per stamp. Odometry with stamps
+/// is associated by stamp, within half a frame step. Throws Error(kBadInput), or Error(kUsage) if
+/// the caller has to make a choice.
 Dataset LoadDataset(const DatasetRequest& request);
 
 }  // namespace sslcd
