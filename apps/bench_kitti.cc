@@ -77,7 +77,7 @@ benchmark::Table KittiTable(const std::string& folder, const std::vector<std::st
     }
     for (const std::string& sequence : Sequences(path)) {
       if (stop && stop()) return {};
-      // Nothing tells where its cameras were: its map cannot be judged (0011).
+      // Without true poses the map cannot be judged (sequence 0011).
       if (!fs::is_regular_file(folder / TruePoses(sequence))) continue;
       const auto figures = RunOne(folder, set, sequence, options);
       const auto cell = [&](const char* name) {

@@ -10,11 +10,11 @@
 
 namespace sslcd::apps {
 
-/// The paper's Table I: 3D IoU of standing cars, of single detections and of the map, for every
-/// sequence of a KITTI tracking folder (with odometry in orbslam3_poses and, where known, true
-/// poses in oxts_cam0_poses) that the folders `detections` in it have; none named: the usual two,
-/// if there. Throws Error(kBadInput) for one that is not there, and where there is none at all.
-/// Empty where `stop` ended it early.
+/// The paper's Table I: 3D IoU of parked cars, of single detections and of the map. Runs every
+/// sequence of a KITTI tracking folder that has detections in the folders `detections`, odometry in
+/// orbslam3_poses and true poses in oxts_cam0_poses. Without `detections` it takes
+/// det_stereo_grade_car and det_pointrcnn_car if they exist. Throws Error(kBadInput) if a named
+/// folder is missing or no sequence is complete. Empty if `stop` ended it early.
 benchmark::Table KittiTable(const std::string& folder, const std::vector<std::string>& detections,
                             const Options& options, const std::function<bool()>& stop);
 

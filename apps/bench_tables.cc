@@ -47,7 +47,7 @@ class Bench {
         baselines_(LoadBaselines(arguments.baselines)),
         folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
 
-  // What is asked for, in the order of the paper's tables.
+  // The requested tables, in the order of the paper.
   void Run() {
     const std::vector<std::pair<std::string, void (Bench::*)()>> all = {
         {"table1", &Bench::Table1},
@@ -68,7 +68,7 @@ class Bench {
     return arguments_.name == "all" || arguments_.name == table;
   }
 
-  // What is wrong is to be known at once, not after hours of runs.
+  // Reports mistakes at once, not after hours of runs.
   void CheckOptions() {
     if (!arguments_.docs.empty()) ReadDocument();
     if (Asked("viewpoint")) AddViewpoints();
@@ -78,7 +78,7 @@ class Bench {
         CheckRendered(arguments_.images, TrialsOf(viewpoints_, method, true));
   }
 
-  // A range counts once, however often and in whatever spelling it is given.
+  // A range that is given twice, in any spelling, counts once.
   void AddViewpoints() {
     for (const std::string& range : arguments_.viewpoints) {
       Place place = benchmark::PlaceAtViewpoint(range);
@@ -103,15 +103,15 @@ class Bench {
   }
 
   void Table2() {
-    std::vector<MethodResults> foreign;  // first: what is wrong with them is to be known at once
+    std::vector<MethodResults> foreign;  // read first, to report mistakes before the runs
     for (const std::string& given : arguments_.trajectories) foreign.push_back(Foreign(given));
     std::vector<MethodResults> results = Results({Places()[0]}, Chosen(), false);
     for (MethodResults& other : foreign) results.push_back(std::move(other));
     Write(AteTable(results));
   }
 
-  // What another system has made of the same sequences: "NAME=FOLDER", with a file for each, e.g.
-  // lot-c1-s7.txt.
+  // The trajectories of another system on the same sequences: "NAME=FOLDER", one file per sequence,
+  // e.g. lot-c1-s7.txt.
   MethodResults Foreign(const std::string& given) const {
     const std::size_t equals = given.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -128,7 +128,7 @@ class Bench {
     return foreign;
   }
 
-  // Times are of one run at a time, whatever --threads says.
+  // Times are measured with one run at a time; --threads does not change this.
   void Table3() {
     std::vector<Trial> trials;
     for (int seed = 1; seed <= arguments_.seeds; ++seed) {
@@ -161,7 +161,7 @@ class Bench {
     WriteCsv(PrecisionRecallCurves(results));
   }
 
-  // The four cases, and small loops that meet themselves at angles which these seldom have.
+  // The four cases, and small loops whose passes meet at angles that the cases seldom have.
   void Viewpoint() {
     const std::vector<MethodResults> results = Answers(viewpoints_);
     const std::string key = arguments_.images.empty() ? "viewpoint" : "viewpoint_images";
@@ -171,8 +171,8 @@ class Bench {
 
   void Ablation() { Write(AblationTable(Results({Places()[0]}, benchmark::Ablations(), false))); }
 
-  // Of the methods that have answers to be scored: sslcd itself, and those that are asked on maps
-  // without loops.
+  // The methods whose answers have a score: sslcd itself, and the matchers that run on maps without
+  // loops.
   std::vector<MethodResults> Answers(const std::vector<Place>& places) {
     std::vector<Method> full, asked;
     for (const Method& method : Chosen()) {
@@ -196,7 +196,7 @@ class Bench {
     return benchmark::Select(methods, arguments_.methods);
   }
 
-  // The car park, the same with other cars on the way back, and a real one where it is given.
+  // The car park, the same car park with other cars on the second pass, and a real layout if given.
   std::vector<Place> Places() const {
     std::vector<Place> places(2);
     places[1].key = "churn";
@@ -272,7 +272,8 @@ class Bench {
     WriteFileAtomically(folder_.path() + "/" + table.key + ".csv", ToCsv(table));
   }
 
-  // What stands below a table: which code, which worlds, how. No cases: it is not of HALV-sim.
+  // The note below a table: commit, seeds, cases and options. No cases: the table is not about
+  // HALV-sim.
   std::string Provenance(const std::vector<int>& cases) const {
     std::string note = "Commit " + std::string(SSLCD_COMMIT);
     if (!cases.empty()) note += ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases ";
@@ -312,7 +313,7 @@ class Bench {
   const Console& console_;
   baselines::BaselineOptions baselines_;
   benchmark::ResultFolder folder_;
-  // the car park, and small loops where they are asked for
+  // the car park, and the small loops if requested
   std::vector<Place> viewpoints_ = {Places()[0]};
   std::vector<Table> tables_;
 };

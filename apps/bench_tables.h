@@ -20,8 +20,8 @@ struct BenchArguments {
 /// Ends a benchmark that ctrl-C has stopped.
 struct BenchStopped {};
 
-/// Runs the tables that are asked for, in the order of the paper's, prints them and writes them
-/// into the result folder. Throws BenchStopped on ctrl-C; the same call goes on from there.
+/// Measures the requested tables in the paper's order, prints them and writes them into the result
+/// folder. Throws BenchStopped on ctrl-C; the same call continues from there.
 void RunBenchTables(const BenchArguments& arguments, const Console& console);
 
 }  // namespace sslcd::apps

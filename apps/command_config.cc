@@ -19,7 +19,7 @@ Describe Fields(Configuration& configuration) {
 
 fs::path FolderOf(const std::string& file) { return fs::absolute(file).parent_path(); }
 
-// Where there is nothing in `folder` nor here it may not be needed: left as it is.
+// A path that leads to no file stays as it is: it may not be needed.
 void Resolve(const fs::path& folder, std::string& path) {
   if (path.empty()) return;
   std::error_code none;
@@ -69,7 +69,7 @@ void ConfigArguments::ApplyTo(Configuration& all) const {
 Configuration ConfigArguments::Load() const {
   Configuration all;
   ApplyTo(all);
-  // The mode decides the defaults that the file and the settings then change, wherever it is named.
+  // The mode sets the defaults. The file and the settings change them, so the mode is read first.
   if (all.mode != Mode::kRobust) return LoadOver(all.mode, {});
   CheckTogether(all);
   return all;

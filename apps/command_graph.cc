@@ -37,7 +37,7 @@ struct GraphArguments {
   }
 };
 
-// Solves `graph`; refused loops leave it.
+// Solves `graph` and removes the refused loops from it.
 RobustPoseGraphSummary Solve(PoseGraph& graph, const PoseGraphOptions& options, bool robust) {
   RobustPoseGraphSummary summary;
   if (!robust) {

@@ -16,8 +16,7 @@
 namespace sslcd::apps {
 namespace {
 
-// What `match` reads of a configuration; the other keys of a run mean nothing to it and are
-// refused.
+// The keys that `match` reads. It refuses the other keys of a run.
 struct MatchConfiguration {
   Mode mode = Mode::kRobust;
   LayoutMatchOptions match;
@@ -50,7 +49,7 @@ MatchConfiguration Load(const ConfigArguments& arguments) {
   return all;
 }
 
-// A row of the answers.
+// One row of the output.
 struct Answer {
   LoopDecision decision = LoopDecision::kNone;
   YawShift pose;
@@ -70,7 +69,7 @@ Answer MatchRobust(const LayoutPair& pair, const MatchConfiguration& configurati
   return answer;
 }
 
-// The paper's two stages and a least-squares pose of all matches; it never doubts.
+// The paper's two stages and a least-squares pose from all matches. It accepts every answer.
 Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
   Answer answer;
   const auto matches = PaperMatch(pair.local, pair.global, options);

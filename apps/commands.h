@@ -11,7 +11,8 @@
 
 namespace sslcd::apps {
 
-/// Each adds a subcommand to `app`; the returned function carries it out and gives the exit code.
+/// Each function adds a subcommand to `app`. The returned Command runs it and returns the exit
+/// code.
 using Command = std::function<int()>;
 Command AddRunCommand(CLI::App& app, Console& console);
 Command AddDetectCommand(CLI::App& app, Console& console);
@@ -23,10 +24,10 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);
 Command AddVersionCommand(CLI::App& app);
 
-/// Everything a configuration file may hold: the library's options and, in `vision`, how frames
-/// come from images.
+/// All keys of a configuration file: the library's options, and the image frontend's under
+/// `vision`.
 struct Configuration {
-  /// the preset that was taken; the other options may differ from it
+  /// the preset that set the defaults; single options may differ from it
   Mode mode = Mode::kRobust;
   Options options;
   VisionOptions vision;
@@ -45,19 +46,20 @@ struct ConfigArguments {
   std::vector<std::string> settings;
 
   void AddTo(CLI::App& command);
-  /// Defaults of the mode, then the file, then the settings. Paths in the file are relative to it,
-  /// or else to the current folder, as those of settings are; what is found becomes absolute, so
-  /// that it can be written anywhere. Throws Error(kBadConfig).
+  /// Loads the defaults of the mode, then the file, then the settings. Paths in the file are
+  /// relative to the file, otherwise to the current folder; paths of settings are relative to the
+  /// current folder. Paths that are found become absolute, so a dump works in any folder. Throws
+  /// Error(kBadConfig).
   Configuration Load() const;
-  /// The same over other defaults: those of `mode`, as `adapt` changes them.
+  /// The same with other defaults: those of `mode`, changed by `adapt`.
   Configuration LoadOver(Mode mode, const std::function<void(Configuration&)>& adapt) const;
-  /// Throws Error(kBadInput) with the places looked at where a path of the configuration leads
-  /// nowhere.
+  /// Throws Error(kBadInput) with the searched places if a path of the configuration leads to no
+  /// file.
   void CheckPath(const std::string& path) const;
 
  private:
   void ApplyTo(Configuration& configuration) const;
-  /// Options that do not fit together: all problems in one Error(kBadConfig).
+  /// Throws one Error(kBadConfig) with all options that do not fit together.
   void CheckTogether(const Configuration& configuration) const;
 };
 

@@ -8,12 +8,12 @@
 
 namespace sslcd::apps {
 
-/// How much the tools say. Results go to stdout, everything else to stderr.
+/// The output of the tools. Results go to stdout, everything else to stderr.
 struct Console {
   bool quiet = false;    ///< nothing but errors
   bool verbose = false;  ///< debug messages too
 
-  /// Installs the library's log sink accordingly.
+  /// Installs a log sink that follows `quiet` and `verbose`.
   void InstallLog() const;
 
   /// One line that is overwritten; only on a terminal.
@@ -25,7 +25,7 @@ struct Console {
   void Say(const std::string& line) const;
 };
 
-/// One row a stage: calls, and times in ms.
+/// One row per stage: calls, and times in ms.
 std::string TimingText(const TimingTable& timing);
 
 /// Rows of cells as aligned columns, the first one left-aligned.

@@ -12,7 +12,7 @@
 namespace sslcd::apps {
 namespace {
 
-// Pairs an estimate with the ground truth: by stamp where both have them, else row = frame number.
+// Pairs an estimate with the ground truth: by stamp if both have stamps, otherwise by frame number.
 MatchedPoses Pair(const Trajectory& estimate, const EvaluationInput& input) {
   if (input.groundtruth_has_stamps) return MatchByStamp(estimate, *input.groundtruth);
   MatchedPoses matched;
@@ -49,7 +49,7 @@ void AddTrajectoryErrors(const EvaluationInput& input, Metrics& metrics) {
                        ComputeAte(odometry.est, odometry.ref, Alignment::kSim3).error.rmse);
 }
 
-// Poses by frame number; frames that were not processed get the pose before them.
+// Poses by frame number. A frame that was not processed gets the last pose before it.
 std::vector<Pose> ByFrame(const Trajectory& trajectory, const std::vector<int>& frames) {
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
@@ -81,7 +81,7 @@ void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("driving_in_map", map.driving_in_map);
 }
 
-// Whether row i is the pose of frame i: only then it can be said where a loop should lead.
+// Whether row i is the pose of frame i. Only then the true pose of a loop is known.
 bool IsByFrame(const Trajectory& groundtruth, const std::vector<Frame>& frames) {
   if (groundtruth.size() < frames.size()) return false;
   for (std::size_t i = 0; i < frames.size(); ++i)

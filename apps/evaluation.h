@@ -13,24 +13,25 @@
 
 namespace sslcd::apps {
 
-/// What a finished run is compared with. Everything but the estimate is optional.
+/// A finished run and its ground truth. Everything but the estimate is optional.
 struct EvaluationInput {
-  Trajectory estimate;                    ///< one pose a frame
-  std::vector<int> frames;                ///< frame numbers of the estimate
-  std::optional<Trajectory> groundtruth;  ///< without stamps (KITTI rows): row = frame number
+  Trajectory estimate;      ///< T_world_cam, one per frame
+  std::vector<int> frames;  ///< frame numbers of the estimate
+  /// T_world_cam; without stamps (KITTI rows) row = frame number
+  std::optional<Trajectory> groundtruth;
   bool groundtruth_has_stamps = false;
   std::optional<Trajectory> odometry;
   const MapFile* map = nullptr;
   std::string labels_path;  ///< KITTI tracking label_02 file; empty: no map metrics
   const std::vector<Frame>* detections = nullptr;
-  std::vector<int> identities;  ///< the true one of each detection row; empty: no metrics of loops
+  std::vector<int> identities;  ///< true identity of each detection row; empty: no loop metrics
   std::vector<LoopClosure> loops;
 };
 
-/// Trajectory error (all alignments), relative error, the map's accuracy and identities where
-/// labels are there, and loops, revisits and identities where true identities are. All of them
-/// need ground-truth poses: without these there are no metrics, and a warning names labels that
-/// could not be used.
+/// Computes absolute (all alignments) and relative trajectory errors. Adds the map's accuracy and
+/// identities if there are labels, and metrics of loops, revisits and identities if there are true
+/// identities. All of them need ground-truth poses: without these it returns no metrics and warns
+/// about unused labels.
 Metrics Evaluate(const EvaluationInput& input);
 
 }  // namespace sslcd::apps

@@ -52,8 +52,7 @@ StereoFiles FilesOf(const Dataset& dataset) {
 
 Configuration AdaptToImages(const ConfigArguments& config, const Configuration& given,
                             const ImageRequest& request, Dataset& dataset, const Console& console) {
-  // A detector that is not used need not be there: `detect` names its own in the configuration of
-  // what it has made.
+  // Only models in use are checked: the configuration that `detect` writes names its detector.
   if (request.detections && request.boxes.empty()) config.CheckPath(given.vision.detector);
   if (request.detections) config.CheckPath(given.vision.embedder);
   if (LiftsBoxes(request, given.vision)) config.CheckPath(given.vision.classes);

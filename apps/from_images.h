@@ -10,35 +10,34 @@
 
 namespace sslcd::apps {
 
-/// What `run` and `detect` are told about making frames from images.
+/// The command-line options of `run` and `detect` for making frames from images.
 struct ImageArguments {
   std::string detector, embedder, boxes;
 
   void AddTo(CLI::App& command);
   bool detects() const { return !detector.empty() || !boxes.empty(); }
 
-  /// The models named on the command line, as settings of the configuration.
+  /// Adds the models named on the command line to the settings of the configuration.
   void AddTo(ConfigArguments& config) const;
 
-  /// Odometry where `dataset` has none; detections if asked for.
+  /// Requests odometry if `dataset` has none, and detections if `detections` is set.
   ImageRequest RequestFor(const Dataset& dataset, bool detections,
                           const Configuration& given) const;
 };
 
-/// The dataset's images, read by the tools; nothing more after an interrupt.
+/// The dataset's images, read by the tools. The sequence ends at an interrupt.
 StereoFiles FilesOf(const Dataset& dataset);
 
-/// The configuration with what the images of `dataset` bring under what the user has set
-/// (InspectImages, AdaptTo), and a line that says which keys that are. Throws Error where models
-/// that are needed are not there.
+/// Adapts the defaults to the images of `dataset` (InspectImages, AdaptTo) and keeps the keys that
+/// the user has set. Prints the adapted keys. Throws Error if a required model file is missing.
 Configuration AdaptToImages(const ConfigArguments& config, const Configuration& given,
                             const ImageRequest& request, Dataset& dataset, const Console& console);
 
-/// "--odometry stereo" asks for odometry from the images; no --odometry takes a file where there is
-/// one.
+/// "--odometry stereo" requests odometry from the images. Without --odometry the dataset's file is
+/// used if there is one.
 void ChooseOdometry(DatasetRequest& request);
 
-/// What became of images and boxes: for people.
+/// Counts of images, boxes and detections as a table for people.
 std::string FrontendTable(const FrontendReport& report);
 
 }  // namespace sslcd::apps

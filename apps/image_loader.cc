@@ -10,8 +10,8 @@ namespace sslcd::apps {
 
 namespace {
 
-/// As it is stored, which is how it is calibrated, however a JPEG says it should be turned. Empty
-/// where there is none that can be read.
+/// Reads the pixels as stored, since the calibration is for these; a JPEG's orientation tag is
+/// ignored. Empty if the file cannot be read.
 cv::Mat Read(const std::string& path, int flags) {
   try {
     return cv::imread(path, flags | cv::IMREAD_IGNORE_ORIENTATION);

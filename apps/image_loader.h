@@ -8,11 +8,11 @@
 
 namespace sslcd::apps {
 
-/// RunHooks::with_image: reads an image file and hands it on; false, with a warning, where that
-/// fails.
+/// RunHooks::with_image: reads an image file and passes it to the callback. Logs a warning and
+/// returns false on failure.
 bool WithImage(const std::string& path, const std::function<void(const ImageView&)>& use);
 
-/// FrontendHooks::load: an image file, in colour or grey as it is; empty where that fails.
+/// FrontendHooks::load: reads an image file, in colour or grey as stored. Empty on failure.
 Image LoadImage(const std::string& path);
 
 }  // namespace sslcd::apps

@@ -11,8 +11,8 @@
 
 namespace sslcd::apps {
 
-/// A field table as command-line options: `scale_error` becomes `--scale-error`. Ranges are the
-/// library's to check.
+/// Adds a field table as command-line options: `scale_error` becomes `--scale-error`. The library
+/// checks the ranges.
 class OptionAdder : public FieldVisitor {
  public:
   explicit OptionAdder(CLI::App& app) : app_(app) {}
@@ -37,7 +37,7 @@ class OptionAdder : public FieldVisitor {
  private:
   template <class T>
   void Add(std::string key, T& value, const char* meaning) {
-    // of the estimator that shares the table of detection sigmas
+    // belongs to the estimator, which shares the table of detection sigmas
     if (key == "initial_scale") return;
     std::replace(key.begin(), key.end(), '_', '-');
     app_.add_option("--" + key, value, meaning)->capture_default_str();

@@ -87,7 +87,7 @@ void Overlays::RemoveOthers() const {
     if (error)
       throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
   }
-  // which fails, and should, where anything is left
+  // fails if other files remain, which is intended
   if (!others.empty()) fs::remove(folder_, error);
 }
 

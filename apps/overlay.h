@@ -12,8 +12,8 @@
 
 namespace sslcd::apps {
 
-/// Left images with what was found in them, one file a frame: FOLDER/000007.jpg, made with the
-/// first. Whatever else lies there is left alone.
+/// Left images with boxes and cuboids drawn on them, one file per frame: FOLDER/000007.jpg. Creates
+/// the folder with the first image and leaves all other files alone.
 class Overlays {
  public:
   explicit Overlays(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -21,7 +21,7 @@ class Overlays {
   /// Draws the boxes and cuboids of a frame over its left image. Throws Error(kOutput).
   void Write(const Frame& frame, const ImageView& left, const Camera& camera);
 
-  /// Removes those of an earlier run, of frames that were not drawn this time. Throws
+  /// Removes the images of an earlier run whose frames were not drawn in this run. Throws
   /// Error(kOutput).
   void RemoveOthers() const;
 

@@ -6,8 +6,8 @@
 
 namespace sslcd::apps {
 
-/// Throws Error(kUsage) if one of the files that are read is one of those that are to be written,
-/// under whatever name. Empty names, and files that are not there, are none.
+/// Throws Error(kUsage) if an input file is also an output file, under the same or another name.
+/// Ignores empty names and missing files.
 void RefuseOverwriting(const std::vector<std::string>& read,
                        const std::vector<std::string>& written);
 

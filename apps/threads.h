@@ -6,11 +6,11 @@
 
 namespace sslcd::apps {
 
-/// What the machine has.
+/// The number of hardware threads, at least 1.
 int HardwareThreads();
 
-/// Adds --threads, from `least` on. What it says bounds OpenCV's own pool, too: that is the
-/// program's to decide, not the library's.
+/// Adds --threads with the smallest value `least`. It also limits OpenCV's thread pool, which only
+/// the program may set, not the library.
 void AddThreads(CLI::App& command, int& threads, int least = 1,
                 const std::string& meaning = "upper limit; the answer does not depend on it");
 
