@@ -13,7 +13,7 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
-// What the printers need of a field: its value as YAML, its type and its range.
+// A field for printing: its value as YAML, its type and its range.
 class Printer : public FieldVisitor {
  public:
   void Real(const char* key, double& value, double low, double high, const char* meaning) override {
@@ -114,7 +114,7 @@ class MarkdownPrinter final : public Printer {
   std::string path_, sections_;
 };
 
-// The table of the keys that users turn every day.
+// The table of the everyday keys.
 class EverydayPrinter final : public Printer {
  public:
   void Section(const char* key, const char*,
@@ -151,7 +151,7 @@ std::string ConfigReference(const Describe& describe) {
   MarkdownPrinter all;
   describe(all);
   if (everyday.text.empty()) return all.Result();
-  return "## Everyday\nThe keys that most users ever change.\n\n"
+  return "## Everyday\nThe keys that most users change.\n\n"
          "| key | default | range | meaning | what you see when you turn it |\n"
          "|---|---|---|---|---|\n" +
          everyday.text + "\n## All keys\n" + all.Result();

@@ -34,8 +34,8 @@ std::string Plain(double value) {
   return stream.str();
 }
 
-// Walks the fields and a YAML tree side by side. First pass: collects problems and changes nothing;
-// second pass: applies.
+// Walks the fields and a YAML tree in parallel. The first pass collects problems and changes
+// nothing; the second pass applies the values.
 class ConfigLoader final : public FieldVisitor {
  public:
   ConfigLoader(const YAML::Node& root, std::string name, bool marks, bool apply)
@@ -164,7 +164,7 @@ class ConfigLoader final : public FieldVisitor {
     return YAML::Node(YAML::NodeType::Undefined);
   }
 
-  /// The list or map of this key; undefined where it is not there or something else.
+  /// The list or map of this key; undefined if the key is missing or has another type.
   YAML::Node Collection(const char* key, YAML::NodeType::value type, const char* expected) {
     known_.push_back(key);
     YAML::Node node = Find(key);
@@ -201,7 +201,7 @@ class ConfigLoader final : public FieldVisitor {
     Problem(node, "'" + key + "' is " + node.Scalar() + ", must be in [" + low + ", " + high + "]");
   }
 
-  void CheckDuplicates() {  // yaml-cpp keeps them without a word
+  void CheckDuplicates() {  // yaml-cpp keeps them silently
     std::set<std::string> seen;
     for (const auto& entry : node_)
       if (entry.first.IsScalar() && !seen.insert(entry.first.Scalar()).second)
@@ -239,7 +239,7 @@ void Throw(const std::vector<std::string>& problems) {
   throw Error(ErrorKind::kBadConfig, text);
 }
 
-// Line and column of a key with its sections; none where the file does not give it.
+// Line and column of a key with its sections; none if the file lacks the key.
 std::optional<FileLocation> Locate(const YAML::Node& root, const std::string& key,
                                    const std::string& path) {
   YAML::Node node = root;
@@ -251,7 +251,7 @@ std::optional<FileLocation> Locate(const YAML::Node& root, const std::string& ke
   return FileLocation{path, node.Mark().line + 1, node.Mark().column + 1};
 }
 
-// Where the value of one of `keys` comes from.
+// The place that sets the value of one of `keys`.
 std::string SourceOf(const std::vector<std::string>& keys, const YAML::Node& root,
                      const std::string& path, const std::vector<std::string>& settings) {
   for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting)

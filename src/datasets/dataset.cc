@@ -70,7 +70,7 @@ class DatasetLoader {
   void AddFramesWithoutPoses();
   void AddDetections();
   void AddAppearance();
-  int AddVectors(const std::string& path, Cue cue);  // returns how many are unusable
+  int AddVectors(const std::string& path, Cue cue);  // returns the number of unusable vectors
   void WarnOfMoreImages();
   void CheckLabels();
   void AddGroundtruth();
@@ -114,7 +114,7 @@ void DatasetLoader::AddFrames() {
     } else if (stamps.size() != poses.size()) {
       throw Error(ErrorKind::kBadInput, {layout_.odometry},
                   "has " + std::to_string(poses.size()) + " poses, but " + layout_.times + " has " +
-                      std::to_string(stamps.size()) + " stamps: one pose a frame is needed");
+                      std::to_string(stamps.size()) + " stamps: give one pose per frame");
     }
   } else if (!has_stamps) {
     for (double& stamp : stamps) stamp *= kKittiFrameStep;
@@ -136,7 +136,7 @@ void DatasetLoader::AddFrames() {
 }
 
 void DatasetLoader::AddFramesWithoutPoses() {
-  // of the first camera, which is the world; sequence.yaml speaks of odometry.txt
+  // The world is the first camera; up_axis of sequence.yaml refers to odometry.txt.
   out_.up_axis = Vec3(0, -1, 0);
   std::vector<double> stamps;
   if (!layout_.times.empty()) {
@@ -211,8 +211,7 @@ int DatasetLoader::AddVectors(const std::string& path, Cue cue) {
   if (matrix.rows != static_cast<std::size_t>(out_.rows_read)) {
     throw Error(ErrorKind::kBadInput, {path},
                 "has " + std::to_string(matrix.rows) + " rows, but " + layout_.detections +
-                    " has " + std::to_string(out_.rows_read) +
-                    ": one row a detection row is needed");
+                    " has " + std::to_string(out_.rows_read) + ": give one row per detection row");
   }
   int unusable = 0;
   for (Frame& frame : out_.frames) {
@@ -247,7 +246,7 @@ void DatasetLoader::AddAppearance() {
   }
 }
 
-/// A label that sequence.yaml forgets is most likely misspelt in one of the two files.
+/// A label that sequence.yaml lacks is probably misspelt in one of the two files.
 void DatasetLoader::CheckLabels() {
   if (out_.labels.entries().empty()) return;
   std::set<std::string> unknown;
@@ -258,14 +257,15 @@ void DatasetLoader::CheckLabels() {
   }
   if (unknown.empty()) return;
   Warn(layout_.sequence_yaml + ": not among its labels: " + Join({unknown.begin(), unknown.end()}) +
-       "; taken as symmetry none");
+       "; their symmetry is none");
 }
 
 void DatasetLoader::AddGroundtruth() {
   if (layout_.groundtruth.empty()) return;
   if (request_.groundtruth.empty() && IsOxts(layout_.groundtruth) && !calibration_.HasImu()) {
     Warn(layout_.groundtruth +
-         ": not used as ground truth, the calibration does not lead from IMU to camera");
+         ": not used as ground truth, because the calibration lacks the transform from IMU to "
+         "camera");
     return;
   }
   PoseFile file = ReadPoses(layout_.groundtruth, calibration_);

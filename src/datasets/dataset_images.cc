@@ -15,13 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFrames = 1'000'000;  // by their images: the digits of a name
+constexpr int kMostFrames = 1'000'000;  // limits the frame number that an image name may have
 
 std::string Text(const ImageSize& size) {
   return std::to_string(size[0]) + "x" + std::to_string(size[1]);
 }
 
-/// What most of the first few images have, since one of them may be broken; 0: none says.
+/// The most frequent size of the first few images, since one may be broken; 0: no image gives it.
 ImageSize SizeOfImages(const std::vector<Frame>& frames) {
   constexpr int kFew = 5;
   std::map<ImageSize, int> votes;
@@ -60,7 +60,7 @@ int FramesOfImages(const std::string& folder) {
     if (images.empty()) continue;
     const auto& [number, path] = images.back();
     if (number >= kMostFrames)
-      throw Error(ErrorKind::kBadInput, {path}, "is no frame's number; they count from 000000");
+      throw Error(ErrorKind::kBadInput, {path}, "is not a frame number; frames count from 000000");
     count = std::max(count, number + 1);
   }
   return count;
@@ -84,10 +84,10 @@ void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& d
   if (given[0] > 0 && size[0] > 0 && given != size)
     throw Error(ErrorKind::kBadInput, {layout.sequence_yaml},
                 "image_size_px is " + Text(given) + ", but the images in " + layout.images +
-                    " are " + Text(size) + ": take it out if calib.txt is theirs");
+                    " are " + Text(size) + ": remove it if calib.txt belongs to the images");
   if (size[0] == 0) size = given;
   if (size[0] == 0) size = layout.image_size;
-  if (layout.odometry.empty()) {  // a stamp is no frame
+  if (layout.odometry.empty()) {  // stamps without an image are not frames
     const auto last = std::find_if(
         dataset.frames.rbegin(), dataset.frames.rend(),
         [](const Frame& f) { return !f.image_left.empty() || !f.image_right.empty(); });

@@ -9,16 +9,16 @@
 
 namespace sslcd {
 
-/// As many frames as it takes to reach the last image of the folder: one that is missing before it
-/// does not make the others later. Throws Error(kBadInput) for a name that is no frame's number.
+/// The number of frames up to the last image of the folder; missing images before it count. Throws
+/// Error(kBadInput) for a name that is not a frame number.
 int FramesOfImages(const std::string& folder);
 
-/// How many left images follow after so many frames, without a gap.
+/// The number of left images that follow frame `frames` - 1 without a gap.
 int ImagesAfter(const DatasetLayout& layout, std::size_t frames);
 
-/// Names the images of the dataset's frames, and gives its cameras the size that the first few
-/// have; where there are none, that of `info`. Throws Error(kBadInput) if these two differ. Where
-/// no odometry says otherwise the sequence ends with the last image; a warning says so.
+/// Sets the image paths of the dataset's frames and the image size of its cameras, from the first
+/// few images or, without images, from `info`. Throws Error(kBadInput) if these two differ. Without
+/// odometry the sequence ends with the last image, with a warning.
 void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset);
 
 }  // namespace sslcd

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder itself is a sequence of some format.
+/// Whether the folder itself is a sequence of a known format.
 bool IsSequence(const std::string& folder) {
   const auto& readers = DatasetReaders();
   return std::any_of(readers.begin(), readers.end(), [&](const DatasetReader& reader) {
@@ -24,7 +24,7 @@ bool IsSequence(const std::string& folder) {
 
 std::string Stem(const std::string& name) { return name.substr(0, name.find('.')); }
 
-/// The folders inside that are a sequence each.
+/// The subfolders that are sequences.
 std::set<std::string> SequencesInside(const std::string& root) {
   std::set<std::string> names;
   for (const std::string& name : FileNames(root)) {
@@ -53,7 +53,7 @@ const DatasetReader& ReaderOf(const std::string& root, const std::string& format
               "no dataset format '" + format + "'; there are: " + Join(DatasetFormatNames()));
 }
 
-/// Checks `wanted` against what there is; an empty one stands for the only one.
+/// Checks that `wanted` is available; an empty name stands for the only sequence.
 std::string ChooseSequence(const std::string& root, const std::string& wanted,
                            const std::set<std::string>& available) {
   if (available.count(wanted) > 0) return wanted;
@@ -65,8 +65,8 @@ std::string ChooseSequence(const std::string& root, const std::string& wanted,
   return *available.begin();
 }
 
-/// A path of the request: relative to the dataset or to the current folder; in a folder, the
-/// sequence's file.
+/// Resolves a path of the request, relative to the dataset or to the current folder. In a folder it
+/// finds the file of the sequence.
 std::string Resolve(const std::string& root, const std::string& path, const std::string& sequence,
                     const char* what) {
   for (const std::string& candidate : {(fs::path(root) / path).string(), path}) {
@@ -75,21 +75,21 @@ std::string Resolve(const std::string& root, const std::string& path, const std:
     const std::string file = sequence + ".txt";
     if (sequence.empty()) return candidate;
     if (const std::string found = IfFile(fs::path(candidate) / file); !found.empty()) return found;
-    // Files named like other sequences; those of frames (000000.txt) have longer names.
+    // Files of other sequences; files of frames (000000.txt) have longer names.
     std::vector<std::string> others;
     for (const std::string& name : FileNames(candidate)) {
       if (name.size() == file.size() && Stem(name) + ".txt" == name) others.push_back(name);
     }
     if (others.empty()) return candidate;
     throw Error(ErrorKind::kBadInput, {candidate},
-                "has no " + file + " to take the " + what + " from; there are: " + Join(others));
+                "has no " + file + " for the " + what + "; there are: " + Join(others));
   }
   throw Error(ErrorKind::kBadInput, std::string(what) + " '" + path + "' is neither in " + root +
                                         " nor in the current folder: check the path");
 }
 
-/// Paths "folder/SEQUENCE.txt" whose first row could be a pose (or else a detection), to choose
-/// from. Ground truth is not offered.
+/// Paths "folder/SEQUENCE.txt" to suggest: their first row could be a pose (or a detection). Ground
+/// truth is not suggested.
 std::vector<std::string> Candidates(const fs::path& root, const std::string& sequence, bool poses) {
   std::vector<std::string> found;
   for (const std::string& folder : FileNames(root)) {
@@ -111,7 +111,7 @@ std::vector<std::string> Candidates(const fs::path& root, const std::string& seq
                           : " or add " + file;
   if (policy == PartPolicy::kIfThere)
     message +=
-        "; or add left and right images (image_2, image_3; grey: image_0, image_1) to make it from";
+        "; or add left and right images to make it from (image_2, image_3; grey: image_0, image_1)";
   throw Error(ErrorKind::kBadInput, {root}, message);
 }
 
@@ -121,7 +121,7 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
   std::string root = request.path;
   if (!IsFolder(root))
     throw Error(ErrorKind::kBadInput, {root}, "no such folder: check the path of the dataset");
-  // The folder may hold several sequence folders or drives side by side.
+  // The folder may contain several sequence folders or drives.
   const std::string inner = fs::path(root) / request.sequence;
   const bool is_inner = !request.sequence.empty() && IsSequence(inner);
   if (is_inner) root = inner;

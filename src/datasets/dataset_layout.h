@@ -6,9 +6,9 @@
 
 namespace sslcd {
 
-/// Finds out the format and the parts. Throws Error when the folder is none of the known kinds,
-/// when the sequence is unknown or must be chosen, when a requested path does not exist, and when
-/// odometry or detections are missing.
+/// Detects the format and finds the parts. Throws Error if the folder has no known format, if the
+/// sequence is unknown or must be chosen, if a requested path does not exist, or if odometry or
+/// detections are missing.
 DatasetLayout FindDatasetLayout(const DatasetRequest& request);
 
 }  // namespace sslcd

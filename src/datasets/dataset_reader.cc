@@ -5,7 +5,7 @@
 
 namespace sslcd {
 
-// A format is a file of its own, which defines one of these, and a line in the table below.
+// To add a format, define such a function in a file of its own and add a line to the table below.
 DatasetReader SequenceFolderReader();
 DatasetReader KittiOdometryReader();
 DatasetReader KittiRawReader();

@@ -13,17 +13,17 @@
 
 namespace sslcd {
 
-/// Finds the image of a frame in a folder; empty: there is none.
+/// Returns the path of a frame's image in a folder; empty: there is none.
 using ImageFinder = std::function<std::string(const std::string& folder, int frame)>;
 
-/// Images named by frame number, as PNG or JPEG: 6 digits stand for 000000.png.
+/// Finds PNG or JPEG images named by frame number, e.g. 000000.png with 6 digits.
 ImageFinder NumberedImages(int digits);
 
-/// Where the parts of one sequence are, and how to read those that are not alike in all formats.
-/// Empty paths: the part is not there.
+/// The paths of the parts of one sequence, and functions for the parts whose format varies. An
+/// empty path means that the part is missing.
 struct DatasetLayout {
-  std::string format;       ///< of the reader that found it
-  std::string name;         ///< of the sequence
+  std::string format;       ///< name of the reader that found it
+  std::string name;         ///< name of the sequence
   std::string odometry;     ///< pose file, or oxts packets (file or folder)
   std::string detections;   ///< file or folder, or tracklet_labels.xml
   std::string groundtruth;  ///< pose file or oxts packets
@@ -35,28 +35,27 @@ struct DatasetLayout {
   std::function<Calibration(const std::string& path)> read_calibration =
       [](const std::string& path) { return ReadCalibration(path); };
   ImageFinder find_image = NumberedImages(6);
-  ImageSize image_size{};  ///< where neither images nor sequence.yaml tell it; 0: unknown
+  ImageSize image_size{};  ///< used if neither images nor sequence.yaml give it; 0: unknown
 
-  /// `odometry` is the ground truth, and becomes that when other odometry is named.
+  /// `odometry` is the ground truth. It becomes `groundtruth` if the request names other odometry.
   bool odometry_is_truth = false;
   std::string groundtruth_boxes;  ///< annotated boxes, KITTI tracking rows
-  /// What to add to the folder where odometry or detections are missing, for messages; empty: the
-  /// format has no place for them.
+  /// The file names to suggest if odometry or detections are missing; empty: the format has none.
   std::string odometry_file, detections_file;
 };
 
 /// One dataset format.
 struct DatasetReader {
-  const char* name;         ///< as `--format` takes it
-  const char* description;  ///< what the format is, and by what in the folder it is told
+  const char* name;         ///< the value of `--format`
+  const char* description;  ///< the format and the files that identify it
   bool (*looks_like)(const std::string& folder);
-  /// The sequences in a folder; null: the folder itself is one sequence.
+  /// Returns the sequences in a folder; null: the folder itself is one sequence.
   std::set<std::string> (*sequences)(const std::string& folder);
-  /// Where the parts of a sequence are; `sequence` is empty where the folder itself is one.
+  /// Finds the parts of a sequence; `sequence` is empty if the folder itself is one.
   DatasetLayout (*find)(const std::string& folder, const std::string& sequence);
 };
 
-/// All formats, in the order in which they are tried.
+/// All formats in the order of detection.
 const std::vector<DatasetReader>& DatasetReaders();
 
 }  // namespace sslcd

@@ -15,20 +15,20 @@ ImageSize ReadImageSize(const std::string& path) {
     return static_cast<int>(value);
   };
   const int first = number(2);
-  if (first == 0x8950) {  // PNG: its first chunk begins with the size
+  if (first == 0x8950) {  // PNG: the first chunk starts with the size
     file.seekg(16);
     const int width = number(4), height = number(4);
     return file ? ImageSize{width, height} : ImageSize{};
   }
   if (first != 0xFFD8) return {};
-  while (file) {  // JPEG: segments, of which the one that begins the frame has it
+  while (file) {  // JPEG: the start-of-frame segment has the size
     int marker = byte();
     while (marker == 0xFF) marker = byte();
     const int length = number(2);
     const bool frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (frame) {
-      byte();  // bits
+      byte();  // bits per sample per sample per sample
       const int height = number(2), width = number(2);
       return file ? ImageSize{width, height} : ImageSize{};
     }

@@ -9,7 +9,7 @@ namespace sslcd {
 /// Width and height [px].
 using ImageSize = std::array<int, 2>;
 
-/// From the header of a PNG or JPEG file; zero where it has none.
+/// Reads the size from the header of a PNG or JPEG file; zero if the file has no such header.
 ImageSize ReadImageSize(const std::string& path);
 
 }  // namespace sslcd

@@ -18,7 +18,7 @@ constexpr double kDegree = M_PI / 180.;
 /// metric there.
 Pose PoseOfPacket(const TextRows& row, std::optional<double>& scale) {
   if (row.size() != kPacketSize) {
-    row.Fail("found " + std::to_string(row.size()) + " columns, expected the 30 of an oxts packet");
+    row.Fail("found " + std::to_string(row.size()) + " columns, expected 30 (an oxts packet)");
   }
   double v[6];
   for (int i = 0; i < 6; ++i) {
@@ -76,7 +76,7 @@ std::vector<Pose> ReadOxts(const std::string& path) {
 std::vector<Pose> ReadOxtsCamera(const std::string& path, const Calibration& calibration) {
   if (!calibration.HasImu()) {
     throw Error(ErrorKind::kBadInput, {path},
-                "the calibration does not lead from IMU to camera: add Tr_velo_to_cam and "
+                "the calibration lacks the transform from IMU to camera: add Tr_velo_to_cam and "
                 "Tr_imu_to_velo to calib.txt, or "
                 "calib_velo_to_cam.txt and calib_imu_to_velo.txt to a raw drive");
   }

@@ -13,7 +13,7 @@
 
 namespace sslcd {
 
-/// Everything a run leaves behind.
+/// All outputs of a run.
 struct RunOutputs {
   Trajectory trajectory, odometry;
   MapFile map;
@@ -24,11 +24,11 @@ struct RunOutputs {
   std::string config_yaml;
 };
 
-/// The paths of trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply, graph.g2o,
-/// loops.csv, timing.json, metrics.json and config.yaml in that folder.
+/// Returns the paths of trajectory_{tum,kitti}.txt, odometry_{tum,kitti}.txt, map.json, map.ply,
+/// graph.g2o, loops.csv, timing.json, metrics.json and config.yaml in the folder.
 std::vector<std::string> RunFolderPaths(const std::string& folder);
 
-/// Writes these files, all or none, into a folder that is made if need be. Returns their paths.
+/// Writes these files, all or none, and creates the folder if necessary. Returns their paths.
 /// Throws Error(kOutput).
 std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutputs& outputs);
 

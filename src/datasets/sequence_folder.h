@@ -7,8 +7,8 @@
 
 namespace sslcd {
 
-/// The parts of a sequence folder (docs/formats.md); KITTI odometry's sequences are such folders,
-/// too.
+/// Finds the parts of a sequence folder (docs/formats.md). The sequences of KITTI odometry are such
+/// folders.
 DatasetLayout FindSequenceFolder(const std::string& folder);
 
 }  // namespace sslcd

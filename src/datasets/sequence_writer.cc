@@ -28,8 +28,8 @@ std::string SequenceYaml(const SequenceFiles& files) {
   return (files.comment.empty() ? "" : "# " + files.comment + "\n") + SequenceYamlText(info);
 }
 
-/// One row a detection; empty where none has such a vector, or where all should have one and some
-/// have not.
+/// One row per detection. Empty if no detection has the vector, or if `all` is set and one lacks
+/// it.
 std::string Npy(const Detections& detections, const CueRow& cue) {
   NpyMatrix matrix;
   bool gaps = false;
@@ -55,7 +55,7 @@ std::string Npy(const Detections& detections, const CueRow& cue) {
 
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files) {
   std::vector<std::pair<std::string, std::string>> written;
-  std::vector<std::filesystem::path> removed;  // what is left from before would be of other frames
+  std::vector<std::filesystem::path> removed;  // files of an earlier run belong to other frames
   const auto write = [&](const char* name, const std::string& text) {
     written.emplace_back((folder / name).string(), text);
   };

@@ -17,12 +17,12 @@ namespace sslcd {
 struct SequenceFiles {
   std::string comment;  ///< first line of sequence.yaml; empty: none
   std::optional<StereoCamera> camera;
-  Trajectory odometry;                             ///< one pose a frame, with stamps
+  Trajectory odometry;                             ///< T_odom_cam with stamps, one per frame
   std::optional<Trajectory> groundtruth;           ///< for evaluation only
   std::vector<std::vector<Detection>> detections;  ///< of each frame
   Vec3 up_axis{0, -1, 0};
   LabelTable labels;
-  std::string config_yaml;  ///< what `sslcd_run run` should be told of it; empty: there is none
+  std::string config_yaml;  ///< options for `sslcd_run run` on this sequence; empty: no file
 };
 
 /// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
@@ -33,8 +33,8 @@ struct SequenceFiles {
 /// Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
-/// Makes the folder. Throws Error(kUsage) when it holds something already and `overwrite` is not
-/// set, Error(kOutput) when it cannot be made.
+/// Creates the folder. Throws Error(kUsage) if it is not empty and `overwrite` is not set, and
+/// Error(kOutput) if it cannot be created.
 void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace sslcd

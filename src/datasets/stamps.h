@@ -9,18 +9,18 @@
 
 namespace sslcd {
 
-/// times.txt: one stamp a row, increasing. [s] Throws Error with file:line.
+/// Reads times.txt: one stamp [s] per row, increasing. Throws Error with file:line.
 std::vector<double> ReadTimes(const std::string& path);
 std::string TimesText(const std::vector<double>& stamps);
 
-/// Median difference of neighbours; 0 for fewer than two stamps. [s]
+/// Median step between consecutive stamps; 0 for fewer than two stamps. [s]
 double MedianStep(const std::vector<double>& stamps);
 
-/// A sentence about the gaps of more than ten median steps, if there are any.
+/// A warning about gaps of more than ten median steps, if there are any.
 std::optional<std::string> GapWarning(const std::vector<double>& stamps);
 
-/// The pose nearest to each stamp. Throws Error naming the first stamp that has none within half a
-/// median step.
+/// The pose nearest in time to each stamp. Throws Error with the first stamp that has no pose
+/// within half a median step.
 std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory,
                           const std::string& path);
 

@@ -21,7 +21,7 @@ std::string Trim(const std::string& text) {
 class TrackletFile {
  public:
   explicit TrackletFile(const std::string& path) : path_(path), bytes_(ReadFileBytes(path)) {
-    // pugixml neither expands entities of a DTD nor recurses: nested bombs do no harm.
+    // pugixml neither expands DTD entities nor recurses, so nested entities cannot exhaust memory.
     const pugi::xml_parse_result result = document_.load_buffer(
         bytes_.data(), bytes_.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result && result.status != pugi::status_no_document_element)
@@ -38,11 +38,11 @@ class TrackletFile {
   }
 
  private:
-  /// What is wrong at the place where pugixml gave up.
+  /// Describes the error at the place where pugixml stopped.
   std::string ProblemAt(const pugi::xml_parse_result& result) const {
     const auto at = static_cast<std::size_t>(result.offset);
     const std::string description = result.description();
-    if (at + 1 >= bytes_.size()) return "the file is cut off: " + description;
+    if (at + 1 >= bytes_.size()) return "the file is truncated: " + description;
     const std::size_t tag = std::min(bytes_.rfind('<', at), at);
     const std::size_t end = std::min(bytes_.find_first_of(">\n", at), tag + 40);
     return "not XML: " + description + " at '" + bytes_.substr(tag, end + 1 - tag) + "'";

@@ -15,7 +15,8 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
   for (const MapObject& object : objects) {
     if (object.state != LandmarkState::kConfirmed) continue;
     ++result.landmarks;
-    std::vector<std::pair<int, int>> votes;  // (identity, count), in the order of first sight
+    std::vector<std::pair<int, int>>
+        votes;  // (identity, count), in the order of first sightinginging
     for (const Observation& observation : object.observations) {
       const std::optional<int> identity = identity_of_row(observation.detection_row);
       if (!identity) continue;
@@ -42,7 +43,7 @@ int IdentityOfRow(const std::vector<int>& identities, int row) {
   if (row < 0 || row >= static_cast<int>(identities.size())) {
     throw Error(ErrorKind::kUsage,
                 "detection row " + std::to_string(row) + " has no true identity: there are " +
-                    std::to_string(identities.size()) + " identities, for the rows from 0 on");
+                    std::to_string(identities.size()) + " identities, one per row from 0");
   }
   return identities[row];
 }

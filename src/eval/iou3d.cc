@@ -12,7 +12,7 @@ using Polygon = std::vector<Vec2>;  // counter-clockwise
 
 double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Corners relative to `origin`: differences of large coordinates would cost digits in the area.
+/// Corners relative to `origin`, since large coordinates lose digits of the area.
 Polygon Footprint(const Cuboid& box, const Vec3& origin) {
   const Vec2 centre(box.centre.x() - origin.x(), box.centre.y() - origin.y());
   const double c = std::cos(box.yaw), s = std::sin(box.yaw);

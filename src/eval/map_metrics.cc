@@ -17,13 +17,13 @@ namespace {
 /// Boxes are compared in the camera's axes: the camera's own vertical, not the world's.
 const GravityFrame kCameraAxes;
 
-/// A KITTI frame's worth of boxes, in kCameraAxes.
+/// The boxes of one KITTI frame, in kCameraAxes.
 struct Scene {
   std::vector<Cuboid> truth;
-  std::vector<int> tracks;  // of truth
+  std::vector<int> tracks;  // tracks of `truth`
   std::vector<Cuboid> detected, mapped;
 };
-using Scenes = std::map<int, Scene>;  // by frame number, those with annotated boxes
+using Scenes = std::map<int, Scene>;  // by frame number; only frames with annotated boxes
 
 /// Index of the box nearest to `box`, if it is nearer than `gate`; on a tie the first.
 std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>& boxes,
@@ -69,13 +69,13 @@ std::map<int, double> TrackExtents(const Scenes& scenes, const std::vector<Pose>
   return extents;
 }
 
-/// What the detections say about the annotated boxes.
+/// Matches of the detections with the annotated boxes.
 struct Sightings {
   std::unordered_map<int, int> track_of_row;
-  std::map<int, int> count;  // per track, of detections with a score that counts
+  std::map<int, int> count;  // per track: detections with a sufficient score
 };
 
-/// Fills in the scenes' detected boxes on the way.
+/// Also fills in the detected boxes of the scenes.
 Sightings TakeDetections(const MapRun& run, const MapMetricOptions& options, Scenes& scenes) {
   Sightings sightings;
   std::set<int> seen;
@@ -152,8 +152,7 @@ void CompareBoxes(const MapRun& run, const MapMetricOptions& options, const Scen
   metrics.coverage = static_cast<double>(map.count()) / std::max(1, raw.count());
 }
 
-/// Of the tracks seen often enough: how many there are, how many own landmarks, and how many
-/// landmarks these own.
+/// Counts the tracks with enough detections, those of them that own landmarks, and their landmarks.
 struct Found {
   int objects = 0, owners = 0, landmarks = 0;
 };

@@ -7,10 +7,10 @@
 
 namespace sslcd {
 
-/// Length of the path up to each pose. [m]
+/// Path length from the start to each pose. [m]
 std::vector<double> DistanceAlong(const std::vector<Pose>& poses);
 
-/// Direction a camera (KITTI axes) looks in, in the horizontal plane. [rad]
+/// Horizontal viewing direction of a camera (KITTI axes). [rad]
 double HeadingOf(const Pose& T_world_cam);
 
 }  // namespace sslcd

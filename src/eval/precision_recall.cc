@@ -21,8 +21,7 @@ void Check(const std::vector<ScoredAnswer>& answers, int positives) {
   }
   if (correct > positives) {
     throw Error(ErrorKind::kUsage, std::to_string(correct) + " answers are correct, but only " +
-                                       std::to_string(positives) +
-                                       " were to be found: count each one once");
+                                       std::to_string(positives) + " exist: count each one once");
   }
 }
 
@@ -39,7 +38,7 @@ PrecisionRecall ComputePrecisionRecall(std::vector<ScoredAnswer> answers, int po
   for (std::size_t i = 0; i < answers.size(); ++i) {
     ++point.answered;
     point.correct += answers[i].correct;
-    // no threshold between them
+    // equal scores have no threshold between them
     if (i + 1 < answers.size() && answers[i + 1].score == answers[i].score) continue;
     point.threshold = answers[i].score;
     point.precision = static_cast<double>(point.correct) / point.answered;

@@ -20,7 +20,7 @@ std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
                                   const RevisitOptions& options) {
   const std::vector<double> distance = DistanceAlong(reference);
   const int n = static_cast<int>(reference.size());
-  std::map<int, std::vector<double>> seen;  // identity -> places on the path
+  std::map<int, std::vector<double>> seen;  // path positions by identity
   for (const Frame& frame : frames) {
     if (frame.index < 0 || frame.index >= n) continue;
     for (const Detection& detection : frame.detections) {

@@ -10,50 +10,53 @@
 
 namespace sslcd {
 
-/// When a keyframe counts as one that a loop should be found for.
+/// Defines which keyframes revisit a place, so that a loop should be found for them.
 struct RevisitOptions {
-  /// path between two keyframes; a loop counts for keyframes this near to its query camera
+  /// path between two keyframes; a loop counts for the keyframes within this path of its query
+  /// camera
   double spacing_m = 5.;
-  double radius_m = 10.;  ///< an old camera stood this near ...
-  double old_m = 60.;     ///< ... and is older by at least this path
-  /// of the objects seen within this path before and after the keyframe ...
+  double radius_m = 10.;  ///< a revisit has an old camera within this distance
+  double old_m = 60.;     ///< a camera is old if it is at least this path behind
+  /// a keyframe's objects are those seen within this path before and after it
   double around_m = 20.;
-  int common = 5;  ///< ... so many were seen by old cameras
+  int common = 5;  ///< smallest number of its objects that old cameras have seen
 };
 
 /// A keyframe at a place where the camera has been.
 struct Revisit {
   int frame = 0, old_frame = 0;              ///< the keyframe, and the nearest old camera
-  double at_m = 0;                           ///< its place on the path
+  double at_m = 0;                           ///< path from the start to the keyframe
   double distance_m = 0, viewpoint_rad = 0;  ///< between the two cameras; viewpoint in [0, pi]
-  int common = 0;
+  int common = 0;                            ///< number of its objects that old cameras have seen
 };
 
-/// By true poses T_world_cam of each frame (KITTI camera axes) and true identities of each
-/// detection row (negative: a false alarm). Throws Error (kUsage) where a row has no identity.
+/// Finds the revisits from the true pose T_world_cam of each frame (KITTI camera axes) and the true
+/// identity of each detection row (negative: a false alarm). Throws Error (kUsage) if a row has no
+/// identity.
 std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
                                   const std::vector<Frame>& frames,
                                   const std::vector<int>& identities,
                                   const RevisitOptions& options = {});
 
-/// What a loop, accepted or not, says and what is true.
+/// The error of one loop, accepted or refused, against the true poses.
 struct LoopOutcome {
   bool accepted = false;
   double score = 0;
-  double at_m = 0;            ///< its query camera's place on the path
+  double at_m = 0;            ///< path from the start to the query camera
   double error_m = 0;         ///< of the query camera's horizontal position
-  double error_rad = 0;       ///< of its rotation
+  double error_rad = 0;       ///< of the query camera's rotation
   double viewpoint_rad = 0;   ///< true change of heading, in [0, pi]
   double height_error_m = 0;  ///< of the query camera's height, absolute
 };
-/// Throws Error (kUsage) on a frame without a reference pose.
+/// Compares each loop with the reference poses T_world_cam by frame number. Throws Error (kUsage)
+/// if a frame has no reference pose.
 std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
                                     const std::vector<Pose>& reference);
 
-/// For each revisit the surest loop near it that is right (error below `true_m`), as an answer with
-/// the revisit's viewpoint; and every wrong loop, with its own. What is right elsewhere counts
-/// neither way. So precision is that of places recognised against wrong loops, and nothing is
-/// gained by saying the same thing twice.
+/// Returns one answer per revisit, its best-scored correct loop (error below `true_m`) with the
+/// revisit's viewpoint, and one answer per wrong loop. Correct loops elsewhere do not count. Thus
+/// precision compares recognised places with wrong loops, and a second loop at the same place
+/// changes nothing.
 std::vector<ScoredAnswer> AnswersOf(const std::vector<Revisit>& revisits,
                                     const std::vector<LoopOutcome>& loops, double true_m,
                                     const RevisitOptions& options = {});

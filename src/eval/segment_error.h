@@ -7,19 +7,19 @@
 
 namespace sslcd {
 
-/// How far odometry is off over sub-paths, as the KITTI odometry benchmark has it.
+/// Relative odometry error over sub-paths, as defined by the KITTI odometry benchmark.
 struct SegmentError {
   int count = 0;                  ///< sub-paths; 0: the path is shorter than the shortest of them
   double translation = 0;         ///< mean of |translation error| / length
   double rotation_rad_per_m = 0;  ///< mean of rotation error / length
 };
 
-/// Geiger et al., Are we ready for autonomous driving?, CVPR 2012, and its development kit: from
-/// each `every`-th frame, for each length, the sub-path that ends with the first frame further away
-/// than that along the reference; its error (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), with the reference Q and
-/// the estimate P, divided by the (nominal) length; the mean over all of them. KITTI takes every
-/// tenth frame and 100, 200, ... 800 m. Throws Error (kBadInput) where the lists are not of the
-/// same length.
+/// Source: Geiger et al., Are we ready for autonomous driving?, CVPR 2012, and its development kit.
+/// A sub-path starts at each `every`-th frame, for each length; it ends with the first frame that
+/// is farther away along the reference. Its error is (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), with the
+/// reference Q and the estimate P, divided by the nominal length. The result is the mean over all
+/// sub-paths. KITTI takes every tenth frame and 100, 200, ... 800 m. Throws Error (kBadInput) if
+/// the lists differ in length.
 SegmentError ComputeSegmentError(const std::vector<Pose>& est, const std::vector<Pose>& ref,
                                  const std::vector<double>& lengths_m, int every = 1);
 

@@ -15,7 +15,7 @@
 namespace sslcd {
 namespace {
 
-/// Positions along the path [m] at which something of long ago should be recognised.
+/// Path positions [m] at which an old place should be recognised.
 std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<double>& distance,
                                    const SequenceMetricOptions& options) {
   std::vector<std::pair<double, int>> sightings;  // (position along the path, identity)

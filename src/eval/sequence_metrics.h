@@ -14,10 +14,10 @@
 namespace sslcd {
 
 /// A run on a sequence with true poses and true identities. Poses are T_world_cam by frame number,
-/// in KITTI camera axes (x right, y down, z forward); the longer lists are cut to the shortest.
+/// in KITTI camera axes (x right, y down, z forward). Longer lists are cut to the shortest.
 struct SequenceRun {
   std::vector<Pose> estimate, odometry, reference;
-  /// the detections as they went in: frame numbers and rows are used
+  /// the input detections: frame numbers and rows are used
   std::vector<Frame> frames;
   /// the true identity of each detection row; negative: a false alarm
   std::vector<int> identities;
@@ -26,12 +26,13 @@ struct SequenceRun {
 };
 
 struct SequenceMetricOptions {
-  double true_loop_m = 5.;          ///< a loop is wrong from this horizontal error on ...
-  double true_loop_height_m = 1.5;  ///< ... from this error in height on ...
-  double true_loop_rad = 5. * 0.017453292519943295;  ///< ... or from this error of rotation on
-  // A stretch of path that is revisited: `common` identities of its last `recent_m` were seen more
-  // than `old_m` before.
-  /// between the marks along the path, the first at old_m; a loop counts for marks this near
+  double true_loop_m = 5.;          ///< a loop with at least this horizontal error is wrong
+  double true_loop_height_m = 1.5;  ///< a loop with at least this height error is wrong
+  /// a loop with at least this rotation error is wrong
+  double true_loop_rad = 5. * 0.017453292519943295;
+  // A path segment is a revisit if at least `common` identities of its last `recent_m` were seen
+  // more than `old_m` of path earlier.
+  /// path between two segment ends, the first at old_m; a loop counts for the ends within this path
   double spacing_m = 10.;
   double recent_m = 40.;
   double old_m = 60.;
@@ -42,18 +43,19 @@ struct SequenceMetrics {
   double ate = 0, ate_odometry = 0;  ///< after SE(3) alignment, RMSE [m]
   double path = 0;                   ///< length of the reference [m]
   int loops = 0, wrong_loops = 0;
-  int wrong_in_height = 0;  ///< of the wrong loops, those that are off in height
+  int wrong_in_height = 0;  ///< wrong loops whose height error is too large
   /// true loops per bin of the change of heading
   std::array<int, kViewpointBins> true_by_viewpoint{};
   int revisited_stretches = 0;
-  double recall = 0;  ///< part of the revisited stretches in which a true loop was found
+  double recall = 0;  ///< share of the revisited segments in which a true loop was found
   std::optional<double> loop_error_median_m, loop_error_median_rad;
   int landmarks = 0, true_landmarks = 0;
   double landmarks_per_true = 0;  ///< landmarks per identity that owns one
   double purity = 0;              ///< see MapMetrics
 };
 
-/// Throws Error (kUsage): no poses; a loop, or a detection row of the map, that is out of range.
+/// Throws Error (kUsage) if there are no poses, or if a frame of a loop or a detection row of the
+/// map is out of range.
 SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run,
                                        const SequenceMetricOptions& options = {});
 

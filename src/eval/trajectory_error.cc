@@ -38,7 +38,7 @@ void Check(const std::vector<Pose>& est, const std::vector<Pose>& ref) {
   }
 }
 
-/// Positions about their mean.
+/// Positions relative to their mean.
 struct Centred {
   Vec3 mean;
   Eigen::Matrix3Xd offsets;
@@ -47,12 +47,12 @@ struct Centred {
     for (std::size_t i = 0; i < poses.size(); ++i) offsets.col(i) = poses[i].translation();
     mean = offsets.rowwise().mean();
     offsets.colwise() -= mean;
-    // What the rounding of the mean leaves of equal positions is no extent.
+    // Rounding of the mean must not give equal positions an extent.
     if (offsets.colwise().norm().maxCoeff() <= 1e-12 * (1 + mean.norm())) offsets.setZero();
   }
 };
 
-/// How many of the values, largest first, count as different from zero.
+/// The number of values, sorted by decreasing size, that differ from zero.
 int Rank(const Vec3& values) {
   return static_cast<int>((values.array() > 1e-12 * std::max(values[0], 1e-12)).count());
 }
@@ -112,7 +112,7 @@ std::pair<Similarity, bool> AlignChecked(const std::vector<Pose>& est, const std
 
 using IndexPairs = std::vector<std::pair<int, int>>;
 
-/// Chained pairs: the next one begins where the last one ended, once `delta` has been covered.
+/// Chained pairs: each pair starts where the last one ended, and ends after `delta`.
 IndexPairs ConsecutivePairs(const std::vector<double>& steps, double delta) {
   IndexPairs pairs;
   int begin = 0;
@@ -127,7 +127,7 @@ IndexPairs ConsecutivePairs(const std::vector<double>& steps, double delta) {
   return pairs;
 }
 
-/// From every pose to the later one whose distance is nearest to `delta`, if it is within
+/// Pairs every pose with the later pose whose distance is nearest to `delta`, if within
 /// `tolerance`.
 IndexPairs AllPairs(const std::vector<double>& steps, double delta, double tolerance) {
   std::vector<double> distance(steps.size());
@@ -151,7 +151,7 @@ IndexPairs FindPairs(const std::vector<Pose>& est, const RpeOptions& options) {
                                        std::to_string(options.delta) + ": give a positive " +
                                        (frames ? "whole number of frames" : "length in metres"));
   }
-  // In frames every step counts 1, so whole numbers are met exactly.
+  // In frames every step counts 1, so whole numbers are reached exactly.
   std::vector<double> steps(est.size(), frames ? 1. : 0.);
   for (std::size_t i = 1; !frames && i < est.size(); ++i) {
     steps[i] = (est[i].translation() - est[i - 1].translation()).norm();
@@ -171,7 +171,7 @@ void CheckStamps(const Trajectory& trajectory, const char* name) {
     if (std::isfinite(stamps[i]) && (i == 0 || stamps[i] >= stamps[i - 1])) continue;
     throw Error(ErrorKind::kBadInput,
                 std::string("stamp ") + std::to_string(i) + " of the " + name +
-                    " is not finite or goes backwards: sort the trajectory by time");
+                    " is not finite or decreases: sort the trajectory by time");
   }
 }
 

@@ -19,7 +19,7 @@ Interval WilsonInterval(int successes, int trials, double z) {
   const double n = trials, p = successes / n, z2 = z * z;
   const double middle = (p + z2 / (2 * n)) / (1 + z2 / n);
   const double half = z / (1 + z2 / n) * std::sqrt(p * (1 - p) / n + z2 / (4 * n * n));
-  // The ends are exact where they are known, whatever the rounding.
+  // The ends are exactly 0 and 1 for no and only successes, despite rounding.
   return {successes == 0 ? 0. : std::max(0., middle - half),
           successes == trials ? 1. : std::min(1., middle + half)};
 }

@@ -64,7 +64,7 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
   for (const auto& [temporary, path] : waiting) {
     if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
     const int code = errno;
-    for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // those that are left
+    for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // only on failure
     Fail(path, code, "choose another folder");
   }
 }

@@ -9,11 +9,11 @@
 
 namespace sslcd {
 
-/// Reads 2D boxes of a sequence, one a row: `frame label score left top right bottom [px]`. Frames
-/// may come in any order; those without boxes are not listed; the order of a frame's boxes is the
-/// file's. Throws Error with file:line for a row of another number of columns, a letter in a
-/// number, a negative frame, a number that is not finite, a score outside [0, 1], and a box without
-/// area.
+/// Reads the 2D boxes of a sequence by frame number. A row is `frame label score left top right
+/// bottom`, with the box in px. Frames may come in any order. The result keeps the file's order of
+/// the boxes of a frame and has no entry for frames without boxes. Throws Error with file:line for
+/// a wrong number of columns, a malformed or infinite number, a negative frame, a score outside [0,
+/// 1] and a box without area.
 std::map<int, std::vector<ImageDetection>> ReadBoxes(const std::string& path);
 
 }  // namespace sslcd

@@ -5,7 +5,8 @@
 
 namespace sslcd {
 
-/// A field of a CSV file (RFC 4180): in quotes where it holds a comma, a quote or a line break.
+/// Returns a field of a CSV file (RFC 4180), quoted if it contains a comma, a quote or a line
+/// break.
 std::string CsvField(const std::string& text);
 
 }  // namespace sslcd

@@ -11,24 +11,24 @@ struct NumberedFile {
   std::string path;
 };
 
-/// The files of a folder whose name is a number and `extension` (".txt"), by number. Throws Error
-/// when the folder cannot be read or when two names are the same number (7.txt, 000007.txt).
+/// The files of a folder whose name is a number and `extension` (".txt"), sorted by number. Throws
+/// Error if the folder cannot be read or if two names have the same number (7.txt, 000007.txt).
 std::vector<NumberedFile> NumberedFiles(const std::string& folder, const std::string& extension);
 
-/// Names in a folder, sorted; empty when there is no such folder.
+/// Sorted names in a folder; empty if there is no such folder.
 std::vector<std::string> FileNames(const std::string& folder);
 
 bool IsFile(const std::string& path);
 bool IsFolder(const std::string& path);
 
-/// The path, or nothing where there is no such file, or folder.
+/// Returns the path if it is a file (or folder), otherwise an empty string.
 std::string IfFile(const std::string& path);
 std::string IfFolder(const std::string& path);
 
-/// The last name of a path, also of ".", "a/.." and "a/".
+/// The last name of a path, including paths such as ".", "a/.." and "a/".
 std::string LastName(const std::string& folder);
 
-/// "a, b, c", or "nothing".
+/// Joins the names: "a, b, c", or "nothing" if there are none.
 std::string Join(const std::vector<std::string>& names);
 
 }  // namespace sslcd

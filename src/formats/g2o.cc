@@ -28,7 +28,7 @@ void ExpectNumbers(const TextRows& row, std::size_t ids, std::size_t numbers) {
 double FiniteNumber(const TextRows& row, std::size_t column) {
   const double value = row.Number(column);
   if (!std::isfinite(value))
-    row.Fail("column " + std::to_string(column + 1) + " is not finite: mend or drop the row");
+    row.Fail("column " + std::to_string(column + 1) + " is not finite: correct or remove the row");
   return value;
 }
 
@@ -39,7 +39,7 @@ Pose ReadSe3(const TextRows& row, std::size_t column) {
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   if (!(std::abs(q.norm() - 1) <= kRotationTolerance)) {
     row.Fail("the quaternion's length is " + std::to_string(q.norm()) +
-             ", expected 1: mend the row, or check the order (x y z qx qy qz qw)");
+             ", expected 1: correct the row, or check the order (x y z qx qy qz qw)");
   }
   return Pose::FromQuaternionTranslation(q, Vec3(v[0], v[1], v[2]));
 }
@@ -50,8 +50,8 @@ Pose ReadSe2(const TextRows& row, std::size_t column) {
   return Pose(lie::SO3<double>::RotZ(FiniteNumber(row, column + 2)), t);
 }
 
-// The upper triangle of a matrix over the given components of [tx ty tz rx ry rz]; the others keep
-// a fixed value.
+// Reads the upper triangle of a matrix over the given components of [tx ty tz rx ry rz]. The other
+// components keep a fixed value.
 Information ReadInformation(const TextRows& row, std::size_t column,
                             const std::vector<int>& components) {
   Information information = kLiftedInformation * Information::Identity();
@@ -81,8 +81,8 @@ struct G2oReader {
     const int id = row.Integer(1);
     const auto [earlier, is_new] = vertex_rows.emplace(id, row.where());
     if (!is_new) {
-      row.Fail("vertex " + std::to_string(id) + " was given before, in line " +
-               std::to_string(earlier->second.line) + ": drop one of the rows");
+      row.Fail("vertex " + std::to_string(id) + " is a duplicate of line " +
+               std::to_string(earlier->second.line) + ": remove one of the rows");
     }
     file.graph.vertices.push_back({id, planar ? ReadSe2(row, 2) : ReadSe3(row, 2)});
   }
@@ -124,12 +124,12 @@ struct G2oReader {
         if (vertex_rows.count(id) > 0) continue;
         throw Error(
             ErrorKind::kBadInput, edge_rows[e],
-            "vertex " + std::to_string(id) + " has no VERTEX row: add one, or drop the edge");
+            "vertex " + std::to_string(id) + " has no VERTEX row: add one, or remove the edge");
       }
     }
   }
 
-  // Odometry leads to the next id there is, one way or the other.
+  // An odometry edge joins an id and the next existing id, in either direction.
   void MarkLoops() {
     std::set<int> ids;
     for (const PoseGraph::Vertex& vertex : file.graph.vertices) ids.insert(vertex.id);
@@ -144,12 +144,12 @@ struct G2oReader {
     if (fixed.empty()) return;
     const auto& [id, where] = *fixed.begin();
     throw Error(ErrorKind::kBadInput, where,
-                "FIX names vertex " + std::to_string(id) + ", which is not there");
+                "FIX names vertex " + std::to_string(id) + ", which does not exist");
   }
 };
 
-// Vertices of a file that has none: from the lowest id of each part outwards, over loops only where
-// odometry leads nowhere new.
+// Computes the vertices of a file without vertex rows, from the lowest id of each component
+// outwards. Uses loops only if odometry reaches no new vertex.
 std::vector<PoseGraph::Vertex> VerticesFromEdges(const PoseGraph& graph) {
   struct Step {
     int id = 0;

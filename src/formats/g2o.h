@@ -16,16 +16,16 @@ struct G2oFile {
 
 /// Reads VERTEX_SE3:QUAT, EDGE_SE3:QUAT, VERTEX_SE2, EDGE_SE2 and FIX rows; rows of other kinds are
 /// counted and skipped. Information is the upper triangle, row by row, in the order of the
-/// measurement: [translation, rotation] or [x, y, yaw]. It is taken as that of Log(T_from_to^-1
-/// T_world_from^-1 T_world_to) in metres and radians, as GTSAM does; g2o itself reads a rotation as
-/// the imaginary part of its quaternion, half the angle, which makes its chi2 another number for
-/// the same file. SE2 rows are lifted: z, roll and pitch are held at zero with an information of
-/// kLiftedInformation. Edges between other than consecutive ids (i -> i + 1) are marked as loops. A
-/// file without any vertex rows (odometry and loops only) gets its vertices from its edges: the
-/// first at the origin, the others by the shortest way over consecutive edges, where there is one,
-/// and over loops where there is none. Throws Error with file:line for bad counts and numbers, NaN,
-/// quaternions that are not of unit length, vertices given twice or missing, edges from a vertex to
-/// itself and information that is not positive definite.
+/// measurement: [translation, rotation] or [x, y, yaw]. It is the information of Log(T_from_to^-1
+/// T_world_from^-1 T_world_to) in metres and radians, as in GTSAM. g2o itself measures a rotation
+/// by the imaginary part of its quaternion (half the angle), so its chi2 of the same file differs.
+/// SE2 rows are lifted: z, roll and pitch are held at zero with an information of
+/// kLiftedInformation. Edges between ids that are not consecutive (i -> i + 1) are marked as loops.
+/// A file without vertex rows gets its vertices from its edges: the first one is at the origin, and
+/// the others follow by the shortest path over consecutive edges, or over loops where no such path
+/// exists. Throws Error with file:line for wrong counts and malformed numbers, NaN, quaternions
+/// without unit length, duplicate or missing vertices, edges from a vertex to itself and
+/// information that is not positive definite.
 G2oFile ReadG2o(const std::string& path);
 
 /// VERTEX_SE3:QUAT, FIX and EDGE_SE3:QUAT rows; information in the order [translation, rotation],

@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 100;  // values are destroyed recursively
 
-/// Takes the events of nlohmann's parser, which knows lines of syntax errors only, and reads from
-/// the stream's position in which line each value is.
+/// Handles the events of nlohmann's parser. The parser reports lines only for syntax errors, so the
+/// line of each value comes from the position in the stream.
 class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   JsonBuilder(const std::string& path, const std::string& bytes)
@@ -37,7 +37,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool string(string_t& value) override {
     return Add(JsonValue::Kind::kString, 0, std::move(value));
   }
-  bool binary(binary_t&) override { return false; }  // no JSON text has any
+  bool binary(binary_t&) override { return false; }  // never in a JSON text
   bool start_object(std::size_t) override { return Open(JsonValue::Kind::kObject); }
   bool start_array(std::size_t) override { return Open(JsonValue::Kind::kList); }
   bool end_object() override {
@@ -58,7 +58,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  std::size_t Position() {  // bytes that the parser has taken
+  std::size_t Position() {  // bytes that the parser has read
     return static_cast<std::size_t>(
         stream_.rdbuf()->pubseekoff(0, std::ios_base::cur, std::ios_base::in));
   }
@@ -76,14 +76,14 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < object.keys.size(); ++i) {
       if (!seen.insert(object.keys[i]).second)
-        object.items[i].Fail("key '" + object.keys[i] + "' is there twice");
+        object.items[i].Fail("key '" + object.keys[i] + "' is a duplicate");
     }
   }
 
   bool AddNumber(double value) { return Add(JsonValue::Kind::kNumber, value); }
 
   bool Add(JsonValue::Kind kind, double number = 0, std::string text = "") {
-    // The parser ends a number only when it has taken the character after it.
+    // The parser has read one more character when it reports a number.
     const std::size_t end = std::max<std::size_t>(Position(), 1) - 1;
     lines_ += static_cast<int>(std::count(bytes_.begin() + std::ptrdiff_t(counted_),
                                           bytes_.begin() + std::ptrdiff_t(end), '\n'));
@@ -113,7 +113,7 @@ class JsonBuilder : public nlohmann::json_sax<nlohmann::json> {
   std::shared_ptr<const std::string> path_;
   const std::string& bytes_;
   std::istringstream stream_;
-  std::size_t counted_ = 0;  // bytes whose ends of line are in lines_
+  std::size_t counted_ = 0;  // bytes whose line ends are counted in lines_
   int lines_ = 0;
   JsonValue root_;
   std::vector<JsonValue*> open_;  // stay valid: only the innermost value gets items

@@ -8,7 +8,7 @@
 namespace sslcd {
 
 /// A value of a JSON file, with its line for messages. The accessors throw Error(kBadInput) with
-/// file and line when the value is of another kind.
+/// file and line if the value has another kind.
 struct JsonValue {
   enum class Kind { kNull, kBool, kNumber, kString, kList, kObject };
 
@@ -35,8 +35,8 @@ struct JsonValue {
   [[noreturn]] void Fail(const std::string& message) const;  ///< throws "file:line: message"
 };
 
-/// Reads a JSON file (RFC 8259). Throws Error(kBadInput) with file, line and column when it is not
-/// JSON, when an object has a key twice, and when it is nested deeper than 100.
+/// Reads a JSON file (RFC 8259). Throws Error(kBadInput) with file, line and column if it is not
+/// JSON, has a duplicate key or is nested deeper than 100.
 JsonValue ReadJson(const std::string& path);
 
 }  // namespace sslcd

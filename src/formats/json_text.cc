@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// nlohmann's own writer has either one line or a line for every number, writes 1 as 1.0, and does
-/// not always find the shortest digits.
+/// nlohmann's writer prints either one line or a line per number, writes 1 as 1.0, and does not
+/// always find the shortest digits.
 class JsonWriter {
  public:
   explicit JsonWriter(const Json& rows) : rows_(rows) {}

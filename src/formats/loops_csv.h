@@ -8,7 +8,8 @@
 
 namespace sslcd {
 
-/// loops.csv: a row for each attempt to close a loop, accepted or not (docs/formats.md).
+/// Returns the text of loops.csv: a row for each attempt to close a loop, accepted or not
+/// (docs/formats.md).
 std::string LoopsCsv(const std::vector<LoopClosure>& loops);
 
 }  // namespace sslcd

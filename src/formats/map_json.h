@@ -8,17 +8,17 @@
 
 namespace sslcd {
 
-/// A finished map as it lies on disk (docs/formats.md, "map.json").
+/// The content of map.json (docs/formats.md).
 struct MapFile {
-  Vec3 up_axis{0, -1, 0};
+  Vec3 up_axis{0, -1, 0};  ///< unit vector in the world frame
   std::vector<MapObject> objects;
 };
 
-/// map.json's text, version 1. Numbers read back to the bit.
+/// Returns the text of map.json, version 1. ReadMapJson returns exactly the same numbers.
 std::string MapJson(const MapFile& map);
 
-/// Reads map.json. Throws Error(kBadInput) with file and line: not JSON, another format or version,
-/// missing or wrong keys.
+/// Reads map.json. Throws Error(kBadInput) with file and line if the file is not JSON, has another
+/// format or version, or has missing or wrong keys.
 MapFile ReadMapJson(const std::string& path);
 
 }  // namespace sslcd

@@ -10,13 +10,13 @@
 
 namespace sslcd {
 
-/// Name and value, in the order in which they are printed; no value becomes null.
+/// Names and values in the order of printing. A missing value is printed as null.
 using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
 
-/// metrics.json.
+/// Returns the text of metrics.json.
 std::string MetricsJson(const Metrics& metrics);
 
-/// timing.json: an object for each stage.
+/// Returns the text of timing.json: an object per stage.
 std::string TimingJson(const TimingTable& timing);
 
 }  // namespace sslcd

@@ -18,7 +18,7 @@ constexpr std::string_view kMagic = "\x93NUMPY";
               message + "; save it as np.save(path, np.ascontiguousarray(x, '<f4'))");
 }
 
-/// What follows "'key':" in the header, which is the text of a Python dict.
+/// The text after "'key':" in the header, which is a Python dict.
 std::string_view ValueOf(const std::string& path, std::string_view header, const std::string& key) {
   const std::size_t at = header.find("'" + key + "'");
   const std::size_t colon = at == std::string_view::npos ? at : header.find(':', at);
@@ -51,7 +51,7 @@ void CopyValues(const std::string& path, std::string_view data, NpyMatrix& matri
                         ? count == 0
                         : count / matrix.columns == matrix.rows && count % matrix.columns == 0;
   if (!fits || data.size() % sizeof(T) != 0) {
-    Fail(path, "the data do not fit the shape: the file is cut off or too long");
+    Fail(path, "the size of the data does not match the shape: the file is truncated or too long");
   }
   matrix.values.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -71,11 +71,11 @@ NpyMatrix ReadNpy(const std::string& path) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(bytes[i]));
   };
-  // version 1; later ones have four bytes of length
+  // version 1; later versions have a length of four bytes
   std::size_t start = 10, length = byte(8) | byte(9) << 8;
   if (byte(6) > 1 && data.size() >= 12) start = 12, length |= byte(10) << 16 | byte(11) << 24;
   if (byte(6) < 1 || byte(6) > 3 || length > data.size() - start)
-    Fail(path, "unknown npy version, or the header is cut off");
+    Fail(path, "unknown npy version, or the header is truncated");
 
   const std::string_view header = data.substr(start, length);
   data.remove_prefix(start + length);
@@ -97,7 +97,7 @@ NpyMatrix ReadNpy(const std::string& path) {
 std::string NpyBytes(const NpyMatrix& matrix) {
   std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
                        std::to_string(matrix.rows) + ", " + std::to_string(matrix.columns) + "), }";
-  // as NumPy does, so that the data can be mapped into memory
+  // as NumPy does, so that the data is aligned
   constexpr std::size_t kBefore = 10, kAlign = 64;
   header.append(kAlign - 1 - (kBefore + header.size()) % kAlign, ' ');
   header += '\n';

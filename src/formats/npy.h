@@ -6,7 +6,7 @@
 
 namespace sslcd {
 
-/// A matrix from a NumPy file, row by row.
+/// A matrix of a NumPy file, stored row by row.
 struct NpyMatrix {
   std::size_t rows = 0, columns = 0;
   std::vector<float> values;  ///< rows * columns
@@ -15,10 +15,10 @@ struct NpyMatrix {
 };
 
 /// Reads a two-dimensional little-endian float32 or float64 array in C order, format version 1
-/// to 3. Throws Error saying what was found and how to save it otherwise.
+/// to 3. Throws Error for any other array and says how to save it.
 NpyMatrix ReadNpy(const std::string& path);
 
-/// The bytes of a float32 file of the same kind.
+/// Returns the bytes of a float32 .npy file, format version 1.
 std::string NpyBytes(const NpyMatrix& matrix);
 
 }  // namespace sslcd

@@ -14,7 +14,7 @@ double FiniteNumber(const TextRows& row, std::size_t column) {
   const double value = row.Number(column);
   if (!std::isfinite(value))
     row.Fail("column " + std::to_string(column + 1) + " is '" + std::string(row.Text(column)) +
-             "', expected a finite number: leave out what was not measured");
+             "', expected a finite number: leave out values that were not measured");
   return value;
 }
 
@@ -29,7 +29,7 @@ void ExpectColumns(const TextRows& row, std::size_t columns, const char* layout)
 
 LayoutObject ParseObject(const TextRows& row) {
   ExpectColumns(row, 6, "L|G identity label x y z");
-  row.Integer(1);  // the true identity: checked, and forgotten
+  row.Integer(1);  // the true identity: checked and dropped
   LayoutObject object;
   object.label = row.Integer(2);
   if (object.label < 0) row.Fail("label " + std::to_string(object.label) + ": labels count from 0");
@@ -49,7 +49,7 @@ void ExpectComplete(const LayoutPair& pair, const Counts& promised) {
       throw Error(ErrorKind::kBadInput, promised.where,
                   "pair " + std::to_string(pair.id) + " announces " + std::to_string(expected) +
                       " " + kind + " rows, but has " + std::to_string(found) +
-                      ": is the file cut short?");
+                      ": is the file truncated?");
   };
   check(pair.local.size(), promised.local, "L");
   check(pair.global.size(), promised.global, "G");

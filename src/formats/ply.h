@@ -8,7 +8,8 @@
 
 namespace sslcd {
 
-/// Cuboids of the confirmed objects (faces) and camera positions (points): ASCII PLY.
+/// Returns an ASCII PLY file with the cuboids of the confirmed objects (faces) and the camera
+/// positions (points).
 std::string PlyText(const MapFile& map, const Trajectory& trajectory);
 
 }  // namespace sslcd

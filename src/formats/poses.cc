@@ -26,7 +26,8 @@ Pose PoseFromKitti(const TextRows& row) {
   const std::optional<Pose> pose = RigidFromMatrix(M.leftCols<3>(), M.col(3));
   if (!pose)
     row.Fail(
-        "the 3x4 matrix is no rigid transform (NaN, mirrored, or R^T R is not the identity): mend "
+        "the 3x4 matrix is not a rigid transform (NaN, mirrored, or R^T R is not the identity): "
+        "correct "
         "the row");
   return *pose;
 }
@@ -38,7 +39,8 @@ Pose PoseFromQuaternion(const TextRows& row, int w) {
   const Eigen::Quaterniond q(row.Number(w), row.Number(x), row.Number(x + 1), row.Number(x + 2));
   if (!t.allFinite() || !(std::abs(q.norm() - 1) <= kRotationTolerance)) {
     row.Fail(
-        "the pose is not finite or its quaternion not of unit length: mend the row, or check the "
+        "the pose is not finite or its quaternion is not of unit length: correct the row, or check "
+        "the "
         "column order");
   }
   return Pose::FromQuaternionTranslation(q, t);

@@ -7,12 +7,11 @@
 
 namespace sslcd {
 
-/// How far |R^T R - I| or |q| - 1 may be off before a file is refused: more than rounding ever
-/// explains.
+/// Largest |R^T R - I| or ||q| - 1| of a file that is read; rounding errors are smaller.
 constexpr double kRotationTolerance = 1e-2;
 
-/// [R t] with R replaced by the nearest rotation; none if R is further than the tolerance from one,
-/// mirrored, or anything is not finite.
+/// Returns [R t] with R replaced by the nearest rotation. None if R differs from it by more than
+/// the tolerance, is a reflection, or a value is not finite.
 std::optional<Pose> RigidFromMatrix(const Eigen::Matrix3d& R, const Vec3& t);
 
 }  // namespace sslcd

@@ -46,7 +46,7 @@ std::string ReadFileBytes(const std::string& path) {
 }
 
 std::optional<double> ParseNumber(std::string_view text) {
-  // from_chars knows no plus sign
+  // from_chars accepts no plus sign
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

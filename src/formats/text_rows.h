@@ -11,11 +11,10 @@
 
 namespace sslcd {
 
-/// The whole file as it lies on disk. Throws Error when it is missing, a folder, or cannot be read.
+/// Reads a whole file. Throws Error if it is missing, is a folder or cannot be read.
 std::string ReadFileBytes(const std::string& path);
 
-/// A number that fills the whole text ("1.5x" is none). Knows only the C locale; "nan" and "inf"
-/// are numbers here.
+/// Parses a text that is one number ("1.5x" is not). Ignores the locale; accepts "nan" and "inf".
 std::optional<double> ParseNumber(std::string_view text);
 
 /// Reads a text table row by row. A line with a comma is split at commas, any other at blanks; one
@@ -30,15 +29,15 @@ class TextRows {
   TextRows(const TextRows&) = delete;  // the fields point into the text
   TextRows& operator=(const TextRows&) = delete;
 
-  /// Goes to the next row; false at the end.
+  /// Moves to the next row. Returns false at the end.
   bool Next();
 
   std::size_t size() const { return fields_.size(); }  ///< fields in this row
   bool has_commas() const { return has_commas_; }
   std::string_view Text(std::size_t column) const { return fields_.at(column); }
 
-  /// Fields as numbers; throws with file:line and column when one is not. Number() may be NaN or
-  /// infinite.
+  /// Returns a field as a number. Throws Error with file:line and column if it is not one. Number()
+  /// may be NaN or infinite.
   double Number(std::size_t column) const;
   int Integer(std::size_t column) const;
 

@@ -75,7 +75,7 @@ class GraphMatchTest(CliCase):
         edge = 'EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n'
         for text, *messages in (
                 ('', 'in.g2o: no EDGE'), (one, 'nothing to optimise'), (one + edge, 'in.g2o:2', 'vertex 1 has no VERTEX'),
-                (two + one + edge, 'in.g2o:3', 'vertex 0 was given before'),
+                (two + one + edge, 'in.g2o:3', 'vertex 0 is a duplicate of line'),
                 (two + 'EDGE_SE2 0 1 1 0 nan 1 0 0 1 0 1\n', 'in.g2o:3', 'not finite'),
                 (two + 'EDGE_SE2 0 1 1 0 0 1 0 0 -1 0 1\n', 'in.g2o:3', 'not positive definite'),
                 (two + 'EDGE_SE2 0 1 1 0\n', 'in.g2o:3', 'expected 11 fields')):

@@ -39,7 +39,8 @@ TEST(Oxts, BecomesPosesOfTheCamera) {
   Calibration calibration;
   const std::string file =
       folder.Write("0.txt", Packet(49, 8, 0, M_PI / 2) + Packet(49 + 10 * kMetre, 8, 0, M_PI / 2));
-  ExpectError([&] { ReadOxtsCamera(file, calibration); }, {"does not lead from IMU to camera"});
+  ExpectError([&] { ReadOxtsCamera(file, calibration); },
+              {"lacks the transform from IMU to camera"});
   Eigen::Matrix3d R;  // IMU and lidar: x ahead, y left, z up
   R << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   calibration.T_cam_velo = Pose(lie::SO3<double>::FromMatrix(R), Vec3(0, 0, 0));

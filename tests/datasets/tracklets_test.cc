@@ -59,8 +59,8 @@ TEST(Tracklets, RefusesBrokenFiles) {
   const std::string good = Document(Item("Car", "1.5", 0, "10"));
   refuse("", {"t.xml:1", "not a KITTI tracklet file"});
   refuse("<html></html>", {"t.xml:1", "not a KITTI tracklet file"});
-  refuse(good.substr(0, good.find("</poses>")), {"t.xml:8", "the file is cut off"});
-  refuse(good.substr(0, good.find("</poses>") + 3), {"t.xml:8", "the file is cut off"});
+  refuse(good.substr(0, good.find("</poses>")), {"t.xml:8", "the file is truncated"});
+  refuse(good.substr(0, good.find("</poses>") + 3), {"t.xml:8", "the file is truncated"});
   refuse("<boost_serialization></tracklets>", {"t.xml:1", "tags mismatch at '</tracklets>'"});
   refuse("<boost_serialization>\n<a>\n</b>\n</boost_serialization>", {"t.xml:3", "at '</b>'"});
   refuse("<boost_serialization></boost_serialization>", {"has no <tracklets>"});
@@ -80,7 +80,7 @@ TEST(Tracklets, NestingAndEntitiesDoNoHarm) {
   for (int i = 0; i < kDepth; ++i) deep += "</a>";
   ExpectError([&] { ReadTracklets(folder.Write("t.xml", deep)); }, {"no <boost_serialization>"});
   deep.resize(deep.size() / 2);
-  ExpectError([&] { ReadTracklets(folder.Write("t.xml", deep)); }, {"the file is cut off"});
+  ExpectError([&] { ReadTracklets(folder.Write("t.xml", deep)); }, {"the file is truncated"});
 
   std::string text = Document(Item("&lol2; &amp; co", "1.5", 0, "10"));
   const std::string doctype = "<!DOCTYPE boost_serialization";

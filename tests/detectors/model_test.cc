@@ -30,7 +30,7 @@ TEST(Model, InputsThatDoNotFit) {
   SSLCD_RUNTIME();
   ExpectRefused(
       "yolo_v5.onnx", "input: {width_px: 640, height_px: 480}\n" + kThree,
-      {"m.yaml", "input 'images' of the model is 1x3x48x64, the description says ?x3x480x640",
+      {"m.yaml", "input 'images' of the model is 1x3x48x64, the description has ?x3x480x640",
        "yolo_v5.onnx"});
   ExpectRefused("yolo_v5.onnx", "input: {left: pixels}\n" + kThree,
                 {"no input 'pixels', only 'images'"});

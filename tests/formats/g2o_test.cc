@@ -126,7 +126,7 @@ TEST(G2o, RefusesBadRows) {
   ExpectRefused("VERTEX_SE2 0 0 0 inf\n", {"a.g2o:1", "not finite"});
   ExpectRefused("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 0\n", {"a.g2o:1", "length is 0"});
   ExpectRefused("VERTEX_SE3:QUAT 0 0 0 0 1 1 0 1\n", {"a.g2o:1", "x y z qx qy qz qw"});
-  ExpectRefused(two + two, {"a.g2o:3", "vertex 0 was given before, in line 1"});
+  ExpectRefused(two + two, {"a.g2o:3", "vertex 0 is a duplicate of line 1"});
   ExpectRefused(two + "EDGE_SE3:QUAT 0 2" + step + kUnit3d + "\n",
                 {"a.g2o:3", "vertex 2 has no VERTEX row"});
   ExpectRefused(two + "EDGE_SE3:QUAT 1 1" + step + kUnit3d + "\n", {"a.g2o:3", "to itself"});

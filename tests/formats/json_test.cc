@@ -66,7 +66,7 @@ TEST_F(Json, WhatIsNotJsonIsRefused) {
   Refuse("[\"a\nb\"]", {"f.json:1:4: not JSON", "control character"});
   Refuse("[\"\xFF\"]", {"f.json:1:3: not JSON", "UTF-8"});
   Refuse("[1e999]", {"f.json:1:", "number overflow"});
-  Refuse("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", {"f.json:3: key 'a' is there twice"});
+  Refuse("{\"a\": 1,\n\"b\": 2,\n\"a\": 3}", {"f.json:3: key 'a' is a duplicate"});
   ExpectError([&] { ReadJson(folder_.path() + "/none.json"); }, {"none.json", "cannot be read"});
 }
 

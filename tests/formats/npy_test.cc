@@ -59,16 +59,16 @@ TEST(Npy, RefusesWhatItCannotRead) {
   const std::string good = Npy("<f4", "(2, 3)", Bytes(kValues));
   refuse("", "not a NumPy");
   refuse("1 2 3 4 5 6 7 8", "not a NumPy");
-  refuse(good.substr(0, 40), "cut off");
-  refuse(good.substr(0, good.size() - 1), "do not fit");
-  refuse(good + "x", "do not fit");
+  refuse(good.substr(0, 40), "truncated");
+  refuse(good.substr(0, good.size() - 1), "does not match");
+  refuse(good + "x", "does not match");
   refuse(Npy("<f4", "(2, 3)", Bytes(kValues), 9), "unknown npy version");
   refuse(Npy("<f4", "(2, 3)", Bytes(kValues), 1, "True"), "Fortran");
   refuse(Npy("<i4", "(2, 3)", Bytes(kValues)), "found '<i4'");
   refuse(Npy(">f4", "(2, 3)", Bytes(kValues)), "found '>f4'");
   refuse(Npy("<f4", "(6,)", Bytes(kValues)), "two dimensions");
   refuse(Npy("<f4", "(1, 2, 3)", Bytes(kValues)), "two dimensions");
-  refuse(Npy("<f4", "(9223372036854775807, 2)", Bytes(kValues)), "do not fit");
+  refuse(Npy("<f4", "(9223372036854775807, 2)", Bytes(kValues)), "does not match");
 }
 
 }  // namespace

@@ -58,10 +58,10 @@ TEST(PoseReader, MendsSmallErrorsAndRefusesLargeOnes) {
   refuse("0 1 nan 3 0 0 0 1", "not finite");
   refuse("0 1 2 3 0 0 0 nan", "unit length");
   refuse("nan 1 2 3 0 0 0 1", "stamp is not finite");
-  refuse("1.1 0 0 0 0 1 0 0 0 0 1 0", "no rigid transform");
-  refuse("-1 0 0 0 0 1 0 0 0 0 1 0", "no rigid transform");
-  refuse("1 0 0 inf 0 1 0 0 0 0 1 0", "no rigid transform");
-  refuse("0 0 0 0 0 0 0 0 0 0 0 0", "no rigid transform");
+  refuse("1.1 0 0 0 0 1 0 0 0 0 1 0", "not a rigid transform");
+  refuse("-1 0 0 0 0 1 0 0 0 0 1 0", "not a rigid transform");
+  refuse("1 0 0 inf 0 1 0 0 0 0 1 0", "not a rigid transform");
+  refuse("0 0 0 0 0 0 0 0 0 0 0 0", "not a rigid transform");
 }
 
 TEST(PoseReader, RefusesMalformedRows) {

@@ -60,7 +60,7 @@ TEST(Session, FallsBackToTheCpuAloud) {
   SetLogSink(before);
   const bool fell_back = session.provider() == InferenceOptions::Provider::kCpu;
   const bool said_so =
-      heard.find("yolo_v5.onnx: runs on the CPU, CUDA is not there (") != std::string::npos;
+      heard.find("yolo_v5.onnx: runs on the CPU, because CUDA is missing (") != std::string::npos;
   EXPECT_EQ(said_so, fell_back) << heard;
   EXPECT_THAT(
       session.Run(Image(0.3f)).at("output0").values,
@@ -71,7 +71,7 @@ TEST(Session, FallsBackToTheCpuAloud) {
 TEST(Session, RefusesWrongInputs) {
   SSLCD_RUNTIME();
   const Session session(TestModel("yolo_v5.onnx"));
-  ExpectError([&] { session.Run({}); }, {"yolo_v5.onnx", "nothing given for its input 'images'"});
+  ExpectError([&] { session.Run({}); }, {"yolo_v5.onnx", "no value for its input 'images'"});
   ExpectError(
       [&] {
         session.Run({{"images", {{1, 3, 4, 4}, std::vector<float>(48)}}});

@@ -54,7 +54,7 @@ TEST(ReadLayout, BadFilesAreNamed) {
   refuse(R"([{"x": 1, "y": 0, "z": 0, "qx": 0, "qy": 0, "qz": 0}])", {"'w' is missing"});
   refuse("[" + Car(0, 0, 0, R"(, "label": "Boat")") + "]", {"'label' must be"});
   refuse("[" + Car(0, 0, 0, R"(, "lable": "Van")") + "]", {"unknown key 'lable'"});
-  refuse("[" + Car(0, 0, 0, R"(, "x": 3)") + "]", {"key 'x' is there twice"});
+  refuse("[" + Car(0, 0, 0, R"(, "x": 3)") + "]", {"key 'x' is a duplicate"});
   refuse("[" + Car(1e300, 0, 0) + "]", {"more than 10 km"});
   ExpectError([] { ReadLayout("/nowhere.json"); }, {"/nowhere.json"});
 }

@@ -10,7 +10,7 @@
 
 namespace sslcd {
 
-/// What the score column holds.
+/// The meaning of the score column.
 enum class ScoreKind {
   kAuto,         ///< logits if any score lies outside [0, 1], probabilities otherwise
   kProbability,  ///< in [0, 1]; anything else is an error
@@ -22,19 +22,21 @@ struct DetectionReadOptions {
 };
 void DescribeFields(FieldVisitor& visitor, DetectionReadOptions& options);
 
-/// The layouts read; told by the columns of the first row.
+/// The supported row formats. The columns of the first row determine the format.
 enum class DetectionFormat {
-  kNone,         ///< no row at all
-  kKittiObject,  ///< label trunc occl alpha box4 h w l x y z ry [score]; one file a frame: %06d.txt
+  kNone,  ///< the file has no rows
+  /// label trunc occl alpha box4 h w l x y z ry [score]; one file per frame: %06d.txt
+  kKittiObject,
   kKittiTracking,  ///< frame id label trunc occl alpha box4 h w l x y z ry [score]
   kAb3dmotCsv,     ///< frame,type(1 Pedestrian 2 Car 3 Cyclist),box4,score,h,w,l,x,y,z,ry,alpha
 };
 const char* ToString(DetectionFormat format);
 
-/// Detections of a whole sequence. Every non-blank line has a row number, also those left out.
+/// Detections of a whole sequence. Every non-blank line has a row number, including the lines that
+/// are left out.
 struct DetectionFile {
   DetectionFormat format = DetectionFormat::kNone;
-  /// frame number -> its detections in file order; none: not listed
+  /// detections by frame number, in file order; frames without detections have no entry
   std::map<int, std::vector<Detection>> by_frame;
   int rows = 0;         ///< rows read: kept + dont_care + dropped
   int dont_care = 0;    ///< rows of class DontCare, left out
@@ -45,11 +47,10 @@ struct DetectionFile {
 
 /// Reads a file, or a folder of %06d.txt (object layout, the name is the frame number). Frames may
 /// come in any order. KITTI's bottom-face centre and rotation_y become T_cam_object of the cuboid's
-/// centre; a 2D box without area
-/// (-1 -1 -1 -1) becomes none; no score column means score 1.
-/// Throws Error with file:line for malformed rows: wrong or varying number of columns, a letter in
-/// a number, a negative frame, an unknown class number, a score that is no probability where
-/// ScoreKind::kProbability is asked for.
+/// centre. A 2D box without area (-1 -1 -1 -1) becomes std::nullopt. Without a score column the
+/// scores are 1. Throws Error with file:line for malformed rows: a wrong or varying number of
+/// columns, a malformed number, a negative frame, an unknown class number, or a score outside [0,
+/// 1] with ScoreKind::kProbability.
 DetectionFile ReadDetections(const std::string& path, const DetectionReadOptions& options = {});
 
 /// Rows of DetectionFormat::kKittiTracking with a score; id, truncated and occluded are -1.

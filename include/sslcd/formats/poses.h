@@ -7,9 +7,9 @@
 
 namespace sslcd {
 
-/// How poses are written, one a row.
+/// The format of a pose file, one pose per row.
 enum class PoseFormat {
-  kAuto,     ///< told by the first row: 12 columns, 8 columns, or commas
+  kAuto,     ///< from the first row: 12 columns, 8 columns, or commas
   kTum,      ///< t[s] x y z qx qy qz qw
   kKitti,    ///< 3x4 matrix [R t], row by row; no stamps
   kVinsCsv,  ///< t[ns],x,y,z,qw,qx,qy,qz[,anything]: VINS-Fusion's vio.csv and vio_loop.csv,
@@ -20,24 +20,23 @@ enum class PoseFormat {
 const char* ToString(PoseFormat format);
 
 struct PoseFile {
-  PoseFormat format = PoseFormat::kAuto;  ///< as found, never kAuto unless the file is empty
+  PoseFormat format = PoseFormat::kAuto;  ///< the detected format; kAuto only if the file is empty
   /// for kKitti the stamps are the row numbers 0, 1, 2, ...
   Trajectory trajectory;
 };
 
-/// Reads poses as they stand; which frame they are of is for the caller to know (VINS-Fusion writes
-/// its body's poses). Quaternions up to 1e-2 off unit length and matrices up to 1e-2 off a rotation
-/// are brought back to one. Throws Error with file:line for anything further off, for NaN, a wrong
-/// number of columns, a letter in a number, and for stamps that do not increase from row to row. An
-/// empty file is an empty trajectory.
+/// Reads the poses unchanged; the caller must know their frame (VINS-Fusion writes poses of its
+/// body). Normalises quaternions whose length is within 1e-2 of 1 and matrices that are within 1e-2
+/// of a rotation. Throws Error with file:line for larger errors, NaN, a wrong number of columns, a
+/// malformed number and stamps that do not increase. An empty file is an empty trajectory.
 PoseFile ReadPoseFile(const std::string& path, PoseFormat format = PoseFormat::kAuto);
 
 /// The same without the format.
 Trajectory ReadTrajectory(const std::string& path, PoseFormat format = PoseFormat::kAuto);
 
-/// PoseFormat::kTum, as evo reads it: single blanks, no blank at the end of a row, qw >= 0.
+/// Returns the text of a PoseFormat::kTum file for evo: single blanks, no trailing blank, qw >= 0.
 std::string TumText(const Trajectory& trajectory);
-/// PoseFormat::kKitti.
+/// Returns the text of a PoseFormat::kKitti file.
 std::string KittiText(const Trajectory& trajectory);
 
 }  // namespace sslcd
