@@ -15,7 +15,7 @@ Box2d Centred(double cx, double cy, double width, double height) {
   return {cx - 0.5 * width, cy - 0.5 * height, cx + 0.5 * width, cy + 0.5 * height};
 }
 
-/// Keeps what is good enough and wanted.
+/// Collects the boxes with sufficient score and a labelled class.
 class Collector {
  public:
   explicit Collector(const ModelOutput& output) : output_(output) {}
@@ -24,8 +24,8 @@ class Collector {
     if (score >= output_.min_score && output_.labels.count(class_number))
       boxes.push_back({class_number, score, box});
   }
-  /// The best of the classes, whose scores are at `scores`, `step` apart; `weight` makes them the
-  /// box's score.
+  /// Adds a box with its best class. The scores of the classes start at `scores`, `step` apart;
+  /// `weight` is a factor on them.
   template <class Score>
   void AddBest(const float* scores, std::size_t step, const Score& weight, const Box2d& box) {
     int best = 0;

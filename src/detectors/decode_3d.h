@@ -11,13 +11,12 @@
 
 namespace sslcd {
 
-/// A cuboid as the models say it: where the image of its centre lies in the input, how deep it is,
-/// and from which side it is seen.
+/// A cuboid of a model's output: image of its centre in the input, depth and observation angle.
 struct ClassCuboid {
-  ClassBox found;                     ///< box in the input; without an area: the model says none
+  ClassBox found;                     ///< box in the input; without area if the model has no boxes
   double centre_x = 0, centre_y = 0;  ///< image of the cuboid's centre in the input [px]
   double depth_m = 0;
-  double alpha_rad = 0;  ///< KITTI's observation angle: rotation_y less the bearing of the centre
+  double alpha_rad = 0;  ///< KITTI's observation angle: rotation_y minus the bearing of the centre
   Vec3 dims{0, 0, 0};    ///< length, width, height [m]
 };
 
@@ -27,23 +26,23 @@ struct AnchorPriors {
   std::vector<std::array<double, 6>> mean, std;
 };
 
-/// By class number, from the files of ModelAnchors. Throws Error(kBadInput) when one has not 6
-/// columns and a row an anchor of a cell.
+/// Reads the files of ModelAnchors by class number. Throws Error(kBadInput) if a file does not have
+/// 6 columns and one row per anchor of a cell.
 std::map<int, AnchorPriors> LoadAnchorPriors(const ModelOutput& output);
 
-/// The camera that would see the input as its image; the offset stays the left camera's.
+/// The camera whose image is the input. It keeps the offset of the left camera.
 Camera CameraOfInput(const Camera& left, const InputMap& map);
 
 /// VisualDet3D's Stereo3D (Liu et al., YOLOStereo3D, ICRA 2021) and Yolo3D (Ground-aware monocular
 /// 3D detection, RA-L 2021): for each anchor logits of each class and of "alpha, not alpha + pi",
-/// and 12 regression values. `camera` is that of the input.
+/// and 12 regression values. `camera` is the camera of the input.
 std::vector<ClassCuboid> DecodeAnchors(const std::vector<Tensor>& outputs,
                                        const ModelOutput& output,
                                        const std::map<int, AnchorPriors>& priors,
                                        const Camera& camera, int width, int height);
 
-/// Heads of the kind of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map with
-/// offset, depth, size and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
+/// Decodes heads like those of MonoFlex (Zhang et al., CVPR 2021) and SMOKE: peaks of the heat map
+/// with offset, depth, size and rotation, as an angle or in 2 or 4 bins. Boxes have no area.
 std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs,
                                         const ModelOutput& output, int width);
 

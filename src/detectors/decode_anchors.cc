@@ -10,8 +10,7 @@
 namespace sslcd {
 namespace {
 
-// What the regression values were divided by in training: boxes' centre and size, the centre's
-// image.
+// Divisors of the regression values in training: centre and size of the boxes, image of the centre.
 constexpr double kCentreUnit = 0.1, kSizeUnit = 0.2;
 enum Regression {
   kDx,
@@ -47,8 +46,8 @@ struct Anchor {
   double x, y, width, height;  // centre and size in the input [px]
 };
 
-/// Anchors of a cell: the scale runs fastest, as in the network's channels; priors have the ratio
-/// running fastest.
+/// Anchors of a cell. The scale runs fastest, as in the network's channels; in the statistics the
+/// ratio runs fastest.
 Anchor AnchorAt(const ModelAnchors& anchors, std::size_t column, std::size_t row,
                 std::size_t index) {
   const double side = anchors.base_px * anchors.scales[index % anchors.scales.size()];
@@ -61,8 +60,8 @@ std::size_t PriorIndex(const ModelAnchors& anchors, std::size_t index) {
   return index % anchors.scales.size() * anchors.ratios.size() + index / anchors.scales.size();
 }
 
-/// Would an object at the anchor's mean depth stand on the road ahead? (One focal length for both,
-/// as in training.)
+/// Whether an object at the anchor's mean depth could be on the road ahead. Uses one focal length
+/// for both axes, as in training.
 bool IsPlausible(const Anchor& anchor, double mean_z, const ModelAnchors& anchors,
                  const Camera& camera) {
   if (!(mean_z > 0)) return false;
@@ -85,8 +84,8 @@ ClassCuboid Decode(const Anchor& anchor, const float* v, const std::array<double
   cuboid.centre_x = anchor.x + v[kCx] * kCentreUnit * anchor.width;
   cuboid.centre_y = anchor.y + v[kCy] * kCentreUnit * anchor.height;
   cuboid.depth_m = scaled(kZ, kPriorZ);
-  // Twice the angle is regressed, which a car's front and back share; the axis score tells them
-  // apart.
+  // The network regresses twice the angle, which does not distinguish a car's front and back; the
+  // axis score does.
   cuboid.alpha_rad = 0.5 * std::atan2(scaled(kSin, kPriorSin), scaled(kCos, kPriorCos)) +
                      (points_forward ? 0 : M_PI);
   cuboid.dims = {scaled(kLength, kPriorLength), scaled(kWidth, kPriorWidth),

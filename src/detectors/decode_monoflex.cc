@@ -9,7 +9,7 @@
 namespace sslcd {
 namespace {
 
-/// One image's C x H x W.
+/// The C x H x W map of one image.
 struct Maps {
   explicit Maps(const Tensor& tensor)
       : values(tensor.values.data()),
@@ -22,7 +22,7 @@ struct Maps {
   int rows, columns;
 };
 
-/// Not lower than any of its eight neighbours.
+/// Whether the value is not lower than its eight neighbours.
 bool IsPeak(const Maps& heat, int channel, int y, int x) {
   const double value = heat(channel, y, x);
   for (int v = std::max(y - 1, 0); v <= std::min(y + 1, heat.rows - 1); ++v)
@@ -33,7 +33,7 @@ bool IsPeak(const Maps& heat, int channel, int y, int x) {
 
 /// 2 channels: sin, cos. 8 channels: two bins around -pi/2 and pi/2, each [no, yes, sin, cos] (as
 /// RTM3D). 16 channels: four bins around 0, pi/2, pi and -pi/2, first [no, yes] of each, then [sin,
-/// cos] of each (as MonoFlex). The surest bin decides.
+/// cos] of each (as MonoFlex). Takes the most probable bin.
 double Alpha(const Maps& rotation, int channels, int y, int x) {
   struct Bin {
     double centre;
@@ -87,7 +87,7 @@ std::vector<ClassCuboid> DecodeMonoFlex(const std::vector<Tensor>& outputs,
         cuboid.centre_x = (x + offset(0, y, x)) * cell_px;
         cuboid.centre_y = (y + offset(1, y, x)) * cell_px;
         cuboid.depth_m = depth(0, y, x);
-        cuboid.dims = {size(2, y, x), size(0, y, x), size(1, y, x)};  // from w, h, l
+        cuboid.dims = {size(2, y, x), size(0, y, x), size(1, y, x)};  // stored as w, h, l
         cuboid.alpha_rad = Alpha(rotation, rotations, y, x);
         cuboids.push_back(cuboid);
       }

@@ -28,7 +28,7 @@ Detection CuboidInCamera(const ClassCuboid& cuboid, const Camera& camera) {
   const Vec3 centre = in_left - camera.offset;
   const double rotation_y = cuboid.alpha_rad + std::atan2(centre.x(), centre.z());
   Detection detection;
-  // KITTI turns about down, we about up
+  // KITTI rotates about down, sslcd about up
   detection.T_cam_object = Pose(GravityFrame().Upright(-rotation_y), centre);
   detection.dims = cuboid.dims;
   return detection;
@@ -90,7 +90,7 @@ std::vector<Detection> Detector3d::Detect(const StereoView& images, const Stereo
   std::vector<ClassBox> boxes;
   for (const ClassCuboid& cuboid : impl_->Decode(outputs, input_camera)) {
     Detection detection = CuboidInCamera(cuboid, input_camera);
-    // no cuboid in front of the camera
+    // the cuboid is not in front of the camera
     if (!(detection.dims.minCoeff() > 0) || !(cuboid.depth_m > 0)) continue;
     detection.score = cuboid.found.score;
     detection.label = output.labels.at(cuboid.found.class_number);

@@ -10,9 +10,9 @@
 namespace sslcd {
 namespace {
 
-constexpr std::size_t kLargestBatch = 32;  // bounds memory where the model takes any number
+constexpr std::size_t kLargestBatch = 32;  // bounds memory if the model accepts any batch size
 
-/// The whole pixels that a box touches; empty where it holds none.
+/// The pixels that a box touches; empty if there are none.
 ImageView PixelsIn(const ImageView& image, const Box2d& box) {
   const auto column = [&](double x) {
     return static_cast<int>(std::clamp(x, 0., static_cast<double>(image.width)));
@@ -64,7 +64,7 @@ std::vector<std::vector<float>> Embedder::Embed(const ImageView& image,
   const Model& model = impl_->model;
   CheckImage(image, "image");
   std::vector<std::vector<float>> embeddings(boxes.size());
-  std::vector<std::pair<std::size_t, ImageView>> crops;  // of the boxes that hold pixels
+  std::vector<std::pair<std::size_t, ImageView>> crops;  // boxes with pixels, by index
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const ImageView pixels = PixelsIn(image, boxes[i]);
     if (pixels.data) crops.emplace_back(i, pixels);

@@ -15,7 +15,7 @@ const char* ClassFor(ModelTask task) {
                                         : "Embedder";
 }
 
-/// Reads the description once, so that the session can be made from it.
+/// Reads the description before the session, which needs it.
 ModelDescription LoadFor(ModelTask task, const std::string& yaml_path) {
   ModelDescription description = LoadModelDescription(yaml_path);
   const ModelTask found = TaskOf(description.output.layout);
@@ -26,7 +26,7 @@ ModelDescription LoadFor(ModelTask task, const std::string& yaml_path) {
   return description;
 }
 
-/// Some exports leave out the batch of one.
+/// Some exports omit a batch dimension of one.
 bool FitsWithOrWithoutBatch(const TensorShape& shape, const TensorShape& expected) {
   return Fits(shape, expected) || (expected.size() > 1 && expected[0] == 1 &&
                                    Fits(shape, TensorShape(expected.begin() + 1, expected.end())));
@@ -67,7 +67,7 @@ Model::Model(const std::string& yaml_path, ModelTask task, const InferenceOption
       session_(description_.file, options) {
   ReadInputs();
   ReadOutputs();
-  // Once on an empty image, so that the first frame is no slower than the others.
+  // Runs once on an empty image, so that the first frame is not slower than the others.
   Tensor empty = EmptyInput(1);
   Run(empty, takes_two_images() ? std::optional<Tensor>(empty) : std::nullopt);
 }
@@ -98,7 +98,7 @@ void Model::ReadInputs() {
   const TensorShape wanted{-1, 3, or_any(input.height_px), or_any(input.width_px)};
   if (!Fits(shape, wanted))
     Refuse("input '" + left.name + "' of the model is " + ToString(shape) +
-           ", the description says " + ToString(wanted));
+           ", the description has " + ToString(wanted));
   left_name_ = left.name;
   fixed_batch_ = static_cast<int>(std::max<std::int64_t>(shape[0], 0));
   height_ = input.height_px > 0 ? input.height_px : static_cast<int>(shape[2]);

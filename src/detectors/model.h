@@ -12,27 +12,27 @@
 
 namespace sslcd {
 
-/// A described model that is loaded: images in, its outputs in the layout's order out.
+/// A loaded model with its description. It maps images to outputs in the order of the layout.
 class Model {
  public:
-  /// Throws Error when the layout is not for `task`, or the model's inputs or outputs do not fit
+  /// Throws Error if the layout is not for `task`, or if the model's inputs or outputs do not match
   /// the description.
   Model(const std::string& yaml_path, ModelTask task, const InferenceOptions& options);
 
   const ModelDescription& description() const { return description_; }
-  int width() const { return width_; }  ///< of the input [px]
+  int width() const { return width_; }  ///< width of the input [px]
   int height() const { return height_; }
   bool takes_two_images() const { return description_.output.layout == ModelLayout::kStereo3d; }
-  int fixed_batch() const { return fixed_batch_; }  ///< images that go in at once; 0: any number
+  int fixed_batch() const { return fixed_batch_; }  ///< batch size of the model; 0: any
 
-  /// Room for `batch` images.
+  /// A tensor for `batch` images.
   Tensor EmptyInput(int batch) const;
 
-  /// Runs the model; `right` for models that take two images. Throws Error when an output does not
-  /// have the layout's shape.
+  /// Runs the model. `right` is for models with two images. Throws Error if an output does not have
+  /// the layout's shape.
   std::vector<Tensor> Run(Tensor left, std::optional<Tensor> right = std::nullopt) const;
 
-  /// Times one stage while it lives, where there is a table.
+  /// Measures the time of one stage until its destruction, if there is a table.
   std::optional<ScopedTimer> Time(TimingTable* timing, const char* stage) const;
 
  private:
@@ -46,11 +46,11 @@ class Model {
   Session session_;
   std::string left_name_, right_name_;
   std::vector<std::string> output_names_;
-  std::vector<TensorShape> output_shapes_;  ///< what the layout asks for
+  std::vector<TensorShape> output_shapes_;  ///< shapes that the layout requires
   int width_ = 0, height_ = 0, fixed_batch_ = 1;
 };
 
-/// The shapes of a layout's outputs, -1 where any size will do, for an input of this size.
+/// The shapes of a layout's outputs for an input of this size; -1: any size.
 std::vector<TensorShape> LayoutShapes(const ModelOutput& output, int width, int height);
 
 }  // namespace sslcd

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kLargestInput = 8192;  // [px]
 
-/// What the ranges of single fields do not say.
+/// Checks that the ranges of single fields do not cover.
 void Check(const ModelDescription& model, const std::string& path) {
   const auto refuse = [&path](const std::string& message) {
     throw Error(ErrorKind::kBadConfig, {path}, message);

@@ -12,9 +12,9 @@
 namespace sslcd {
 namespace {
 
-constexpr double kLetterboxGrey = 114;  // what YOLO was trained with
+constexpr double kLetterboxGrey = 114;  // used in the training of YOLO
 
-/// The size an image gets before it is put into the input.
+/// The size of an image after resizing, before cropping or padding.
 cv::Size ResizedSize(cv::Size image, cv::Size input, ModelInput::Resize resize) {
   if (resize == ModelInput::Resize::kStretch) return input;
   const double by_width = static_cast<double>(input.width) / image.width;
@@ -25,7 +25,7 @@ cv::Size ResizedSize(cv::Size image, cv::Size input, ModelInput::Resize resize) 
           std::max(1, static_cast<int>(std::lround(image.height * scale)))};
 }
 
-/// Channel by channel, by table: a pixel has only 256 values.
+/// Uses a table per channel, since a pixel has only 256 values.
 void WritePlanes(const cv::Mat& image, const ModelInput& input, float* planes) {
   for (int channel = 0; channel < 3; ++channel) {
     std::array<float, 256> value;
@@ -55,7 +55,7 @@ InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int
   const cv::Mat pixels = MatOf(image).rowRange(input.crop_top_px, image.height);
   const cv::Size size = ResizedSize(pixels.size(), {width, height}, input.resize);
   cv::Mat resized;
-  // as these models were trained, also where it aliases
+  // as in the training of these models, although it aliases
   cv::resize(pixels, resized, size, 0, 0, cv::INTER_LINEAR);
 
   InputMap map;

@@ -7,8 +7,7 @@
 
 namespace sslcd {
 
-/// Where a point of the image lies in the model's input: x * scale_x + offset_x, y * scale_y +
-/// offset_y. [px]
+/// The map from image to model input: x * scale_x + offset_x, y * scale_y + offset_y. [px]
 struct InputMap {
   double scale_x = 1, scale_y = 1, offset_x = 0, offset_y = 0;
 
@@ -20,9 +19,9 @@ struct InputMap {
   }
 };
 
-/// Writes one image as three planes of width x height, one a channel, to `planes`. Throws
-/// Error(kBadInput), with `what` in front, unless the image is B G R and higher than what is cut
-/// off.
+/// Writes one image as three planes of width x height, one per channel, to `planes`. Throws
+/// Error(kBadInput) with the prefix `what` if the image is not B G R or has no rows left after
+/// cropping.
 InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int height,
                  const char* what, float* planes);
 

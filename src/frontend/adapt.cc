@@ -22,7 +22,7 @@ std::vector<std::string> AdaptTo(const ImageSource& source, Options& options,
     OdometryNoise noise = StereoOdometryNoise(source.row_error_rad);
     if (source.lifted_boxes || !source.has_detections)
       noise.scale_prior = models.shared_scale_prior;
-    // What loops reveal over kilometres is what the window has to expect over metres.
+    // Uses the errors that loops reveal over kilometres also for the window.
     options.ba.odometry = noise;
     options.loop.odometry = noise;
     keys.insert(keys.end(), {"ba.odometry", "loop.odometry"});

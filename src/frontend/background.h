@@ -13,8 +13,8 @@
 
 namespace sslcd {
 
-/// Runs a source on a thread of its own, up to `ahead` items in front of whoever asks for them.
-/// Items come in the order of the source, and what it throws comes when its turn has come.
+/// Runs a source on a thread of its own, up to `ahead` items before the consumer. Items keep the
+/// order of the source. An exception of the source is thrown in place of its item.
 template <class T>
 class Background {
  public:
@@ -23,7 +23,7 @@ class Background {
   Background(const Background&) = delete;
   Background& operator=(const Background&) = delete;
 
-  /// Waits for the item the source is at, no longer.
+  /// Waits only for the current item of the source.
   ~Background() {
     {
       const std::lock_guard lock(mutex_);

@@ -13,13 +13,13 @@
 namespace sslcd {
 namespace {
 
-/// Nothing is known: what is still so after loading was not in the file.
+/// Marks all values as missing: a value that is still NaN after loading was not in the file.
 ClassPrior Unset() {
   constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
   return {kUnset, kUnset, kUnset, kUnset, kUnset, kUnset, kUnset, kUnset};
 }
 
-/// Names the keys that have no value.
+/// Lists the keys without a value.
 class MissingKeys final : public FieldVisitor {
  public:
   void Real(const char* key, double& value, double, double, const char*) override {
@@ -34,7 +34,7 @@ class MissingKeys final : public FieldVisitor {
   std::string keys;
 };
 
-/// The labels, and where they are; what is wrong with the file LoadConfigText tells.
+/// The labels and their places. LoadConfigText reports the problems of the file.
 std::map<std::string, YAML::Mark> Labels(const std::string& text) {
   std::map<std::string, YAML::Mark> labels;
   try {

@@ -5,8 +5,8 @@
 
 namespace sslcd {
 
-/// Looks whether the ground of a frame is where `options` has it: supported, and no more than three
-/// standard deviations higher or lower. Of the first few frames where it is not, looks where it is.
+/// Checks the ground of a frame against `options`: the plane has support and its height is within
+/// three standard deviations. Estimates the height in the first few frames that fail.
 void CheckGround(const StereoView& images, const StereoCamera& camera,
                  const std::vector<Detection>& objects, const GroundOptions& options,
                  GroundReport& report);

@@ -15,10 +15,10 @@ namespace sslcd {
 namespace {
 
 constexpr int kGroundEvery = 10;  // frames
-// Frames that wait between two stages: evens out frames that take longer; each holds two images.
+// Frames in the queue between two stages, to even out slow frames; each has two images.
 constexpr std::size_t kAhead = 4;
 
-// An error in a frame's images, with their names.
+// An error of a frame's images, with their names.
 template <class F>
 void Naming(const Frame& frame, const F& work) {
   try {
@@ -31,7 +31,7 @@ void Naming(const Frame& frame, const F& work) {
 }  // namespace
 
 struct ImageFrontend::Impl {
-  /// A frame on its way through the stages.
+  /// A frame in the pipeline.
   struct Item {
     Frame frame;
     Image left, right;
@@ -41,7 +41,7 @@ struct ImageFrontend::Impl {
   };
 
   ~Impl() { Stop(); }
-  // Later stages ask earlier ones, so they go first.
+  // Later stages use earlier ones, so they are destroyed first.
   void Stop() {
     stages = {};
     while (!running.empty()) running.pop_back();
@@ -54,13 +54,13 @@ struct ImageFrontend::Impl {
   std::optional<ObjectFinder> finder;
 
   std::size_t next_frame = 0;
-  int rows = 0, followed = 0;  // detections, frames whose pose the odometry has measured
-  std::string lost_because;    // the first one that was not followed
-  // One report for each stage: they run at the same time.
+  int rows = 0, followed = 0;  // number of detections; frames with a measured pose
+  std::string lost_because;    // reason of the first lost frame
+  // One report per stage, since the stages run in parallel.
   FrontendReport loaded, tracked, found;
 
   Source<Item> stages;
-  std::vector<std::unique_ptr<Background<Item>>> running;  // the last one is asked first
+  std::vector<std::unique_ptr<Background<Item>>> running;  // the last stage pulls from the others
 
   std::optional<Item> Load() {
     if (next_frame == sequence.frames.size()) return std::nullopt;
@@ -123,7 +123,7 @@ struct ImageFrontend::Impl {
     return item;
   }
 
-  // Puts what has been built so far on a thread of its own.
+  // Moves the stages so far to a thread of their own.
   void InBackground() {
     running.push_back(std::make_unique<Background<Item>>(std::move(stages), kAhead));
     stages = [stage = running.back().get()] { return stage->Next(); };

@@ -11,19 +11,19 @@
 
 namespace sslcd {
 
-/// The detections of a stereo pair: cuboids of a 3D detector, or lifted from 2D boxes, each with
-/// colour and embedding.
+/// Makes the detections of a stereo pair: cuboids of a 3D detector or lifted from 2D boxes, each
+/// with colour and embedding.
 class ObjectFinder {
  public:
-  /// `boxes` instead of VisionOptions::detector. Throws Error where there is neither, and as models
-  /// do when loaded.
+  /// `boxes` replace VisionOptions::detector. Throws Error if both are missing, and the errors of
+  /// loading the models.
   ObjectFinder(const StereoCamera& camera, const VisionOptions& options,
                const ColourOptions& colour, std::optional<BoxesByFrame> boxes);
 
-  /// Counts and times go to `report`.
+  /// Adds counts and times to `report`.
   std::vector<Detection> Find(int frame, const StereoView& images, FrontendReport& report) const;
 
-  /// Cuboids are lifted from boxes: front and back are not told apart.
+  /// True if cuboids are lifted from boxes, which does not distinguish front and back.
   bool lifts() const { return !detector_3d_; }
 
  private:

@@ -27,7 +27,7 @@ void DescribeFields(FieldVisitor& visitor, VisionOptions& options) {
 }
 
 std::vector<FieldProblem> Check(const VisionOptions& options) {
-  VisionOptions copy = options;  // visitors may write
+  VisionOptions copy = options;  // a visitor needs mutable fields
   std::vector<FieldProblem> problems = CheckRanges(
       [&copy](FieldVisitor& visitor) { visitor.Nested("vision", copy, "frames from images"); });
   if (options.lift.min_range_m > options.lift.max_range_m)

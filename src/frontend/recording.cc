@@ -82,7 +82,7 @@ ViewAligner MakeGroundAligner(const ImageRequest& request, const Dataset& datase
   options.check_rig = vision.odometry.calibrate && !MeasuresByStereo(request, vision);
   try {
     return MakeGroundAligner(files, StereoCameraOf(dataset), vision, std::move(options));
-  } catch (const Error& error) {  // who maps given detections needs no pair
+  } catch (const Error& error) {  // a run with given detections needs no stereo pair
     Log(LogLevel::kWarning,
         std::string("images of different passes are not aligned: ") + error.what());
     return {};

@@ -15,8 +15,8 @@
 namespace sslcd {
 namespace {
 
-/// AlignGround of two frames, read from their files. None: they cannot be aligned; `problem` says
-/// what is wrong with the images.
+/// AlignGround of two frames, read from their files. None: they cannot be aligned; `problem` gets
+/// the defect of the images.
 std::optional<RelativePose> Align(const ViewPair& pair, const StereoFiles& files,
                                   const StereoCamera& camera, const VisionOptions& vision,
                                   std::string& problem) {
@@ -36,7 +36,7 @@ std::optional<RelativePose> Align(const ViewPair& pair, const StereoFiles& files
   try {
     return AlignGround({images[0].view(), images[1].view()}, {images[2].view(), images[3].view()},
                        camera, pair.T_a_b_guess, vision.lift.ground, vision.alignment);
-  } catch (const Error& error) {  // others may do
+  } catch (const Error& error) {  // other pairs may succeed
     return complain(a.first + ", " + b.first, error.what());
   }
 }
@@ -57,11 +57,11 @@ ViewAligner MakeGroundAligner(StereoFiles files, const StereoCamera& camera,
           pairs.size(), options.threads,
           [&](std::size_t i) { answers[i] = Align(pairs[i], files, used, vision, problems[i]); },
           options.progress);
-    } catch (const Error& error) {  // the run before this is not lost
+    } catch (const Error& error) {  // must not lose the results of the run
       problems.push_back(std::string("images of different passes are not aligned: ") +
                          error.what());
     }
-    // What is wrong with the images is said once: it may be wrong with all of them.
+    // Warns once, since the defect may concern all images.
     const auto first = std::find_if(problems.begin(), problems.end(),
                                     [](const std::string& p) { return !p.empty(); });
     if (first != problems.end()) Log(LogLevel::kWarning, *first);

@@ -15,19 +15,19 @@
 namespace sslcd {
 namespace {
 
-// Patches of ground that must agree, and their share of those that both cameras see. Chosen on
-// HALV-sim, rendered, and KITTI 02 and 06; guesses 5 m off gave no wrong answer
-// (docs/notes, "From images alone").
+// Smallest number of consistent patches, and their smallest share of the patches that both cameras
+// see. Chosen on rendered HALV-sim and KITTI 02 and 06; guesses with errors of 5 m gave no wrong
+// answer (docs/notes, "From images alone").
 constexpr int kMinPatches = 25;
 constexpr double kMinShare = 0.15;
 
-/// The same places in both views: pixels of both left images.
+/// Corresponding pixels of both left images.
 struct CommonGround {
   Pose motion;
   std::vector<cv::Point2f> in_a, in_b;
 };
 
-/// None: too few patches agree.
+/// None: too few consistent patches.
 std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundView& b,
                                              const StereoCamera& camera, Pose motion) {
   constexpr double kCell = 0.03;
@@ -56,14 +56,14 @@ std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundVi
   return common;
 }
 
-/// The place on the ground that the left image has at this pixel.
+/// The ground point at a pixel of the left image.
 Vec3 PlaceOnGround(const StereoCamera& camera, const GroundPlane& plane, const cv::Point2f& left) {
   const Vec3 ray((left.x - camera.left.cx) / camera.left.fx,
                  (left.y - camera.left.cy) / camera.left.fy, 1);
   return ray * (-plane.height_m / plane.up.dot(ray));
 }
 
-/// Where the right image shows that place, to a fraction of a pixel.
+/// The pixel of that point in the right image, to a fraction of a pixel.
 std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const StereoCamera& camera,
                                        const GroundPlane& plane, const cv::Point2f& left,
                                        const cv::Point2f& guess) {
@@ -78,17 +78,17 @@ std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const Stere
   return found->at;
 }
 
-/// Places on the ground in one stereo pair.
+/// Ground points in one stereo pair.
 struct PairView {
   GroundPlane plane;
-  std::vector<Vec3> places;  ///< by the plane
+  std::vector<Vec3> places;  ///< on the plane
   std::vector<StereoPixel> pixels;
 };
 
-/// Where both images of a pair show places on the ground that the left one has at these pixels.
+/// Finds the pixels of ground points in both images of a pair, given their pixels in the left one.
 PairView InBothImages(const StereoView& images, const StereoCamera& camera,
                       const GroundPlane& plane, const std::vector<cv::Point2f>& left) {
-  // [px] Larger than the odometry's: this near, texture is weak. 9 was worse, 21 no better
+  // [px] larger than the odometry's, since near texture is weak; 9 was worse, 21 no better
   // (docs/notes, "From images alone").
   constexpr int kGroundPatchPx = 15;
   const StereoPyramids pyramids = BuildPyramids(images, kGroundPatchPx);
@@ -108,10 +108,10 @@ PairView InBothImages(const StereoView& images, const StereoCamera& camera,
   return view;
 }
 
-constexpr double kLeastPx = 0.1;  // finer than that nothing is found
+constexpr double kLeastPx = 0.1;  // best accuracy of a patch
 
-/// By the noise of the left pixel. The right column is looked for from there: it is off by as much,
-/// and the disparity by its own.
+/// Weights by the noise of the left pixel. The right column is searched from there, so it has the
+/// same error plus that of the disparity.
 Eigen::Matrix3d WeightBy(double column_px, double row_px) {
   constexpr double kDisparityPx = 0.15;
   Eigen::Matrix3d weight;
@@ -121,8 +121,8 @@ Eigen::Matrix3d WeightBy(double column_px, double row_px) {
   return weight;
 }
 
-/// Patches of ground are laid over each other to half a pixel of the view that has them farther
-/// away: what that is in this view, which has them `here` metres ahead, the other one `there`.
+/// Ground patches match to half a pixel of the farther view. Returns that error in pixels of this
+/// view, which has the patch `here` metres ahead, the other one `there`.
 Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, double here,
                               double there) {
   constexpr double kPatchPx = 0.5;
@@ -131,8 +131,8 @@ Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, doubl
                   std::hypot(kLeastPx, off_m * camera.left.fy * height_m / (here * here)));
 }
 
-/// The pose T_a_b of the left cameras that fits all four images best, from `guess` on. None: too
-/// few places.
+/// Estimates the pose T_a_b of the left cameras from all four images, starting at `guess`. None:
+/// too few points.
 std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_b,
                                        const StereoCamera& camera, const Pose& guess) {
   StereoFrame a, b{guess, {}};
@@ -143,7 +143,8 @@ std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_
     if (!placed_by_a && std::isnan(pixel_b.right)) continue;
     points[i] =
         placed_by_a ? Triangulate(camera, pixel_a) : Vec3(guess * Triangulate(camera, pixel_b));
-    a.sightings.push_back({i, pixel_a, WeightBy(kLeastPx, kLeastPx)});  // places are chosen there
+    a.sightings.push_back(
+        {i, pixel_a, WeightBy(kLeastPx, kLeastPx)});  // the points are defined by these pixels
     b.sightings.push_back(
         {i, pixel_b,
          WeightOfPatch(camera, in_b.plane.height_m, in_b.places[i].z(), in_a.places[i].z())});
@@ -151,8 +152,8 @@ std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_
   if (static_cast<int>(points.size()) < kMinPatches) return std::nullopt;
   constexpr double kLoss = 2;  // standard deviations
   RefineWindow(camera, 1, {&a, &b}, kLoss, points);
-  // Patches overlap, and errors of neighbours are alike. Noise is what the weights say, or more
-  // where residuals do.
+  // Patches overlap, so errors of neighbours correlate. The noise is that of the weights, or that
+  // of the residuals if it is larger.
   constexpr double kAlike = 2.5;
   const double noise = std::max(
       {1., ResidualScale(camera, a, points).z(), ResidualScale(camera, b, points).maxCoeff()});
@@ -170,7 +171,7 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
 }
 
 std::optional<double> AlignmentRange(const Camera& camera, int rows, double height_m) {
-  constexpr double kCommon = 7, kFarthest = 12;  // [m] of ground, seen by both
+  constexpr double kCommon = 7, kFarthest = 12;  // [m] common ground
   const double below = (rows - camera.cy) / camera.fy, nearest = height_m / below;
   if (!(below > 0) || nearest > kFarthest) return std::nullopt;
   return nearest + 0.5 * kCommon;
@@ -190,7 +191,7 @@ std::optional<RelativePose> AlignGround(const StereoView& a, const StereoView& b
   const Pose T_ref_ground_b = T_left_ref.inverse() * view_b.T_cam_ground;
   const Pose guess = OnGround(T_ref_ground_a.inverse() * T_a_b_guess * T_ref_ground_b);
   std::optional<CommonGround> common = FindCommonGround(view_a, view_b, camera, guess);
-  if (!common) {  // it is off by more than patches are looked for
+  if (!common) {  // the guess has a larger error than the search range of a patch
     const std::optional<Pose> motion = FindMotion(view_a, view_b, camera, guess, options.search_m);
     if (motion) common = FindCommonGround(view_a, view_b, camera, *motion);
   }

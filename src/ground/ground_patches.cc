@@ -8,9 +8,9 @@
 namespace sslcd {
 namespace {
 
-/// Calls use(patch, scores) for each patch of the first view that both views show, its surroundings
-/// in the second one included. `scores`: correlation [-1, 1] for shifts of up to `search` cells
-/// each way.
+/// Calls use(patch, scores) for each patch of the first view that the second view also shows,
+/// including its surroundings. `scores` has the correlation in [-1, 1] for shifts of up to `search`
+/// cells in each direction.
 template <class Use>
 void ForEachPatch(const TopView& from, const TopView& to, int half, int search, const Use& use) {
   const auto all_seen = [](const cv::Mat& seen) {
@@ -29,11 +29,11 @@ void ForEachPatch(const TopView& from, const TopView& to, int half, int search, 
   }
 }
 
-// The ground that is compared, from the first camera on [m]. Nearer than 2.5 m few cameras see it;
-// beyond 14 m, 3 cm ahead are a seventh of a row (700 px focal length, 1.2 m high). Not tuned.
+// The compared ground ahead of the first camera [m]. Few cameras see nearer than 2.5 m; beyond 14
+// m, 3 cm are a seventh of an image row (focal length 700 px, height 1.2 m). Not tuned.
 constexpr double kNear = 2.5, kLength = 11.5, kHalfWidth = 8;
 
-/// Where the parabola through three values has its top, from the middle one.
+/// The vertex of the parabola through three values, relative to the middle one.
 double Top(double before, double here, double after) {
   return 0.5 * (before - after) / (before - 2 * here + after);
 }
@@ -54,8 +54,8 @@ GroundGrid GridOf(double cell) {
 std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
                                const Pose& guess, double search_m) {
   constexpr double kCell = 0.06, kTurn = 0.01;  // [m], [rad]
-  // [rad] What loops of objects leave of the heading (docs/architecture.md, "How images of two
-  // passes are aligned").
+  // [rad] heading error after object loops (docs/architecture.md, "How images of two passes are
+  // aligned")
   constexpr double kSearchTurn = 0.03;
   constexpr int kHalf = 7, kFewest = 5;
   const GroundGrid grid = GridOf(kCell);

@@ -23,12 +23,13 @@ struct Sample {
 };
 
 constexpr double kGate = 3;  // standard deviations
-// Of the disparity of a ground pixel [px]: semi-global matching pulls disparities to whole pixels,
-// by a third of a pixel on slopes (docs/notes, "Cuboids from stereo images").
+// Standard deviation of the disparity of a ground pixel [px]: semi-global matching pulls
+// disparities to whole pixels, by a third of a pixel on slopes (docs/notes, "Cuboids from stereo
+// images").
 constexpr double kDisparitySigma = 0.5;
-constexpr std::size_t kSamples = 20000;  // pixels that are weighed, at most: bounds the time
-constexpr int kTrials = 200;             // of RANSAC; three pixels each, most of which are ground
-constexpr unsigned kSeed = 1;            // of RANSAC
+constexpr std::size_t kSamples = 20000;  // largest number of pixels, to bound the time
+constexpr int kTrials = 200;   // of RANSAC, with three pixels each; most pixels are ground
+constexpr unsigned kSeed = 1;  // of RANSAC
 
 bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
   return std::any_of(boxes.begin(), boxes.end(), [&](const Box2d& box) {
@@ -36,7 +37,7 @@ bool Covers(const std::vector<Box2d>& boxes, double u, double v) {
   });
 }
 
-/// What is known of the pixels below the horizon.
+/// Data of a pixel below the horizon.
 std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& camera,
                                   const std::vector<Box2d>& objects, const GroundOptions& options) {
   const Camera& left = camera.left;
@@ -45,7 +46,7 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
   if (!(horizon < height - 1)) return {};
   const double bf = camera.baseline_m * left.fx;
   const double nearest = options.height_m * left.fy / (height - left.cy);
-  const double scale = std::min(1., 640 / width);  // coarse pixels will do: there are many
+  const double scale = std::min(1., 640 / width);  // coarse pixels suffice: there are many
   const DisparityPatch patch =
       MatchInside(grey, {0, horizon, width, height}, 1.3 * bf / nearest, scale, scale);
   if (patch.values.empty()) return {};
@@ -67,7 +68,7 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
   return samples;
 }
 
-/// Within what the prior allows.
+/// Whether the plane is within the gate of the prior.
 bool IsPlausible(const Vec3& q, const GroundOptions& options) {
   const double height = 1 / q.norm();
   const Vec3 up = q * height;
@@ -108,8 +109,8 @@ Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior,
   return best;
 }
 
-/// Information and right-hand side of the prior: roll and pitch turn `up` by their sine; a height
-/// that is off by dh changes q by dh / height^2.
+/// Information and right-hand side of the prior. Roll and pitch change `up` by their sine; a change
+/// dh of the height changes q by dh / height^2.
 struct Equations {
   Eigen::Matrix3d information;
   Vec3 right;
@@ -139,8 +140,8 @@ Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOption
   return q;
 }
 
-/// Without the brightness of the surroundings, in which the two cameras may differ. Of the same row
-/// only: a row of the ground is shifted as a whole, the rows above and below it by something else.
+/// Subtracts the mean brightness, which may differ between the cameras. Uses only pixels of the
+/// same row, since all pixels of a ground row have one disparity.
 cv::Mat Detail(const cv::Mat& grey) {
   cv::Mat image, fine, coarse;
   grey.convertTo(image, CV_32F);
@@ -149,23 +150,23 @@ cv::Mat Detail(const cv::Mat& grey) {
   return fine - coarse;
 }
 
-/// A pixel of the ground in both images: by how much they differ, and by how much less if the
-/// disparity were a pixel larger, both in grey levels.
+/// A ground pixel in both images: the difference of the grey levels and its derivative by the
+/// disparity.
 struct Difference {
   Vec3 row;
   double disparity, error, slope;
 };
 
-/// Semi-global matching lags behind on a slope, by a third of a pixel on the ground; so the plane
-/// that it has found is laid over the images themselves: least squares of their difference (Lucas
-/// and Kanade 1981, with a plane's three unknowns). Far ground has little texture, and what stands
-/// on it has much: the weights of Geman and McClure and the square of the disparity keep its edges
-/// from tilting the plane; where nothing near has texture, the far still counts.
+/// Refines the plane on the images by least squares of their difference (Lucas and Kanade 1981,
+/// with the three unknowns of a plane), because semi-global matching is biased by a third of a
+/// pixel on the ground. Far ground has little texture, but objects on it have much. The weights of
+/// Geman and McClure and the square of the disparity keep their edges from tilting the plane; far
+/// ground still counts if no near ground has texture.
 Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
            const GroundOptions& options) {
-  constexpr double kLeastNoise = 1;  // grey levels, which are whole numbers
+  constexpr double kLeastNoise = 1;  // grey levels are whole numbers
   constexpr int kRounds = 12;
-  const int top = samples.front().v;  // rows above are of no use; samples go by rows
+  const int top = samples.front().v;  // rows above are not used; samples are sorted by rows
   const cv::Mat left = Detail(grey.left.rowRange(top, grey.left.rows));
   const cv::Mat right = Detail(grey.right.rowRange(top, grey.right.rows));
   std::vector<Sample> ground;
@@ -188,7 +189,7 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
       const float* row = right.ptr<float>(sample.v - top) + x;
       const double there = (1 - part) * row[0] + part * row[1];
       const double slope = 0.5 * ((1 - part) * (row[1] - row[-1]) + part * (row[2] - row[0]));
-      // To first order right(u - d) falls by `slope` for each pixel that d grows.
+      // To first order right(u - d) decreases by `slope` per pixel of d.
       const double error = there - left.at<float>(sample.v - top, sample.u);
       differences.push_back({sample.row, disparity, error, slope});
       errors.push_back(std::abs(error));
@@ -228,7 +229,7 @@ GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
   Vec3 q = Vec3(0, -1, 0) / options.height_m;
   GroundPlane plane;
   if (samples.size() >= kFewest) {
-    // Most of what lies there fits a plane that is no ground: then there is no evidence.
+    // Most pixels fit a plane that is not the ground, so there is no evidence.
     const Vec3 found = LeastSquares(samples, BestOfTrials(samples, q, options), options);
     if (IsPlausible(found, options)) {
       const Vec3 aligned = Align(grey, samples, found, options);
@@ -256,7 +257,7 @@ std::optional<double> FindGroundHeight(const StereoView& images, const StereoCam
   for (const double factor : {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.}) {
     GroundOptions there = options;
     there.height_m = factor * options.height_m;
-    there.height_sigma_m = 0.15 * there.height_m;  // neighbours overlap
+    there.height_sigma_m = 0.15 * there.height_m;  // neighbouring searches overlap
     const GroundPlane plane = EstimateGround(grey, camera, objects, there);
     if (plane.support > best.support) best = plane;
   }

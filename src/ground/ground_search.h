@@ -8,7 +8,7 @@
 
 namespace sslcd {
 
-/// For images that are grey already.
+/// EstimateGround for grey images.
 GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
                            const std::vector<Box2d>& objects, const GroundOptions& options);
 

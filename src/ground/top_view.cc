@@ -14,7 +14,7 @@ Pose LevelOn(const GroundPlane& plane) {
 
 TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_cam_ground,
                      const GroundGrid& grid) {
-  // a cell is the mean of so many samples each way: nearby, image pixels are smaller
+  // samples per cell in each direction, since near image pixels are smaller than a cell
   constexpr int kFiner = 2;
   constexpr double kNearest = 0.5;  // [m]
   const int columns = kFiner * grid.columns, rows = kFiner * grid.rows;

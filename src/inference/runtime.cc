@@ -18,10 +18,10 @@ const char kHelp[] =
     "path of "
     "libonnxruntime.so as 'library' or in SSLCD_ORT_LIB";
 
-/// The places to look at, and who named them.
+/// The paths to try and the source of their names.
 struct Candidates {
   std::vector<std::string> paths;
-  std::string named_by;  // empty: nobody, the usual places
+  std::string named_by;  // empty: the usual places
 };
 
 Candidates CandidatesFor(const std::string& library) {

@@ -8,17 +8,17 @@
 
 namespace sslcd {
 
-/// ONNX Runtime's table of functions. Only functions of 1.17 are in it, however new header and
-/// library are. `library` as InferenceOptions::library. The library stays loaded until the process
-/// ends: it cannot be unloaded safely. Throws Error(kBadInput) when there is none, or it is too
-/// old, or is something else.
+/// ONNX Runtime's table of functions, restricted to version 1.17 for any version of header and
+/// library. `library` is InferenceOptions::library. The library stays loaded until the process
+/// ends, because it cannot be unloaded safely. Throws Error(kBadInput) if the library is missing,
+/// too old or not ONNX Runtime.
 const OrtApi& LoadRuntime(const std::string& library);
 
-/// Frees what a release function of the API frees.
+/// Deletes an object by its release function of the API.
 template <class T>
 using OrtPointer = std::unique_ptr<T, void (*)(T*)>;
 
-/// Text of a failed call, its first line, and frees it; "" for success.
+/// Returns the first line of the message of a failed call and frees the status; "" on success.
 std::string Problem(const OrtApi& api, OrtStatus* status);
 
 }  // namespace sslcd

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands for runtime.cc and session.cc where ONNX Runtime's header is not installed.
+// Replaces runtime.cc and session.cc if ONNX Runtime's header is not installed.
 #include "inference/session.h"
 #include "sslcd/core/error.h"
 
@@ -10,7 +10,7 @@ namespace {
   throw Error(ErrorKind::kBadInput,
               "this build cannot run models: ONNX Runtime's header was not found; install it "
               "(scripts/install_deps.sh "
-              "vision, or the package libonnxruntime-dev), configure and build anew");
+              "vision, or the package libonnxruntime-dev), configure and build again");
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ struct Session::Impl {
         return;
       }
       Log(LogLevel::kWarning,
-          path + ": runs on the CPU, CUDA is not there (" + problem +
+          path + ": runs on the CPU, because CUDA is missing (" + problem +
               "); 'library' must be ONNX Runtime's GPU build, with its CUDA and cuDNN");
     }
     InferenceOptions on_cpu = options;
@@ -87,7 +87,7 @@ struct Session::Impl {
     const OrtPointer<OrtSessionOptions> settings(raw, api.ReleaseSessionOptions);
     Check(api.SetIntraOpNumThreads(raw, options.threads));
     Check(api.SetInterOpNumThreads(raw, 1));
-    // leaves the cores to others
+    // idle threads must not spin
     Check(api.AddSessionConfigEntry(raw, "session.intra_op.allow_spinning", "0"));
     if (options.provider == InferenceOptions::Provider::kCuda)
       if (OrtStatus* problem = AddCuda(raw, options.device_id)) return problem;
@@ -130,7 +130,7 @@ struct Session::Impl {
       if (tensor) Check(api.GetTensorElementType(tensor, &element));
       if (!NameOf(element))
         Fail("'" + result[i].name +
-             "' is no tensor of float32, int32 or int64; export the model in float32");
+             "' is not a tensor of float32, int32 or int64; export the model in float32");
       result[i].type = NameOf(element);
       result[i].shape = ShapeOf(tensor);
     }
@@ -145,7 +145,7 @@ struct Session::Impl {
     return shape;
   }
 
-  /// A tensor of the runtime's own memory, in the model's type.
+  /// A tensor in the runtime's memory with the model's type.
   template <class T>
   OrtPointer<OrtValue> Copy(const Tensor& tensor, ONNXTensorElementDataType type) const {
     OrtAllocator* allocator = nullptr;
@@ -162,7 +162,7 @@ struct Session::Impl {
 
   OrtPointer<OrtValue> MakeValue(const TensorInfo& info, const NamedTensors& named) const {
     const auto found = named.find(info.name);
-    if (found == named.end()) Fail("nothing given for its input '" + info.name + "'");
+    if (found == named.end()) Fail("no value for its input '" + info.name + "'");
     const Tensor& tensor = found->second;
     if (!Fits(tensor.shape, info.shape) || tensor.values.size() != ElementCount(tensor.shape))
       Fail("input '" + info.name + "' is " + ToString(tensor.shape) + ", the model takes " +

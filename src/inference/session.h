@@ -20,12 +20,11 @@ struct TensorInfo {
 
 using NamedTensors = std::map<std::string, Tensor>;
 
-/// A model that is loaded and ready to run, by ONNX Runtime 1.17 or later. Its library is loaded
-/// when the first session is made: nothing else of sslcd needs it.
-///
-/// Throws Error(kBadInput) with the path and a way out: there is no runtime library, it is too old,
-/// the model is missing, damaged, of an unknown version, or has inputs or outputs other than
-/// numbers.
+/// A model that is loaded and ready to run, by ONNX Runtime 1.17 or later. The first session loads
+/// the runtime library; nothing else of sslcd needs it.
+/// Throws Error(kBadInput) with the path and a remedy if the runtime library is missing or too old,
+/// or if the model is missing, damaged, of an unknown version, or has inputs or outputs that are
+/// not numbers.
 class Session {
  public:
   explicit Session(const std::string& model_path, const InferenceOptions& options = {});
@@ -37,13 +36,13 @@ class Session {
   const std::vector<TensorInfo>& inputs() const;
   const std::vector<TensorInfo>& outputs() const;
 
-  /// What it really runs on: kCpu where CUDA was asked for and is not there.
+  /// The device in use: kCpu if CUDA was requested but is missing.
   InferenceOptions::Provider provider() const;
 
-  /// All outputs for all inputs. Numbers are converted from and to the model's types. The same
-  /// input gives the same output on one machine, provider and number of threads. Throws
-  /// Error(kBadInput) naming the model when an input is missing or has another shape than the
-  /// model's, when the model fails, or when an output is not finite.
+  /// Computes all outputs from all inputs. Converts numbers from and to the model's types. The same
+  /// input gives the same output on the same machine, provider and number of threads. Throws
+  /// Error(kBadInput) with the name of the model if an input is missing or has a wrong shape, if
+  /// the model fails, or if an output is not finite.
   NamedTensors Run(const NamedTensors& inputs) const;
 
  private:

@@ -4,7 +4,7 @@
 namespace sslcd {
 
 std::map<std::string, ClassPrior> UsualClasses() {
-  // Usual sizes on European roads; a car is what the 307 of KITTI tracking are labelled as.
+  // Usual sizes on European roads; the car's are those of the 307 labelled cars of KITTI tracking.
   return {{"Car", {3.93, 1.63, 1.53, 0.44, 0.11, 0.13, 0.18, 0.5}},
           {"Van", {5.1, 1.95, 2.1, 0.6, 0.12, 0.25, 0.16, 0.8}},
           {"Truck", {7, 2.4, 3, 2, 0.2, 0.4, 0.16, 0.95}},
@@ -15,8 +15,8 @@ std::map<std::string, ClassPrior> UsualClasses() {
 
 DetectionNoise LiftNoise() {
   DetectionNoise noise;
-  // More than single cuboids are off by: what is off stays so for a while as an object is passed,
-  // and what is off in height all objects of a frame share.
+  // Larger than the errors of single cuboids: errors correlate while an object is passed, and
+  // errors of height correlate over all objects of a frame.
   noise.radial_m = 0.03;
   noise.radial_per_m = 0.045;
   noise.lateral_m = 0.2;

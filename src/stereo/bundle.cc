@@ -26,11 +26,11 @@ constexpr double kNearest = 0.1;  // [m] in front of the camera
 struct Reprojection {
   bool in_front = false;
   Vec3 residual = Vec3::Zero();
-  Mat36 by_pose;  // of a right perturbation of T_odom_left
+  Mat36 by_pose;  // derivative by a right perturbation of T_odom_left
   Mat3 by_point;
 };
 
-/// What there is of it.
+/// The weight of a sighting; zero for the right column if there is none.
 Mat3 Weight(const StereoSighting& sighting) {
   Mat3 weight = sighting.weight;
   if (std::isnan(sighting.pixel.right)) weight.row(2).setZero(), weight.col(2).setZero();
@@ -61,8 +61,8 @@ Reprojection Reproject(const StereoCamera& camera, const Pose& T_odom_left,
   return out;
 }
 
-/// A frame's pose is T Exp(d) with d, six plain numbers, the parameter block: no manifold needed.
-/// The others are the point and the disparity at infinity.
+/// The pose of a frame is T Exp(d). Its parameter block is d, a vector of six numbers, so it needs
+/// no manifold. The other blocks are the point and the disparity at infinity.
 class StereoCost final : public ceres::SizedCostFunction<3, 6, 3, 1> {
  public:
   StereoCost(const StereoCamera& camera, const StereoSighting& sighting, const Pose& T_odom_left)
@@ -145,7 +145,7 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
   std::map<int, int> times_seen;
   for (const StereoFrame* frame : frames)
     for (const StereoSighting& sighting : frame->sightings) ++times_seen[sighting.point];
-  // Ceres eliminates points in the order of their addresses: in one array, that is the same in each
+  // Ceres eliminates points in the order of their addresses; one array makes this the same in each
   // run.
   std::map<int, Vec3*> place_of;
   std::vector<Vec3> places;
@@ -191,7 +191,7 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
 
 Vec3 ResidualScale(const StereoCamera& camera, const StereoFrame& frame,
                    const OdometryPoints& points) {
-  // of the absolute values of what is normally distributed
+  // median of the absolute value of a standard normal variable
   constexpr double kSigmasPerMedian = 1.4826;
   std::vector<double> residuals[3];
   for (const StereoSighting& sighting : frame.sightings) {

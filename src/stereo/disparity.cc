@@ -15,7 +15,7 @@ namespace {
 constexpr int kBlock = 5;
 
 cv::Mat Scaled(const cv::Mat& image, double scale_x, double scale_y) {
-  // the matcher reads beyond the edges of a part
+  // the matcher reads beyond the edges of a submatrix
   if (scale_x == 1 && scale_y == 1) return image.clone();
   cv::Mat scaled;
   const bool smaller = scale_x < 1;
@@ -23,8 +23,8 @@ cv::Mat Scaled(const cv::Mat& image, double scale_x, double scale_y) {
   return scaled;
 }
 
-/// Between the pixels of a row, by Catmull and Rom's cubic: straight lines between them would pull
-/// to whole pixels.
+/// Interpolates in a row by Catmull and Rom's cubic; linear interpolation would pull to whole
+/// pixels.
 float Between(const float* row, int columns, float x) {
   const int at = static_cast<int>(std::floor(x));
   const auto value = [&](int column) { return row[std::clamp(column, 0, columns - 1)]; };
@@ -33,11 +33,12 @@ float Between(const float* row, int columns, float x) {
   return b + 0.5F * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
-/// Semi-global matching pulls disparities to whole pixels, by up to a fifth of one: a metre at 20 m
-/// and a baseline of 12 cm. Lucas and Kanade's steps (IJCAI 1981) go to where the grey values fit:
-/// windows less their means, each pixel with its own disparity. Blurred, since what is finer than a
-/// pixel sticks to the pixels. Where there is nothing to fit, the matcher has but guessed. `step`:
-/// pixels of the whole image to one of these.
+/// Refines disparities by steps of Lucas and Kanade (IJCAI 1981), because semi-global matching
+/// pulls them to whole pixels by up to a fifth of a pixel: one metre at 20 m with a baseline of 12
+/// cm. Compares windows without their means, each pixel with its own disparity. The images are
+/// blurred, since details below a pixel would also pull to whole pixels. Drops disparities without
+/// texture, which the matcher has guessed. `step` is the number of pixels of the whole image per
+/// pixel here.
 void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step,
                        cv::Mat& disparities) {
   constexpr int kSteps = 2;
@@ -104,8 +105,7 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   };
   const int left = clamp(std::floor(box.left), width), right = clamp(std::ceil(box.right), width);
   const int top = clamp(std::floor(box.top), height), bottom = clamp(std::ceil(box.bottom), height);
-  // What is found in the right image at the left of the box is part of the search; the matcher
-  // leaves out that margin.
+  // The search includes the right image left of the box; the matcher leaves out that margin.
   const double most = (max_disparity + images.disparity_at_infinity) * scale_x;
   const int levels = 16 * std::max(1, static_cast<int>(std::ceil(most / 16)));
   const int margin = std::min(left, static_cast<int>(std::ceil(levels / scale_x)));

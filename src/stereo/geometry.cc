@@ -20,11 +20,11 @@ Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel) {
 }
 
 bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right) {
-  // [px] Rows of KITTI's images differ by up to 1.2 (docs/notes, "Calibration"); more is
-  // another point, or images that are not rectified.
+  // [px] Rows of KITTI's images differ by up to 1.2 (docs/notes, "Calibration"); a larger
+  // difference means another point or images that are not rectified.
   constexpr double kMaxRowError = 1.5;
-  // [px] Points farther away tell hardly anything of their distance: it is off by a fifth where
-  // disparities are off by 0.1.
+  // [px] The distance of a point with less disparity is too uncertain: an error of 0.1 px changes
+  // it by a fifth.
   constexpr double kMinDisparity = 0.5;
   return std::abs(left.y - right.y) <= kMaxRowError &&
          left.x - right.x - camera.disparity_at_infinity >= kMinDisparity;

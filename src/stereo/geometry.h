@@ -8,8 +8,8 @@
 
 namespace sslcd {
 
-/// Where a point appears: column and row in the left image, column in the right one (NaN: not found
-/// there). [px]
+/// The pixel of a point: column and row in the left image, column in the right one (NaN: not
+/// found). [px]
 struct StereoPixel {
   double left = 0, row = 0, right = 0;
 };
@@ -18,13 +18,13 @@ inline cv::Point2f ToCv(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
 }
 
-/// Where a camera at the origin sees a point in front of it.
+/// Projects a point in front of the camera.
 StereoPixel ProjectStereo(const StereoCamera& camera, const Vec3& point_left);
 
-/// The point of which both images show where it is; disparity > 0.
+/// Triangulates a point; the disparity must be > 0.
 Vec3 Triangulate(const StereoCamera& camera, const StereoPixel& pixel);
 
-/// Whether these may be the left and right image of one point: in one row, with a disparity.
+/// Whether these can be the left and right image of one point: similar row, valid disparity.
 bool IsPair(const StereoCamera& camera, const cv::Point2f& left, const cv::Point2f& right);
 
 }  // namespace sslcd

@@ -7,7 +7,7 @@
 
 namespace sslcd {
 
-/// A grey image of a colour one; of a grey one the same pixels, not copied.
+/// Converts an image to grey. A grey image is not copied.
 cv::Mat Grey(const ImageView& image);
 
 }  // namespace sslcd

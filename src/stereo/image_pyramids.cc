@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kMaxLevel = 4;                    // sizes from 1 to 1/16
 constexpr double kReturnsWithin = 1;            // [px]
-constexpr double kMidGrey = 128, kSpread = 40;  // mean and deviation of an evened image
-constexpr double kNoise = 4;                    // deviations below are noise, and not blown up
+constexpr double kMidGrey = 128, kSpread = 40;  // mean and deviation of a normalised image
+constexpr double kNoise = 4;  // smaller deviations are noise and are not amplified
 
-// The image is copied: the host may write into its own while a keyframe still needs it.
+// Copies the image, since the host may overwrite its own while a keyframe needs it.
 ImagePyramid Build(const cv::Mat& grey, int patch_px) {
   ImagePyramid pyramid;
   cv::buildOpticalFlowPyramid(grey, pyramid, {patch_px, patch_px}, kMaxLevel, true,
@@ -61,8 +61,7 @@ Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
                             const std::vector<cv::Point2f>& guess, int levels, int patch_px) {
   Followed there = Follow(from, to, points, guess, levels, patch_px);
   std::vector<cv::Point2f> begin = points;
-  // Back from a place that is a little off its own guess, or a patch that has not moved would
-  // always return.
+  // Starts the way back beside the solution, or a patch that has not moved would always return.
   for (cv::Point2f& p : begin) p += cv::Point2f(1.5F, 1.5F);
   const Followed back = Follow(to, from, there.at, begin, 0, patch_px);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -9,29 +9,28 @@
 
 namespace sslcd {
 
-/// Levels to look through: for anything, for what is nearly known.
+/// Pyramid levels for a search without and with a good guess.
 inline constexpr int kCoarse = 4, kFine = 1;
 
-/// Smallest eigenvalue that a patch must have (of OpenCV's, per pixel): what noise alone has.
+/// Smallest eigenvalue of a patch (OpenCV's, per pixel); noise alone has less.
 inline constexpr double kMinEigenvalue = 1e-4;
 
-/// A grey image in several sizes, as Lucas-Kanade wants it. Copies share their pixels.
+/// An image pyramid for Lucas-Kanade. Copies share their pixels.
 using ImagePyramid = std::vector<cv::Mat>;
 
-/// A pair of images, ready to be followed through. Holds copies of the pixels.
+/// The pyramids of a stereo pair. Copies the pixels.
 struct StereoPyramids {
   ImagePyramid left, right;
   cv::Size size;
 };
-/// `patch_px`: side of the patches that will be followed.
+/// `patch_px`: side of the patches to track.
 StereoPyramids BuildPyramids(const StereoView& images, int patch_px);
 
-/// The same image with brightness and contrast evened out, by mean and deviation of each pixel's
-/// surroundings: what remains of a scene when the light changes.
+/// Normalises brightness and contrast by the local mean and deviation, against changes of light.
 ImagePyramid Evened(const ImagePyramid& image, int patch_px);
 
-/// Where points of one image are in another. `guess` is where to begin to look, `levels` how
-/// coarse: the patch may be off by some 2^levels * patch_px / 2 pixels.
+/// Tracks points from one image to another. `guess` has the start positions. With `levels` pyramid
+/// levels a patch may move by about 2^levels * patch_px / 2 pixels.
 struct Followed {
   std::vector<cv::Point2f> at;
   std::vector<bool> found;
@@ -40,7 +39,7 @@ Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
                 const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
                 int levels, int patch_px);
 
-/// The same, and back again: found only if that leads to where it began.
+/// Tracks forth and back. A point is found only if it returns to its start.
 Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
                             const std::vector<cv::Point2f>& points,
                             const std::vector<cv::Point2f>& guess, int levels, int patch_px);

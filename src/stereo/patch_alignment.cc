@@ -10,7 +10,7 @@
 namespace sslcd {
 namespace {
 
-/// Between four pixels, all of which must be inside.
+/// Interpolates between four pixels, which must all be inside.
 double Sample(const cv::Mat& image, double x, double y) {
   const int column = static_cast<int>(x), row = static_cast<int>(y);
   const double fx = x - column, fy = y - row;
@@ -24,15 +24,15 @@ bool IsInside(const cv::Mat& image, double x, double y, double margin) {
 }
 
 struct PatchPixel {
-  Eigen::Vector2d offset;  // where it should be in the other image, from the patch's middle
+  Eigen::Vector2d offset;  // predicted offset from the patch's middle in the other image
   double value = 0;
-  Vec3 by;  // derivatives of the value: a shift to the right, down, more light
+  Vec3 by;  // derivatives by a shift to the right, a shift down and brightness
 };
 
-/// Do `count` pixels tell where they are, in both directions, though their brightness is open? `H`:
-/// sum of by by^T.
+/// Whether `count` pixels determine the shift in both directions with unknown brightness. `H`: sum
+/// of by by^T.
 bool HasTexture(const Eigen::Matrix3d& H, int count) {
-  // [grey values^2 a pixel], of the smaller eigenvalue: less is noise
+  // [grey values^2 per pixel] lower bound of the smaller eigenvalue; less is noise
   constexpr double kLeast = 0.1;
   const Eigen::Matrix2d shift =
       H.topLeftCorner<2, 2>() - H.topRightCorner<2, 1>() * H.bottomLeftCorner<1, 2>() / count;
@@ -60,14 +60,14 @@ std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d
                                        const cv::Mat& to, const cv::Point2f& guess) {
   constexpr int kMaxSteps = 30, kMaxStretch = 8;
   constexpr double kDone = 0.003, kReach = 1.5;  // [px]
-  constexpr double kMinArea = 0.1;               // of a pixel, there
+  constexpr double kMinArea = 0.1;               // of a pixel in the other image
   const int half = patch.half, count = (2 * half + 1) * (2 * half + 1);
   if (!IsInside(patch.grey, patch.at.x, patch.at.y, half + 1)) return std::nullopt;
   const auto map = [&](double u, double v) -> Eigen::Vector2d {
     return Vec3(homography * Vec3(patch.at.x + u, patch.at.y + v, 1)).hnormalized();
   };
   const Eigen::Vector2d middle = map(0, 0);
-  Eigen::Matrix2d stretch;  // of the patch about its middle
+  Eigen::Matrix2d stretch;  // stretch of the patch about its middle
   stretch << 0.5 * (map(1, 0) - map(-1, 0)), 0.5 * (map(0, 1) - map(0, -1));
   if (!(stretch.determinant() > kMinArea)) return std::nullopt;  // seen edge on, or from behind
   double extent = 0;

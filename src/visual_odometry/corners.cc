@@ -8,15 +8,14 @@
 namespace sslcd {
 namespace {
 
-// A corner's least share of the strongest corner's smaller eigenvalue: OpenCV's customary value.
+// Smallest eigenvalue of a corner, relative to that of the strongest corner: OpenCV's usual value.
 constexpr double kMinCorner = 0.01;
 
-/// Moves corners to where their patches' gradients have their centre (Foerstner and Guelch, 1987).
-/// There a patch that is stretched, because it comes nearer or is slanted, moves as its corner
-/// does; elsewhere the stretching adds a shift, mostly towards where the camera goes, and the way
-/// seems too short.
+/// Moves corners to the centre of the gradients of their patches (Foerstner and Guelch, 1987).
+/// There the patch moves like its corner even if its scale or slant changes. Elsewhere a change of
+/// scale adds a shift, mostly in the direction of motion, which shortens the estimated path.
 void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners, int patch_px) {
-  const int half = patch_px / 2, least = 2 * half + 5;  // what OpenCV needs
+  const int half = patch_px / 2, least = 2 * half + 5;  // smallest side that OpenCV accepts
   if (corners.empty() || grey.cols < least || grey.rows < least) return;
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, until);
@@ -39,7 +38,7 @@ std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
     occupied[static_cast<int>(p.y) / cell * columns + static_cast<int>(p.x) / cell] = true;
 
   std::vector<cv::Point2f> corners;
-  const int margin = patch_px / 2 + 2;  // or the patch is not in the image as a whole
+  const int margin = patch_px / 2 + 2;  // keeps the whole patch in the image
   const cv::Rect inner(margin, margin, images.size.width - 2 * margin,
                        images.size.height - 2 * margin);
   for (int i = 0; i < columns * rows; ++i) {
@@ -51,7 +50,7 @@ std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
     if (best > kMinCorner * strongest && best > kMinEigenvalue) corners.emplace_back(at + box.tl());
   }
   CentrePatches(images.left[0], corners, patch_px);
-  // A centre may lie in the next cell, and be that of a point which is there.
+  // A centre may move into the next cell, onto an existing point.
   constexpr float kApart = 2;  // [px]
   std::vector<cv::Point2f> all = taken;
   for (const cv::Point2f& p : corners) {

@@ -8,10 +8,10 @@
 
 namespace sslcd {
 
-/// The strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi, Good
-/// features to track, CVPR 1994) of each cell of a grid of about `cells` cells that has none of the
-/// points `taken` in it. In the order of the cells, row by row; between pixels, and less than a
-/// patch off its cell.
+/// Finds the strongest corner (smaller eigenvalue of the gradients' covariance: Shi and Tomasi,
+/// Good features to track, CVPR 1994) of each cell without a point of `taken`, on a grid of about
+/// `cells` cells. Corners are sorted by cell, row by row, have subpixel positions and lie less than
+/// a patch outside of their cell.
 std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
                                        const std::vector<cv::Point2f>& taken, int cells,
                                        int patch_px);

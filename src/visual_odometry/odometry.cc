@@ -18,16 +18,16 @@
 namespace sslcd {
 namespace {
 
-// Turns that are tried when the points are not where they should be: up to 15 degrees, in steps
-// that the coarsest patches bridge.
+// Rotations to try if the prediction fails: up to 15 degrees, in steps within the range of the
+// coarsest patches.
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
 constexpr int kFixedKeyframes = 2;
-// A keyframe is due when its points have moved this far (median, [px]), or fewer than this share
-// of them are still followed. Not tuned.
+// A new keyframe is due if its points have moved by this distance (median, [px]), or if fewer than
+// this share of them is still tracked. Not tuned.
 constexpr double kKeyframePx = 8, kKeyframeShare = 0.8;
-// Frames in a row that may be lost before the odometry starts again at its last guess: one or two
-// black images, or a wiper. Not tuned.
+// Most consecutive lost frames (black images, a wiper) before the odometry restarts at its last
+// guess. Not tuned.
 constexpr int kPatience = 2;
 constexpr double kLossPx = 0.15;  // best of .08 to 1, on rendered and on real images
 
@@ -39,8 +39,8 @@ const char* const kNoPairs =
 const char* const kNoneBefore = "no frame before could be followed";
 const char* const kMissing = "its images are missing";
 
-/// The step once more: what a constant velocity may be off by, after `steps` of them. Half of the
-/// step itself and something on top, for each.
+/// Covariance of repeating a step `steps` times at constant velocity: half of the step plus a
+/// constant, for each.
 Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
   const double translation = steps * (0.1 + 0.5 * step.translation().norm());
   const double rotation = steps * (0.02 + 0.5 * step.so3().Log().norm());
@@ -110,8 +110,7 @@ class StereoOdometry::Impl {
     return step;
   }
 
-  /// A window of one keyframe, at the pose that the last frame has, if there is enough to see in
-  /// it.
+  /// Starts a window of one keyframe at the pose of the last frame, if it has enough points.
   void StartAnew(const StereoPyramids& current) {
     keyframes_.clear();
     points_.clear();
@@ -128,7 +127,7 @@ class StereoOdometry::Impl {
     lost_ = 0;
   }
 
-  /// The last frame's velocity goes on.
+  /// Predicts with the velocity of the last frame.
   OdometryStep Bridge(const char* reason) {
     any_frame_ = true;
     ++lost_;
@@ -140,7 +139,7 @@ class StereoOdometry::Impl {
 
   OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
     const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
-    constexpr double kLeastNoise = 0.1;  // [px] no matter how well everything seems to fit
+    constexpr double kLeastNoise = 0.1;  // [px] lower bound of the noise
     const double noise =
         std::max(kLeastNoise, ResidualScale(camera_, frame, points_).norm() / std::sqrt(3.));
     Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, noise);
@@ -149,7 +148,7 @@ class StereoOdometry::Impl {
     const bool keyframe = KeyframeIsDue(frame);
     const int points = static_cast<int>(frame.sightings.size());
     if (keyframe) AddKeyframe(frame, current);
-    // Over the frames that were lost, too: their poses were guesses.
+    // The step spans lost frames, since their poses were guesses.
     const Vec6 moved = (T_last_tracked_.inverse() * frame.T_odom_left).Log() / (lost_ + 1);
     velocity_ = Pose::Exp(moved);
     T_last_tracked_ = frame.T_odom_left;
@@ -161,7 +160,7 @@ class StereoOdometry::Impl {
     return step;
   }
 
-  /// From the left camera to the reference camera.
+  /// Transforms a pose from the left camera to the reference camera.
   OdometryStep Report(OdometryStatus status, const Pose::Matrix6& covariance) const {
     OdometryStep step;
     step.status = status;
@@ -176,7 +175,7 @@ class StereoOdometry::Impl {
   std::optional<StereoFrame> Track(const StereoPyramids& current) {
     std::optional<StereoFrame> frame = Track(reference_images_.left, current.left, current);
     if (frame) return frame;
-    // Perhaps it is the light that has changed.
+    // The brightness may have changed.
     return Track(Evened(reference_images_.left, kPatchPx), Evened(current.left, kPatchPx), current);
   }
 
@@ -189,7 +188,7 @@ class StereoOdometry::Impl {
     };
     std::optional<Pose> pose = find(T_expected);
     if (!pose) pose = find(last_.T_odom_left);
-    // The camera may have begun to turn, or ended.
+    // The camera may have started or stopped turning.
     for (int k = 1; k <= kTurns && !pose; ++k) {
       pose = find(T_expected * Pose::RotY(k * kTurnRad));
       if (!pose) pose = find(T_expected * Pose::RotY(-k * kTurnRad));
@@ -237,8 +236,8 @@ class StereoOdometry::Impl {
     frame = keyframes_.back();
   }
 
-  /// New points where the frame has none yet, placed by their disparity. Returns how many corners
-  /// there are.
+  /// Adds points in areas without points, with depths from their disparity. Returns the number of
+  /// corners.
   int TakeUpPoints(const StereoPyramids& current, StereoFrame& frame) {
     std::vector<cv::Point2f> taken;
     for (const StereoSighting& sighting : frame.sightings)
@@ -258,7 +257,7 @@ class StereoOdometry::Impl {
     return static_cast<int>(corners.size());
   }
 
-  /// Points that no keyframe of the window sees.
+  /// Removes points that no keyframe of the window sees.
   void ForgetPoints() {
     std::set<int> seen;
     for (const StereoFrame& keyframe : keyframes_)
@@ -272,14 +271,14 @@ class StereoOdometry::Impl {
   const Pose T_left_ref_;
   cv::Size size_;
   bool any_frame_ = false;
-  std::deque<StereoFrame> keyframes_;  // the last one is the reference: its points are followed
+  std::deque<StereoFrame> keyframes_;  // the last one is the reference, whose points are tracked
   StereoPyramids reference_images_;
   OdometryPoints points_;
   int next_point_ = 0;
-  StereoFrame last_;     // without sightings: it is lost
+  StereoFrame last_;     // lost if it has no sightings
   Pose T_last_tracked_;  // of the left camera
-  Pose velocity_;        // T_before_now, a frame
-  int lost_ = 0;         // frames in a row
+  Pose velocity_;        // T_before_now per frame
+  int lost_ = 0;         // consecutive lost frames
   const char* reason_ = "";
 };
 

@@ -11,22 +11,23 @@
 namespace sslcd {
 namespace {
 
-constexpr int kCoarsePoints = 120;  // enough to find out roughly where the camera is
-// Draws of four points; where 0.4 of the points fit, one of them is good with 99.4 %.
+constexpr int kCoarsePoints = 120;  // enough for a coarse pose
+// RANSAC draws of four points. With an inlier share of 0.4 one draw is good with 99.4 %
+// probability.
 constexpr int kRansacTrials = 200;
-constexpr double kMinInliers = 0.3;  // share of the points found again that must agree on the pose
+constexpr double kMinInliers = 0.3;  // smallest share of inliers among the tracked points
 
 const char* const kNoAgreement = "the points found again do not agree on a pose";
 
-/// Points of the reference keyframe, and where they should be in another image.
+/// Points of the reference keyframe and their predictions in another image.
 struct Expected {
   std::vector<int> points;
   std::vector<cv::Point2f> from, to;
   std::vector<double> disparities;
 };
 
-/// Where points of the reference keyframe appear to a camera there: about so many of them, and only
-/// inside the image.
+/// Predicts points of the reference keyframe from a camera pose: about `count` points inside the
+/// image.
 Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_left, int about) {
   const StereoFrame& reference = f.keyframe;
   const Pose T_left_odom = T_odom_left.inverse();
@@ -71,7 +72,7 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   cv::Vec3d rotation, translation;
   std::vector<int> inliers;
   reason = kNoAgreement;
-  // It draws from a generator of its own, always the same; OpenCV's global one is the host's.
+  // Uses its own generator with a fixed seed; OpenCV's global one belongs to the host.
   const bool found = cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation,
                                         false, kRansacTrials, static_cast<float>(kFitsWithinPx),
                                         0.999, inliers, cv::SOLVEPNP_AP3P);

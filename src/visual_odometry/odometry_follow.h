@@ -8,36 +8,37 @@
 
 namespace sslcd {
 
-/// Side of the patches that the odometry follows [px]; 13 were no better on rendered images and on
-/// KITTI (docs/notes, "Stereo odometry").
+/// Side of the tracked patches [px]; 13 was no better on rendered images and on KITTI (docs/notes,
+/// "Stereo odometry").
 inline constexpr int kPatchPx = 9;
-/// Points that must be followed and fit, or a frame is lost: several times the three that a pose
-/// takes. Not tuned.
+/// Smallest number of inliers of a tracked frame: several times the three points of a pose. Not
+/// tuned.
 inline constexpr int kMinTracked = 20;
-/// A point fits a pose if it appears this near to where it should [px]: some four standard
-/// deviations of a followed corner (residuals of 0.46 to 0.53 px, docs/notes, "Which noise?").
+/// Largest reprojection error of an inlier [px]: about four standard deviations of a tracked corner
+/// (residuals of 0.46 to 0.53 px, docs/notes, "Which noise?").
 inline constexpr double kFitsWithinPx = 2;
 inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
 
-/// What is followed: the points that a keyframe sees.
+/// The tracked points: those of a keyframe.
 struct Following {
   const StereoCamera& camera;
   const StereoFrame& keyframe;
   const OdometryPoints& points;
 };
 
-/// The pose T_odom_left that most points agree on when they are looked for around where they appear
-/// from `T_guess`. `from`, `to`: left images of the keyframe and of now. None: `reason` says why.
+/// Estimates the pose T_odom_left by RANSAC on the points tracked from `from` (left image of the
+/// keyframe) to `to` (current left image), with predictions from `T_guess`. None: `reason` has the
+/// cause.
 std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from,
                              const ImagePyramid& to, const Pose& T_guess, const char*& reason);
 
-/// A frame at that pose with all points that are found in its left image, and where those are in
-/// its right one. `from` and `to` as above; they may differ in light from `current`.
+/// Makes a frame at that pose with all points that are found in its left image, and their columns
+/// in the right one. `from` and `to` as above; their brightness may differ from `current`.
 StereoFrame FindAll(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
                     const StereoPyramids& current, const Pose& T_odom_left);
 
-/// A point that has been found in both images, its column in the right one to a fraction of a
-/// pixel. None: it is not the same point, or its patch does not tell.
+/// Refines the right column of a point that is found in both images to a fraction of a pixel. None:
+/// it is another point, or its patch has too little texture.
 std::optional<StereoPixel> MeasurePair(const StereoCamera& camera, const StereoPyramids& images,
                                        const cv::Point2f& left, const cv::Point2f& right);
 

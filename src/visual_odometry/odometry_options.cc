@@ -20,13 +20,13 @@ OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad) {
   // Measured on HALV-sim, rendered (ideal), and KITTI 02 and 06 (real): docs/notes, "Which
   // noise?".
   constexpr double kIdealWalk = 1e-4, kRealWalk = 5e-4;  // heading [rad per sqrt(m)]
-  // Headings walk by as much as rows are off, on KITTI; twice that is on the safe side.
+  // On KITTI the random walk of the heading equals the row error; twice that is conservative.
   constexpr double kRowFactor = 2;
   constexpr double kRotationFloor = 1e-4;     // [rad] of a step
   constexpr double kTranslationFloor = 1e-3;  // [m] of a step
   constexpr double kRealTurn = 2e-3;          // [rad per rad turned]
   constexpr double kRealTranslation = 5e-3;   // [m per sqrt(m)]
-  constexpr double kLeastTranslation = 2e-3;  // [m per sqrt(m)] twice what ideal images have
+  constexpr double kLeastTranslation = 2e-3;  // [m per sqrt(m)] twice the value of ideal images
   OdometryNoise noise;
   noise.rotation_walk =
       row_error_rad ? std::min(kRealWalk, std::hypot(kIdealWalk, kRowFactor * *row_error_rad))

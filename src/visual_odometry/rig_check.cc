@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// [px] rows that fit so well leave nothing to do; no burst tells it better
+// [px] a smaller row error needs no check; no burst measures more exactly
 constexpr double kSure = 0.03;
 
 std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
@@ -25,11 +25,10 @@ std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
   return RowError(camera, views, options);
 }
 
-/// Disparities at infinity of bursts of frames: as many as fill a window, from evenly spread ones
-/// on.
+/// Disparities at infinity of bursts of frames that fill a window, evenly spread over the sequence.
 std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                              const StereoOdometryOptions& options) {
-  // the most bursts; the most frames of one, in windows
+  // largest number of bursts; largest number of frames of a burst, in windows
   constexpr std::size_t kBursts = 8, kWindows = 6;
   const std::size_t most = kWindows * static_cast<std::size_t>(options.window);
   std::vector<double> found;
@@ -51,9 +50,9 @@ std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, con
   return found;
 }
 
-/// Standard error of the median of those, which scatter normally but for a few.
+/// Standard error of their median, assuming normal scatter with a few outliers.
 double ErrorOfMedian(const std::vector<double>& values, double median) {
-  constexpr double kUnknown = 0.1;  // [px] of a single one
+  constexpr double kUnknown = 0.1;  // [px] for a single burst
   if (values.size() < 2) return kUnknown;
   std::vector<double> off;
   for (double value : values) off.push_back(std::abs(value - median));
@@ -71,7 +70,7 @@ RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoad
   check.unsure = found.empty();
   if (check.unsure) return check;
   const double median = Median(found);
-  // A right camera that is rolled by 0.4 degrees seems off by up to 0.17 of its rows' error.
+  // A roll of the right camera by 0.4 degrees causes a change of up to 0.17 of the row error.
   constexpr double kRolled = 0.25;
   if (std::abs(median - calibrated) < kRolled * *check.row_error) return check;
   const double trust = std::pow(*check.row_error, 2);

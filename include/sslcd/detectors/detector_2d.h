@@ -23,9 +23,9 @@ class Detector2d {
   Detector2d& operator=(Detector2d&&) noexcept;
   ~Detector2d();
 
-  /// The objects in an image, best score first, boxes in its pixels and within it. Times go to
-  /// `timing` as "NAME prepare", "NAME run", "NAME decode". Throws Error when the image is not B G
-  /// R or the model returns NaN.
+  /// Detects the objects in an image, best score first. Boxes are in pixels of the image and
+  /// clipped to it. Adds the times "NAME prepare", "NAME run" and "NAME decode" to `timing`. Throws
+  /// Error if the image is not B G R or the model returns NaN.
   std::vector<ImageDetection> Detect(const ImageView& image, TimingTable* timing = nullptr) const;
 
   const std::string& name() const;

@@ -22,9 +22,9 @@ class Detector3d {
   Detector3d& operator=(Detector3d&&) noexcept;
   ~Detector3d();
 
-  /// The objects in a pair, best score first: pose in the reference camera's frame (Camera::offset
-  /// leads on to the left camera), size, box in the left image, score and label. `row` is -1. Times
-  /// as Detector2d's. Throws Error when an image is not B G R or the model returns NaN.
+  /// Detects the objects in a stereo pair, best score first: pose in the reference camera's frame
+  /// (see Camera::offset), size, box in the left image, score and label. `row` is -1. Times are
+  /// those of Detector2d::Detect. Throws Error if an image is not B G R or the model returns NaN.
   std::vector<Detection> Detect(const StereoView& images, const StereoCamera& camera,
                                 TimingTable* timing = nullptr) const;
 

@@ -12,7 +12,7 @@
 
 namespace sslcd {
 
-/// A re-identification model: what an object looks like, as a vector (paper III-A.2).
+/// A re-identification model, which maps the appearance of an object to a vector (paper III-A.2).
 class Embedder {
  public:
   /// See Detector2d::Load.
@@ -21,9 +21,9 @@ class Embedder {
   Embedder& operator=(Embedder&&) noexcept;
   ~Embedder();
 
-  /// One vector of unit length for each box; empty for a box that holds no pixel of the image. All
-  /// boxes go through the model at once where it takes any number. Times as Detector2d's. Throws
-  /// Error when the image is not B G R or the model returns NaN.
+  /// Returns one vector of unit length per box; an empty one for a box outside of the image. Runs
+  /// the model once for all boxes if it accepts any batch size. Times are those of
+  /// Detector2d::Detect. Throws Error if the image is not B G R or the model returns NaN.
   std::vector<std::vector<float>> Embed(const ImageView& image, const std::vector<Box2d>& boxes,
                                         TimingTable* timing = nullptr) const;
 

@@ -11,36 +11,36 @@
 
 namespace sslcd {
 
-/// What of a mapper's input comes from images.
+/// The parts of a mapper's input that come from images.
 struct ImageSource {
-  bool lifted_boxes = false;     ///< the detections are cuboids that LiftBoxes has made
-  bool stereo_odometry = false;  ///< the poses are those of StereoOdometry
-  bool has_detections = true;    ///< false: nothing but aligned images corrects the odometry
-  /// RigCheck::row_error over the focal length. None: not known. [rad]
+  bool lifted_boxes = false;     ///< the detections are cuboids from LiftBoxes
+  bool stereo_odometry = false;  ///< the poses are from StereoOdometry
+  bool has_detections = true;    ///< false: only aligned images correct the odometry
+  /// RigCheck::row_error divided by the focal length. None: unknown. [rad]
   std::optional<double> row_error_rad;
-  /// AlignmentRange of the left camera. None: its images are not aligned. [m]
+  /// AlignmentRange of the left camera. None: images are not aligned. [m]
   std::optional<double> alignment_range_m;
 };
 
-/// What a mapper should expect of images, where that is not what it expects of detections and
-/// odometry of unknown origin. The three numbers were chosen on HALV-sim, rendered, cases 1 to 4
-/// with seeds 1 and 2, and the scale's also with seed 3 (docs/notes, "From images alone").
+/// Options of a mapper for input from images that differ from the defaults. The three numbers were
+/// chosen on rendered HALV-sim, cases 1 to 4 with seeds 1 and 2, the scale prior also with seed 3
+/// (docs/notes, "From images alone").
 struct ImageModels {
   DetectionNoise lifted_noise = LiftNoise();  ///< Options::noise of lifted cuboids
-  /// BaOptions::loss_scale of lifted cuboids: some headings are a quarter turn off, which a
-  /// narrower loss makes less of [sigmas]
+  /// BaOptions::loss_scale of lifted cuboids [sigmas]: a narrow loss, since some headings are wrong
+  /// by a quarter turn
   double lifted_loss_scale = 1;
-  /// BaOptions::correlation of lifted cuboids: their errors are alike on a whole pass, since it
-  /// shows one side of an object. Factor on standard deviations; 2 and 8 were as good.
+  /// BaOptions::correlation of lifted cuboids (factor on standard deviations): their errors
+  /// correlate over a whole pass, which shows one side of an object. 2 and 8 gave equal results.
   double lifted_correlation = 4;
-  /// OdometryNoise::scale_prior where odometry and what corrects it are measured by the same
-  /// baseline: an error of the baseline stretches both alike, so there is no scale to estimate.
+  /// OdometryNoise::scale_prior if odometry and detections use the same baseline: an error of the
+  /// baseline scales both equally, so there is no scale to estimate.
   double shared_scale_prior = 0;
 };
 
-/// Sets what `source` says in `options`; everything else stays. It overwrites: call it before
-/// options of your own are set. Which odometry noise is expected is told by StereoOdometryNoise.
-/// Returns the keys that it has set, e.g. {"noise", "ba.loss_scale"}, so that a host can show them.
+/// Sets the options that `source` requires and keeps the others. It overwrites, so call it before
+/// setting your own options. The odometry noise comes from StereoOdometryNoise. Returns the keys
+/// that it has set, e.g. {"noise", "ba.loss_scale"}, so that a host can show them.
 std::vector<std::string> AdaptTo(const ImageSource& source, Options& options,
                                  const ImageModels& models = {});
 

@@ -18,76 +18,74 @@
 
 namespace sslcd {
 
-/// 2D boxes of a sequence: frame number -> boxes.
+/// The 2D boxes of a sequence by frame number.
 using BoxesByFrame = std::map<int, std::vector<ImageDetection>>;
 
-/// What the host does. Called from other threads where there is more than one, but never two calls
-/// of one at a time.
+/// Functions of the host. With several threads they run on other threads, but one function never
+/// runs twice at the same time.
 struct FrontendHooks {
-  /// reads an image file; an empty image where that fails
+  /// reads an image file; returns an empty image on failure
   std::function<Image(const std::string& path)> load;
-  /// each complete frame with its left image, in order
+  /// receives each complete frame with its left image, in order
   std::function<void(const Frame&, const ImageView&)> watch{};
 };
 
-/// What is to be made from images.
+/// A sequence of frames and the parts to make from its images.
 struct ImageSequence {
-  std::vector<Frame> frames;  ///< with paths of both images, and whatever is known already
+  std::vector<Frame> frames;  ///< with the paths of both images and all known parts
   StereoCamera camera;
-  bool odometry = false;  ///< make T_odom_cam, by stereo odometry
-  /// make detections, by VisionOptions::detector, or from these:
+  bool odometry = false;  ///< compute T_odom_cam by stereo odometry
+  /// make detections, by VisionOptions::detector or from `boxes`
   bool detections = true;
   std::optional<BoxesByFrame> boxes;  ///< instead of a detector
 };
 
-/// Whether the ground is where VisionOptions::lift has it, which cuboids lifted from boxes stand
-/// on: looked at in every tenth frame.
+/// Checks of the ground plane of VisionOptions::lift, on which lifted cuboids stand, in every tenth
+/// frame.
 struct GroundReport {
-  int frames = 0, elsewhere = 0;  ///< that were looked at; those among them where it is not
-  /// of the camera over the ground, in the first of those where that can be told
+  int frames = 0, elsewhere = 0;  ///< checked frames; those whose ground lies elsewhere
+  /// estimated heights of the camera over the ground in the first frames counted by `elsewhere`
   std::vector<double> heights_m;
 };
 
-/// What became of a sequence.
+/// Statistics of a processed sequence.
 struct FrontendReport {
   int frames = 0;
-  int images_failed = 0;           ///< frames that lack an image, or have one that cannot be read
-  int lost = 0;                    ///< frames whose odometry had to be guessed, those among them
-  std::map<LiftStatus, int> lift;  ///< boxes, by what became of them
-  std::set<std::string> unknown;   ///< labels of boxes that lifting knows no sizes of
+  int images_failed = 0;           ///< frames with a missing or unreadable image
+  int lost = 0;                    ///< frames with a guessed pose, including those without images
+  std::map<LiftStatus, int> lift;  ///< number of boxes by result
+  std::set<std::string> unknown;   ///< labels of boxes without known sizes
   GroundReport ground;
   int detections = 0;
   TimingTable timing;
 };
 
-/// Complete frames from stereo images: odometry, detections with boxes, colours and embeddings.
-/// With more than one thread images are read, odometry, detections and whatever the caller does
-/// with the frames are made at the same time, each on a thread of its own, and a sequence takes as
-/// long as the slowest of them. The frames are the same.
-///
-/// A frame one of whose images is missing or cannot be read is kept: its odometry is guessed
-/// (StereoOdometry) and it has no detections. A warning names it.
+/// Makes complete frames from stereo images: odometry, and detections with boxes, colours and
+/// embeddings. With several threads, reading images, odometry, detections and the caller's work run
+/// in parallel, each on its own thread; the slowest of them determines the time. The frames do not
+/// depend on the number of threads.
+/// A frame with a missing or unreadable image stays in the sequence: its pose is guessed
+/// (StereoOdometry), it has no detections, and a warning names it.
 class ImageFrontend {
  public:
-  /// Throws Error where a model cannot be loaded, there is nothing to make detections from, or no
-  /// frame has images.
+  /// Throws Error if a model cannot be loaded, if detections are requested without a detector or
+  /// boxes, or if no frame has images.
   ImageFrontend(ImageSequence sequence, const VisionOptions& options, const ColourOptions& colour,
                 FrontendHooks hooks, int threads);
   ImageFrontend(ImageFrontend&&) noexcept;
   ~ImageFrontend();
 
-  /// The next complete frame; none: that was the last one. Throws Error, with the frame's image,
-  /// where both images are there but are no pair, or have the wrong number of channels, and where a
-  /// model fails; after the last frame Error(kNoSolution) if odometry was asked for and not one of
-  /// several frames could be followed.
+  /// Returns the next complete frame; none at the end. Throws Error with the name of the image if
+  /// the two images are not a stereo pair or have a wrong number of channels, or if a model fails.
+  /// At the end it throws Error(kNoSolution) if odometry was requested and every frame was lost.
   std::optional<Frame> Next();
 
-  /// Labels of lifted cuboids, whose front and back are not told apart: Symmetry::kNone, of the
-  /// table or by default, becomes kPi.
+  /// Sets the symmetry of the labels of lifted cuboids: Symmetry::kNone, in the table or by
+  /// default, becomes kPi, because lifting does not distinguish front and back.
   void AddLabels(LabelTable& labels) const;
 
-  /// Of the frames begun: more than were handed out where there is more than one thread and it ends
-  /// early. Ends the sequence.
+  /// Ends the sequence and returns the statistics of all started frames. With several threads and
+  /// an early end these are more frames than Next() has returned.
   FrontendReport Finish();
 
  private:

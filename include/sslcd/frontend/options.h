@@ -12,22 +12,22 @@
 
 namespace sslcd {
 
-/// How frames are made from images.
+/// Options of making frames from images.
 struct VisionOptions {
   /// description of a 2D or 3D detector (docs/models.md); empty: boxes come from a file
   std::string detector;
   std::string embedder;  ///< description of a re-identification model; empty: no embeddings
   InferenceOptions inference;
-  /// file of the classes that are lifted (LoadClasses), instead of those in `lift`; empty: those
+  /// file of the classes to lift (LoadClasses); empty: those of `lift`
   std::string classes;
-  LiftOptions lift;  ///< of 2D boxes to cuboids
+  LiftOptions lift;  ///< lifting of 2D boxes to cuboids
   StereoOdometryOptions odometry;
-  /// of images of different passes; the ground is that of `lift`
+  /// alignment of images of different passes, with the ground of `lift`
   GroundAlignmentOptions alignment;
 };
 void DescribeFields(FieldVisitor& visitor, VisionOptions& options);
 
-/// What is wrong with these options, as Check(const Options&) says it; keys begin with `vision.`.
+/// Returns the problems of these options, like Check(const Options&). Keys start with `vision.`.
 std::vector<FieldProblem> Check(const VisionOptions& options);
 
 }  // namespace sslcd

@@ -13,45 +13,45 @@
 
 namespace sslcd {
 
-/// What is to be made from the images of a recorded sequence.
+/// The parts to make from the images of a recorded sequence.
 struct ImageRequest {
-  bool odometry = false;    ///< poses, by StereoOdometry
-  bool detections = false;  ///< by VisionOptions::detector, or from `boxes`
+  bool odometry = false;    ///< make poses by StereoOdometry
+  bool detections = false;  ///< make detections by VisionOptions::detector or from `boxes`
   std::string boxes;        ///< file of 2D boxes (ReadBoxes) instead of a detector
-  bool alignment = false;   ///< images of different passes are aligned (LoopViewOptions::enabled)
+  bool alignment = false;   ///< align images of different passes (LoopViewOptions::enabled)
 };
 
-/// Whether 2D boxes are lifted by stereo; 3D detectors bring the depth themselves. Throws Error
-/// where the detector's description cannot be read.
+/// Whether 2D boxes are lifted by stereo; 3D detectors measure the depth themselves. Throws Error
+/// if the detector's description cannot be read.
 bool LiftsBoxes(const ImageRequest& request, const VisionOptions& vision);
 
-/// Whether odometry or cuboids are measured by disparities.
+/// Whether odometry or cuboids come from disparities.
 bool MeasuresByStereo(const ImageRequest& request, const VisionOptions& vision);
 
-/// MakeStereoCamera of a dataset that has both cameras; errors name it.
+/// MakeStereoCamera for a dataset with both cameras. Errors contain the name of the dataset.
 StereoCamera StereoCameraOf(const Dataset& dataset);
 
-/// Looks at the images before the run, for AdaptTo: how well they are rectified, and where their
-/// ground should be aligned. Where something is measured by stereo, the right camera of `dataset`
-/// gets the principal point that CheckRig finds.
+/// Examines the images before the run, for AdaptTo: the quality of their rectification and the
+/// range at which to align their ground. If odometry or cuboids come from disparities, it also sets
+/// the principal point of the right camera of `dataset` to the result of CheckRig.
 ImageSource InspectImages(const ImageRequest& request, const VisionOptions& vision,
                           const StereoFiles& files, Dataset& dataset);
 
-/// What ImageFrontend needs to make what is asked for. Takes the frames out of `dataset`. Throws
-/// Error(kBadInput) where that lacks a camera, or the file of boxes is bad; a warning counts boxes
-/// of frames that are not there.
+/// Makes the input of ImageFrontend for a request. Takes the frames out of `dataset`. Throws
+/// Error(kBadInput) if the dataset lacks a camera or the file of boxes is malformed. Warns about
+/// boxes of frames that do not exist.
 ImageSequence MakeImageSequence(const ImageRequest& request, Dataset& dataset);
 
-/// MakeGroundAligner for a dataset, with its cameras as they are now. Where nothing else is
-/// measured by stereo, it checks the rig itself. None where nothing can be aligned: no second
-/// camera, no pair of images, or not asked for; a warning says so where the cameras are no pair.
+/// MakeGroundAligner for a dataset with its current cameras. The aligner checks the rig itself if
+/// nothing else comes from disparities. Returns none if the request has no alignment or the dataset
+/// lacks a second camera or stereo images. Warns if the cameras are not a rectified pair.
 ViewAligner MakeGroundAligner(const ImageRequest& request, const Dataset& dataset,
                               const VisionOptions& vision, const StereoFiles& files,
                               GroundAlignerOptions options);
 
-/// The next frame. An error is thrown where it is the first frame's (`done` is 0) or spoils all of
-/// them (kNoSolution); else it is kept in `failure`, so that the results of the frames before are
-/// not lost: then, as at the end, there is none.
+/// Returns the next frame; none at the end. Throws the errors of the first frame (`done` is 0) and
+/// errors that concern all frames (kNoSolution). Stores any other error in `failure` and returns
+/// none, so that the results of the earlier frames are kept.
 std::optional<Frame> NextFrame(ImageFrontend& frontend, std::size_t done,
                                std::optional<Error>& failure);
 

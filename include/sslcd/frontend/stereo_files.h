@@ -16,14 +16,14 @@
 
 namespace sslcd {
 
-/// The stereo images of a recorded sequence. The library decodes no files: the host does.
+/// The stereo images of a recorded sequence. The host decodes the files, not the library.
 struct StereoFiles {
-  /// left and right image file of each frame, by Frame::index; empty: it has none
+  /// left and right image file of each frame, by Frame::index; empty: there is none
   std::vector<std::pair<std::string, std::string>> paths;
-  /// reads a file, in colour or grey as it is; an empty image where that fails. Called from several
-  /// threads at once where there are several.
+  /// reads a file, in colour or grey as stored; returns an empty image on failure. Several threads
+  /// may call it at the same time.
   std::function<Image(const std::string& path)> load;
-  /// true: read nothing more; none: never
+  /// returns true to stop reading; empty: never stops
   std::function<bool()> stop;
 
   bool stopped() const { return stop && stop(); }
@@ -31,33 +31,33 @@ struct StereoFiles {
   bool HasPairs() const;
 };
 
-/// The image paths of frames whose indices are their positions.
+/// Collects the image paths of frames whose index is their position.
 StereoFiles StereoFilesOf(const std::vector<Frame>& frames,
                           std::function<Image(const std::string&)> load,
                           std::function<bool()> stop = {});
 
-/// CheckRig on images from files; logs what it has found. Images that cannot be read, or have
-/// another size than the first pair, are left out. Ends early when `files` are stopped.
+/// CheckRig on images from files. Logs the result. Ignores images that cannot be read or differ in
+/// size from the first pair. Ends early if `files` are stopped.
 RigCheck CheckRig(const StereoFiles& files, const StereoCamera& camera,
                   const StereoOdometryOptions& options);
 
-/// AlignmentRange of the left camera, by the height of the first left image. None: no image can be
-/// read, or the camera sees no near ground. [m]
+/// AlignmentRange of the left camera [m], with the number of rows of the first left image. None: no
+/// image can be read, or the camera sees no near ground.
 std::optional<double> AlignmentRange(const StereoFiles& files, const Camera& left, double height_m);
 
-/// How a ground aligner works.
+/// Options of a ground aligner.
 struct GroundAlignerOptions {
-  /// find the disparity at infinity (CheckRig) when the first frames are to be aligned; needed
-  /// where nobody has done so before
+  /// estimate the disparity at infinity (CheckRig) at the first call; needed if nobody has done so
+  /// before
   bool check_rig = false;
-  int threads = 1;  ///< the answers do not depend on it
-  /// after each pair; one call at a time
+  int threads = 1;  ///< does not change the results
+  /// called after each pair, never twice at the same time
   std::function<void(int done, int total)> progress;
 };
 
-/// Aligns frames by the ground in their stereo images (AlignGround), which are read again from
-/// `files`; for MapperContext::view_aligner. One warning says what is wrong with images that cannot
-/// be used; the aligner throws nothing. It answers nothing more when `files` are stopped.
+/// Makes a MapperContext::view_aligner that aligns frames by the ground in their stereo images
+/// (AlignGround), which it reads from `files`. It never throws; it warns once about unusable
+/// images. It returns no further results when `files` are stopped.
 ViewAligner MakeGroundAligner(StereoFiles files, const StereoCamera& camera,
                               const VisionOptions& vision, GroundAlignerOptions options = {});
 

@@ -11,11 +11,10 @@
 
 namespace sslcd {
 
-/// What is known of the ground before an image is seen. The standard deviations also bound the
-/// search: no ground is found more than three of them away.
+/// The prior of the ground plane. The search covers three standard deviations.
 struct GroundOptions {
-  double height_m = 1.5, height_sigma_m = 0.3;  ///< of the camera above the ground
-  /// of the camera against the ground, each of roll and pitch
+  double height_m = 1.5, height_sigma_m = 0.3;  ///< height of the camera above the ground
+  /// standard deviation of each of roll and pitch of the camera relative to the ground
   double tilt_sigma_rad = 0.03;
 };
 void DescribeFields(FieldVisitor& visitor, GroundOptions& options);
@@ -23,25 +22,25 @@ void DescribeFields(FieldVisitor& visitor, GroundOptions& options);
 /// The plane `up . p + height = 0` in the left camera's frame.
 struct GroundPlane {
   Vec3 up{0, -1, 0};    ///< unit vector
-  double height_m = 0;  ///< of the camera above it
-  double support = 0;   ///< share of the pixels looked at that lie on it; 0: nothing but the prior
+  double height_m = 0;  ///< height of the camera above the plane
+  double support = 0;   ///< share of the examined pixels on the plane; 0: only the prior
   double HeightOf(const Vec3& point_cam) const { return up.dot(point_cam) + height_m; }
 };
 
-/// With less support than this a plane is hardly the ground. Streets and car parks had 0.5 to 0.95,
-/// from heights twice and three times the true one 0 to 0.3.
+/// Smallest support of a plane that is the ground. Streets and car parks had 0.5 to 0.95; searches
+/// from two or three times the true height had 0 to 0.3.
 inline constexpr double kGroundSupport = 0.3;
 
-/// The ground in front of the camera: a plane in disparity (d = -f b up.ray / height is linear in
-/// up / height), found by RANSAC in the lower part of the images outside of `objects`, then
-/// adjusted together with the prior. Where there is no evidence the prior is the answer. Throws
-/// Error(kBadInput) as CheckImages does.
+/// Estimates the ground in front of the camera as a plane in disparity (d = -f b up.ray / height is
+/// linear in up / height): RANSAC in the lower part of the images outside of `objects`, then an
+/// adjustment with the prior. Returns the prior if there is no evidence. Throws the errors of
+/// CheckImages.
 GroundPlane EstimateGround(const StereoView& images, const StereoCamera& camera,
                            const std::vector<Box2d>& objects, const GroundOptions& options);
 
-/// How high the camera stands where `options` may be far off: EstimateGround from heights of a
-/// quarter to four times `options.height_m`, the one with the largest support; none where that is
-/// less than kGroundSupport.
+/// Estimates the height of the camera if `options` may be wrong: runs EstimateGround with heights
+/// from a quarter to four times `options.height_m` and returns the result with the largest support.
+/// None: the support is less than kGroundSupport. [m]
 std::optional<double> FindGroundHeight(const StereoView& images, const StereoCamera& camera,
                                        const std::vector<Box2d>& objects,
                                        const GroundOptions& options);

@@ -11,12 +11,13 @@ namespace sslcd {
 struct InferenceOptions {
   enum class Provider { kCpu, kCuda };
 
-  /// Path of libonnxruntime.so. Empty: environment SSLCD_ORT_LIB, else the usual names and places.
+  /// Path of libonnxruntime.so. Empty: the environment variable SSLCD_ORT_LIB, otherwise the usual
+  /// names and places.
   std::string library;
-  /// kCuda falls back to the CPU, with a warning, where it is not there
+  /// kCuda falls back to the CPU with a warning if CUDA is missing
   Provider provider = Provider::kCpu;
   int device_id = 0;  ///< which GPU
-  int threads = 1;    ///< threads of one model; 1: only the one that calls
+  int threads = 1;    ///< threads of one model; 1: only the calling thread
 };
 void DescribeFields(FieldVisitor& visitor, InferenceOptions& options);
 

@@ -16,73 +16,69 @@
 namespace sslcd {
 
 struct StereoOdometryOptions {
-  /// image points followed, spread over the image; time grows with them
+  /// number of tracked points, spread over the image; the time grows with it
   int points = 400;
-  int window = 8;  ///< keyframes adjusted together, of which the oldest two are held fixed
-  /// CheckRig estimates the disparity at infinity; StereoOdometry takes the camera as it is
+  int window = 8;  ///< keyframes of the bundle adjustment; the oldest two are fixed
+  /// CheckRig estimates the disparity at infinity; StereoOdometry never does
   bool calibrate = true;
 };
 void DescribeFields(FieldVisitor& visitor, StereoOdometryOptions& options);
 
-/// What a mapper should take such odometry's noise for: that of real images, or as much less, in
-/// headings down to a fifth, as `row_error_rad` (RowError over the focal length in px) tells that
-/// calibration is nearer to ideal. None: not known, taken for real ones. Figures: docs/notes,
-/// "Which noise?".
+/// The noise of stereo odometry for a mapper: the noise of real images, or less for a better
+/// calibration, in headings down to a fifth. `row_error_rad` is RowError divided by the focal
+/// length in px; none: real images. Figures: docs/notes, "Which noise?".
 OdometryNoise StereoOdometryNoise(std::optional<double> row_error_rad = std::nullopt);
 
-/// How a frame got its pose.
+/// The source of a frame's pose.
 enum class OdometryStatus {
-  kFirst,    ///< it is the first one, the origin
+  kFirst,    ///< the first frame, at the origin
   kTracked,  ///< measured
-  kLost,     ///< guessed: the last step is taken once more
+  kLost,     ///< guessed by repeating the last step
 };
 const char* ToString(OdometryStatus status);
 
 /// One frame of the odometry.
 struct OdometryStep {
-  /// of the reference camera (see Camera::offset), in the axes that it had in the first frame
+  /// pose of the reference camera (see Camera::offset) in its frame at the first image
   Pose T_odom_cam;
   OdometryStatus status = OdometryStatus::kFirst;
-  const char* reason = "";  ///< why it is lost; empty: it is not
-  bool keyframe = false;    ///< new points were taken up here
-  /// points that fit the pose; of the first frame, and of one started anew, points found
+  const char* reason = "";  ///< why the frame is lost; empty: it is not
+  bool keyframe = false;    ///< the frame has added new points
+  /// points that fit the pose; points found in the first frame and after a restart
   int points = 0;
   /// Covariance of the step from the previous frame, of the right perturbation of
-  /// T_previous_current, [translation, rotation], in the current reference camera's axes; its
-  /// variances are twice too large where calibration is exact, and too small where it is not. Of a
-  /// step that was guessed, and of the one after it, which takes the error of the guess back, what
-  /// constant velocity may be off by. Zero for the first frame.
+  /// T_previous_current, [translation, rotation], in the current reference camera's axes; The
+  /// variances are twice too large with exact calibration, and too small otherwise. For a guessed
+  /// step, and for the step after it, which corrects the guess, it is the uncertainty of the
+  /// constant velocity. Zero for the first frame.
   Pose::Matrix6 covariance = Pose::Matrix6::Zero();
 };
 
-/// Stereo visual odometry: the path of the camera from rectified image pairs alone. Corners of the
-/// last keyframe are found again in each new left image (Lucas-Kanade), and from there in the right
-/// one; the pose that most of them agree on (P3P in RANSAC), refined over all that fit, whose
-/// patches are found to a fraction of a pixel as they must look from there; at keyframes, points
-/// and poses of a window adjusted together, each point by where it appears in all left and right
-/// images (bundle adjustment). After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011,
-/// and Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization,
-/// IJRR 2015 (without its inertial part).
-///
-/// Frames come at even intervals: what is guessed assumes that the camera moves on as it did. One
-/// object per sequence, not thread-safe; the same images give the same bytes for any number of
-/// OpenCV threads. A pose that has been returned is not revised.
+/// Stereo visual odometry from rectified image pairs. Tracks corners of the last keyframe into each
+/// new left image (Lucas-Kanade) and from there into the right one. Estimates the pose by P3P in
+/// RANSAC and refines it over the inliers, whose patches are aligned to a fraction of a pixel with
+/// the shape predicted from that pose. At keyframes it runs bundle adjustment of points and poses
+/// over a window. After Scaramuzza and Fraundorfer, Visual odometry: part I, RAM 2011, and
+/// Leutenegger et al., Keyframe-based visual-inertial odometry using nonlinear optimization, IJRR
+/// 2015 (without its inertial part).
+/// Frames must have equal time steps, since predictions assume a constant velocity. Use one object
+/// per sequence; it is not thread-safe. The same images give the same bytes for any number of
+/// OpenCV threads. It never revises a returned pose.
 class StereoOdometry {
  public:
-  /// Throws Error(kBadInput) on a camera without focal length or baseline.
+  /// Throws Error(kBadInput) if the camera has no focal length or baseline.
   StereoOdometry(const StereoCamera& camera, const StereoOdometryOptions& options);
   ~StereoOdometry();
 
-  /// Throws Error(kBadInput), and leaves everything as it was, where the images are no pair or have
-  /// not the size of the first one. Images in which there is nothing to see (black, no texture) are
-  /// no error: such a frame is lost.
+  /// Throws Error(kBadInput) and changes nothing if the images are not a pair or differ in size
+  /// from the first pair. A frame without texture (e.g. black) is not an error, but lost.
   OdometryStep AddFrame(const StereoView& images);
 
-  /// A frame whose images are missing: it is lost, and has a pose nevertheless.
+  /// Adds a frame whose images are missing. It is lost and gets a guessed pose.
   OdometryStep AddMissingFrame();
 
-  /// StereoCamera::disparity_at_infinity [px] that fits what the window of keyframes has seen best.
-  /// None: it is not full. CheckRig says how far to believe it.
+  /// The StereoCamera::disparity_at_infinity [px] that best fits the window of keyframes. None: the
+  /// window is not full. CheckRig estimates its uncertainty.
   std::optional<double> DisparityAtInfinity() const;
 
  private:
@@ -90,30 +86,30 @@ class StereoOdometry {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The left and right image of a frame. None: it has not both, or they are no pair.
+/// Loads the left and right image of a frame. None: one is missing, or they are not a pair.
 using PairLoader = std::function<std::optional<std::pair<Image, Image>>(std::size_t frame)>;
 
-/// How far off the calibration of a rectified pair is, as its images tell.
+/// The calibration error of a rectified pair, estimated from its images.
 struct RigCheck {
   std::optional<double> row_error;  ///< RowError [px]
-  /// of StereoCamera, what should be used instead of what it has [px]
+  /// the StereoCamera::disparity_at_infinity to use [px]
   double disparity_at_infinity = 0;
-  /// rows show that calibration is off, and no frames tell by how much columns are
+  /// rows show a calibration error, but no frames allow to estimate the error of the columns
   bool unsure = false;
 };
 
-/// Looks at pairs all over the sequence for their row error, and drives StereoOdometry through some
-/// eight bursts of frames, each until its window is full. In each the disparity at infinity is
-/// adjusted together with points and poses: a hundredth of a degree between the cameras, or 0.1 px,
-/// is 0.5 % of the distance of a point with 20 px, and of the way that an odometry by such points
-/// goes. Of KITTI's drives 09_30 and 10_03 it is -0.2 and -0.4 px.
-///
-/// The median of the bursts counts as much as it is surer, by their scatter, than calibration,
-/// which is taken to be as far off in columns as it is in rows (RowError). Where rows fit to 0.03
-/// px, or their error is not known, or what is found is less than a quarter of it, as a rolled
-/// right camera has it, or options.calibrate is off, it stays.
-///
-/// Throws Error(kBadInput) as StereoOdometry does.
+/// Measures the row error of pairs all over the sequence, and runs StereoOdometry on about eight
+/// bursts of frames, each until its window is full. Each burst estimates the disparity at infinity
+/// together with points and poses. A rotation of 0.01 degrees between the cameras shifts it by
+/// about 0.1 px, which changes the distance of a point with a disparity of 20 px by 0.5 %, and the
+/// scale of an odometry from such points by the same. It is -0.2 and -0.4 px on KITTI's drives
+/// 09_30 and 10_03.
+/// The result is a weighted mean of the calibrated value and the median of the bursts. The weights
+/// come from the scatter of the bursts and from RowError, since columns are assumed to have the
+/// same error as rows. The calibrated value stays if the row error is below 0.03 px or unknown, if
+/// the estimated change is less than a quarter of the row error (a rolled right camera causes such
+/// changes), or if options.calibrate is false.
+/// Throws the errors of StereoOdometry.
 RigCheck CheckRig(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                   const StereoOdometryOptions& options);
 
