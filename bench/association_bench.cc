@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Data association of one frame, with more and more far-away landmarks in the map: its cost must
-// not grow with the map.
+// Data association of one frame with a growing number of distant landmarks: the cost must not grow
+// with the map.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace sslcd {
 namespace {
 
-// Landmarks on a grid of 6 m, at least 1 km away from everything the camera sees.
+// Landmarks on a grid of 6 m, at least 1 km away from the camera's view.
 void AddBallast(ObjectMap& map, int count) {
   for (int i = 0; i < count; ++i) {
     MapLandmark landmark;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stereo lifting judged on a rendered sequence: lift_bench SEQUENCE BOXES CASE SEED [EVERY
 // [ROWS.csv]] SEQUENCE: `sslcd_sim halv --case CASE --seed SEED --render --render-truth`; BOXES:
-// scripts/instance_boxes.py or a detector's; every EVERYth frame. Each box is that object's whose
-// visible part it covers best; the truth is the world itself.
+// from scripts/instance_boxes.py or a detector; every EVERYth frame. A box belongs to the object
+// whose visible part it covers best. The truth comes from the world.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +38,7 @@ cv::Mat Read(const std::string& folder, const char* kind, int frame, int flags) 
   return image;
 }
 
-/// What is visible of each object, by WorldObject::id.
+/// The visible part of each object, by WorldObject::id.
 std::map<int, Box2d> VisibleBoxes(const cv::Mat& instances) {
   std::map<int, Box2d> boxes;
   for (int y = 0; y < instances.rows; ++y) {
@@ -54,7 +54,7 @@ std::map<int, Box2d> VisibleBoxes(const cv::Mat& instances) {
   return boxes;
 }
 
-/// The object that the box is of: the one whose visible box it covers best; -1: none of them.
+/// The object whose visible box the box covers best; -1: none.
 int IdentityOf(const std::map<int, Box2d>& visible, const Box2d& box) {
   int best = -1;
   double most = 0.5;
@@ -81,8 +81,8 @@ constexpr const char* kRowNames =
     "sigma_radial,"
     "sigma_lateral,sigma_yaw,box_left,box_top,box_right,box_bottom";
 
-/// One box, for scripts. view: where the camera stands in the object's true frame, from its front
-/// to its left [rad]; ahead, left: the error of the centre in that frame.
+/// One box as a CSV row. view: bearing of the camera in the object's true frame, from its front to
+/// its left [rad]; ahead, left: error of the centre in that frame.
 void WriteRow(std::FILE* rows, int frame, int identity, const LiftedBox& lifted, const Pose& truth,
               const Vec3& dims) {
   const bool known =
@@ -115,7 +115,7 @@ void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
   const auto median = [&](auto of) {
     return Quantile(judged, 0.5, [&](const Judged& j) { return std::abs(of(j)); });
   };
-  // a standard deviation, of what is no outlier
+  // standard deviation of the inliers
   const auto typical = [&](auto of) { return 1.48 * median(of); };
   double iou = 0;
   for (const Judged& j : judged) iou += j.iou / static_cast<double>(judged.size());
@@ -150,7 +150,7 @@ int Run(int argc, char** argv) {
   const Calibration calibration = ReadCalibration(folder + "/calib.txt");
   const StereoCamera camera = MakeStereoCamera(*calibration.left, *calibration.right);
   LiftOptions options;
-  options.ground.height_m = world.camera_height_m + 0.2;  // not quite known
+  options.ground.height_m = world.camera_height_m + 0.2;  // a wrong prior
 
   const std::vector<double> edges{0, 8, 12, 18, 25, 40, 80};
   std::vector<std::vector<Judged>> bins(edges.size() - 1);
@@ -169,7 +169,7 @@ int Run(int argc, char** argv) {
     const std::clock_t start = std::clock();
     const std::vector<LiftedBox> lifted =
         LiftBoxes({ViewOf(left), ViewOf(right)}, camera, list, options);
-    ms += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;  // of processor
+    ms += 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;  // processor time
     ++frames;
     const Pose T_cam_world = world.truth.poses[frame].inverse();
     for (std::size_t i = 0; i < list.size(); ++i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loop detection against the size of the map: how long its index takes to build, how long a search
-// as in a run takes (SearchPoses) and one that decides by itself (MatchLayouts, with the
-// mirror image), and how often the answer is right. Then whole attempts of a run whose map has that
-// many objects: the layouts, what has changed in them, the index that follows, the search.
+// Loop detection against the size of the map: times of building the index, of a search like in a
+// run (SearchPoses) and of a single decision (MatchLayouts, with the mirror image), and the share
+// of correct answers. Then complete attempts of a run with a map of that size: the layouts, their
+// changes, the update of the index and the search.
 //
 //   loop_bench [OBJECTS...]
 //
@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kQueries = 200;
 
-// Of CPU: what other programs take does not count.
+// CPU time, so that other programs do not count.
 double MsSince(std::clock_t start) {
   return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
@@ -39,8 +39,8 @@ LayoutObject ObjectAt(double x, double y, sim::Random& random) {
   return object;
 }
 
-// Objects per square metre: 0.0076, which puts 15 of them within 25 m. `streets`: on both kerbs of
-// streets that are 100 m apart, an object every 13 m or so of a kerb; else anywhere.
+// 0.0076 objects per square metre, which are 15 within 25 m. `streets`: on both kerbs of streets
+// that are 100 m apart, about one object per 13 m of kerb; otherwise anywhere.
 std::vector<LayoutObject> Map(int count, bool streets, sim::Random& random) {
   const double side = std::sqrt(count / 0.0076);
   std::vector<LayoutObject> map;
@@ -55,7 +55,7 @@ std::vector<LayoutObject> Map(int count, bool streets, sim::Random& random) {
   return map;
 }
 
-// The objects nearest to one of the map, as another pass has them.
+// The objects nearest to one of the map, observed on another pass.
 std::vector<LayoutObject> LocalMap(const std::vector<LayoutObject>& map, const YawShift& pose,
                                    sim::Random& random) {
   constexpr int kSeen = 15, kMissed = 4, kClutter = 3;
@@ -146,7 +146,7 @@ class Run {
   PassLayout Recent(double path_m) const {
     return passes_.Recent(state_, travelled() - path_m, kMinSightings);
   }
-  /// Since the last call.
+  /// Time since the last call.
   LayoutChanges ChangesBefore(double path_m) {
     return passes_.ChangesBefore(state_, travelled() - path_m, kMinSightings, mark_);
   }
@@ -178,7 +178,7 @@ class Run {
       passes_.AddFrame(state_, state_.frames.back().detections);
     }
     const int count = state_.frames.size();
-    for (int i = std::max(0, count - 4); i < count; ++i)  // the sliding window moves them
+    for (int i = std::max(0, count - 4); i < count; ++i)  // moved by the sliding window
       state_.frames.SetPose(i, state_.frames[i].T_world_cam);
   }
 
@@ -197,7 +197,8 @@ class Run {
 
 void MeasureAttempts(int count, bool streets) {
   constexpr int kAttempts = 60;
-  constexpr double kLocal = 75., kOld = 85.;  // how far back the two layouts end [m]
+  constexpr double kLocal = 75.,
+                   kOld = 85.;  // path from the ends of the two layouts to the newest frame [m]
   const LayoutMatchOptions options;
   PoseSearchOptions search = options.search;
   search.refine = PoseTrackOptions().max_tracks;

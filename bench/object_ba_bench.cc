@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bundle adjustment that follows a loop closure: a round course driven twice, 500 keyframes,
-// 200 objects, each seen in both laps, 10 sightings a keyframe. Started where a pose graph would
-// leave it: every keyframe some centimetres off.
+// 200 objects, each seen in both laps, 10 sightings per keyframe. It starts with errors of some
+// centimetres per keyframe, like after a pose graph.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stereo odometry: how far off, how fast. usage: odometry_bench FOLDER[:POSES] ...
-// A folder has calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (else
-// POSES is needed). Prints one row for each. Errors as KITTI's (eval/segment_error.h), over
-// sub-paths of all lengths of 10, 20, ... 100 m, 200, ... 800 m that begin at any frame, with the
-// disparity at infinity that CheckRig finds; the ATE after SE(3) alignment, and by how much the
-// path is too long; the steps' squared errors by their covariances (median and mean per degree of
-// freedom: .89 and 1 are right); times are those of AddFrame, reading the images left out: by the
-// clock, and of all processors together.
+// Errors and times of stereo odometry. usage: odometry_bench FOLDER[:POSES] ... A folder has
+// calib.txt, image_2 and image_3 (or image_l and image_r), and groundtruth.txt (otherwise name
+// POSES). Prints one row per folder: KITTI's errors (eval/segment_error.h) over sub-paths of 10,
+// 20, ... 100, 200, ... 800 m that start at any frame, with the disparity at infinity from
+// CheckRig; the ATE after SE(3) alignment, and the relative error of the path length; the squared
+// errors of the steps normalised by their covariances (median and mean per degree of freedom;
+// ideal: .89 and 1); wall and processor time of AddFrame without reading the images.
 #include <sys/resource.h>
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pose graphs: known minima, and loops of which many are false. usage: pose_graph_bench DATA_FOLDER
-// [OUT_FOLDER] Prints one row for each graph; with OUT_FOLDER the synthetic graphs are written
-// there for others to solve (pose_graph_gtsam.py runs this program and GTSAM on the same files).
+// Pose graphs with known minima and with many false loops. usage: pose_graph_bench DATA_FOLDER
+// [OUT_FOLDER]. Prints one row per graph. With OUT_FOLDER it writes the synthetic graphs there for
+// other solvers (pose_graph_gtsam.py runs this program and GTSAM on the same files).
 #include <chrono>
 #include <cstdio>
 #include <filesystem>

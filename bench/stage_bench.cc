@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How long each stage of a run takes: 500 keyframes, two and a half laps of 400 m round a block
-// with 200 cars and trees, sent frame by frame through a Mapper. Also how good the map is that the
-// host has then, before anything is refined at the end. usage: stage_bench [REPEATS [SEED]]; the
-// fastest of the repeats is printed.
+// Times of the stages of a run: 500 keyframes, two and a half laps of 400 m around a block with 200
+// cars and trees, frame by frame through a Mapper. Also the quality of the map before the final
+// refinement. usage: stage_bench [REPEATS [SEED]]; prints the fastest repeat.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -20,7 +19,7 @@
 namespace sslcd {
 namespace {
 
-// about 200 of them stand in sight and end up in the map
+// about 200 of them are visible and become landmarks
 constexpr int kKeyframes = 500, kObjects = 275;
 constexpr double kStep = 2.;  // from keyframe to keyframe [m]
 

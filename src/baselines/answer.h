@@ -11,22 +11,22 @@
 
 namespace sslcd::baselines {
 
-/// Index of a local object, index of the global object taken for it.
+/// Pairs of the index of a local object and the index of its match in the global map.
 using ObjectPairs = std::vector<std::pair<int, int>>;
 
-/// What a baseline says about two layouts.
+/// The answer of a baseline for two layouts.
 struct Answer {
-  ObjectPairs matches;    ///< those that agree with the pose, one to one, by ascending local object
-  YawShift pose;          ///< local to global
-  double score = 0;       ///< higher is surer; what it means differs between methods
-  bool accepted = false;  ///< by the method's own rule
+  ObjectPairs matches;    ///< inliers of the pose, one to one, sorted by local object
+  YawShift pose;          ///< T_global_local
+  double score = 0;       ///< higher is more certain; its meaning differs between methods
+  bool accepted = false;  ///< the decision of the method
 };
 
-/// None: no pose at all.
+/// None: no pose.
 using LayoutMatcher = std::function<std::optional<Answer>(const std::vector<LayoutObject>& local,
                                                           const std::vector<LayoutObject>& global)>;
 
-/// The hook by which a baseline takes the place of sslcd's own matching.
+/// Makes a PlaceMatcher of a baseline, which replaces sslcd's own matching.
 PlaceMatcher AsPlaceMatcher(LayoutMatcher matcher);
 
 }  // namespace sslcd::baselines

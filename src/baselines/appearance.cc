@@ -55,8 +55,8 @@ class Recogniser {
     return dataset;
   }
 
-  // From images all over the sequence; published systems bring a larger vocabulary that was learnt
-  // elsewhere.
+  // Trains on images of the whole sequence. Published systems have a larger vocabulary from other
+  // data.
   Vocabulary Train() {
     std::vector<std::vector<BinaryDescriptor>> images;
     const std::size_t step =
@@ -66,10 +66,9 @@ class Recogniser {
     return {images, options_.branching, options_.levels};
   }
 
-  // Old frames like these words, the most similar first, and of neighbours only that one (DBoW2's
-  // islands).
+  // Old frames by similarity of words; only the best one of neighbouring frames (DBoW2's islands).
   std::vector<int> Candidates(const WordVector& words) const {
-    std::vector<std::pair<double, int>> similar;  // best first, the earlier of equals
+    std::vector<std::pair<double, int>> similar;  // best first, on a tie the earlier one
     for (const auto& [frame, other] : old_) {
       const double similarity = Similarity(words, other);
       if (similarity >= options_.least_similarity) similar.push_back({-similarity, frame});
@@ -94,7 +93,7 @@ class Recogniser {
     return frame >= 0 && frame < static_cast<int>(dataset_.frames.size());
   }
 
-  // Computed once; a thousand features of each of some hundred images.
+  // Cache: about a thousand features of each of some hundred images.
   const ImageFeatures& FeaturesOf(int frame) {
     const auto known = features_.find(frame);
     if (known != features_.end()) return known->second;

@@ -9,7 +9,7 @@
 namespace sslcd::baselines {
 namespace {
 
-// Index of the nearest centre, the first of equals.
+// Index of the nearest centre; the first one on a tie.
 int Nearest(const BinaryDescriptor& descriptor, const std::vector<BinaryDescriptor>& centres) {
   int best = 0, least = std::numeric_limits<int>::max();
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -19,7 +19,7 @@ int Nearest(const BinaryDescriptor& descriptor, const std::vector<BinaryDescript
   return best;
 }
 
-// Each bit as most of them have it.
+// Majority vote of each bit.
 BinaryDescriptor Majority(const std::vector<const BinaryDescriptor*>& members) {
   BinaryDescriptor centre{};
   for (int bit = 0; bit < 256; ++bit) {
@@ -30,7 +30,7 @@ BinaryDescriptor Majority(const std::vector<const BinaryDescriptor*>& members) {
   return centre;
 }
 
-// Far from each other: each next centre is the member furthest from those before it.
+// Distant initial centres: each next one is the member farthest from the previous ones.
 std::vector<BinaryDescriptor> Seeds(const std::vector<const BinaryDescriptor*>& members,
                                     int count) {
   std::vector<BinaryDescriptor> seeds{*members[0]};
@@ -54,7 +54,7 @@ int HammingDistance(const BinaryDescriptor& a, const BinaryDescriptor& b) {
 }
 
 double Similarity(const WordVector& v, const WordVector& w) {
-  double common = 0;  // |v - w| = 2 - 2 sum of the smaller ones, for both add up to one
+  double common = 0;  // |v - w| = 2 - 2 sum of the smaller weights, since both sum to one
   for (const auto& [word, weight] : v) {
     const auto other = w.find(word);
     if (other != w.end()) common += std::min(weight, other->second);
@@ -124,7 +124,7 @@ WordVector Vocabulary::Words(const std::vector<BinaryDescriptor>& image) const {
   double sum = 0;
   for (const BinaryDescriptor& descriptor : image) {
     const int word = WordOf(descriptor);
-    if (!(weight_[word] > 0)) continue;  // in every image: says nothing
+    if (!(weight_[word] > 0)) continue;  // a word of every image has no weight
     words[word] += weight_[word];
     sum += weight_[word];
   }

@@ -11,21 +11,21 @@ namespace sslcd::baselines {
 /// 256 bits, e.g. of ORB or BRIEF.
 using BinaryDescriptor = std::array<std::uint64_t, 4>;
 
-/// How many bits differ.
+/// Hamming distance.
 int HammingDistance(const BinaryDescriptor& a, const BinaryDescriptor& b);
 
-/// Words of an image with their tf-idf weights, which add up to one.
+/// The words of an image with tf-idf weights, which sum to one.
 using WordVector = std::map<int, double>;
 
 /// 1 - |v - w|_1 / 2: 0 for images without a common word, 1 for equal ones (Galvez-Lopez and
 /// Tardos, Eq. 2).
 double Similarity(const WordVector& v, const WordVector& w);
 
-/// A tree of words: k-means with majority votes of bits, level by level. Deterministic.
+/// A vocabulary tree: k-means with majority votes of bits, level by level. Deterministic.
 class Vocabulary {
  public:
-  /// Descriptors of several images. Leaves are the words; inverse document frequencies are those of
-  /// these images.
+  /// Builds the tree from the descriptors of several images. Its leaves are the words. These images
+  /// also give the inverse document frequencies.
   Vocabulary(const std::vector<std::vector<BinaryDescriptor>>& images, int branching, int levels);
 
   WordVector Words(const std::vector<BinaryDescriptor>& image) const;
@@ -42,7 +42,7 @@ class Vocabulary {
   int WordOf(const BinaryDescriptor& descriptor) const;
 
   std::vector<Node> nodes_;
-  std::vector<double> weight_;  // of each word
+  std::vector<double> weight_;  // by word
 };
 
 }  // namespace sslcd::baselines

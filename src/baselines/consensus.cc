@@ -12,7 +12,7 @@ namespace {
 
 using Objects = std::vector<LayoutObject>;
 
-constexpr int kRounds = 5;  // of least squares; in most cases the matches settle after two
+constexpr int kRounds = 5;  // of least squares; in most cases two are enough
 
 ObjectPairs Agreeing(const Objects& local, const Objects& global, const ObjectPairs& pairs,
                      const YawShift& pose, double inlier_m) {
@@ -75,8 +75,8 @@ std::optional<Answer> LargestConsensus(const Objects& local, const Objects& glob
     const auto& [other_l, other_g] = pairs[random() % pairs.size()];
     const double local_m = (local[l].position - local[other_l].position).head<2>().norm();
     const double global_m = (global[g].position - global[other_g].position).head<2>().norm();
-    // Two that are close to each other do not tell the heading, and a pose does not change
-    // distances.
+    // Two close matches do not determine the heading. Consistent matches have equal distances in
+    // both maps.
     if (!(std::min(local_m, global_m) > options.inlier_m) ||
         !(std::abs(local_m - global_m) <= 2 * options.inlier_m))
       continue;

@@ -12,22 +12,21 @@
 
 namespace sslcd::baselines {
 
-/// The columns with the largest entries of each row, at most `candidates` of them, none below
-/// `least` and none <= 0. Of equal ones the first.
+/// Selects up to `candidates` columns with the largest entries per row, which must be >= `least`
+/// and > 0. On a tie the first column wins.
 ObjectPairs BestPairs(const Eigen::MatrixXd& similarity, double least, int candidates);
 
-/// RANSAC (Fischler and Bolles 1981) over matches of which many are wrong.
+/// Options of RANSAC (Fischler and Bolles 1981) over matches.
 struct ConsensusOptions {
-  int samples = 1000;     ///< poses tried, each from two matches drawn at random
-  double inlier_m = 1;    ///< matches that agree with a pose are at most this far apart under it
-  int least_inliers = 5;  ///< fewer are no pose
+  int samples = 1000;     ///< number of poses, each from two random matches
+  double inlier_m = 1;    ///< largest distance of an inlier
+  int least_inliers = 5;  ///< smallest number of inliers of a pose
 };
 void DescribeFields(FieldVisitor& visitor, ConsensusOptions& options);
 
-/// The pose that most pairs agree with, and these: one to one, nearest first. Then least squares
-/// over them. A pose is a turn about the vertical and a shift, since gravity is known; two pairs
-/// fix it. The score is the number of matches; where they are fewer than `least_inliers` there is
-/// no answer.
+/// Estimates the pose with most inliers (one to one, nearest first), followed by least squares. A
+/// pose is a yaw and a shift, since gravity is known; two pairs determine it. The score is the
+/// number of matches. None: fewer than `least_inliers` matches.
 std::optional<Answer> LargestConsensus(const std::vector<LayoutObject>& local,
                                        const std::vector<LayoutObject>& global,
                                        const ObjectPairs& pairs, const ConsensusOptions& options,

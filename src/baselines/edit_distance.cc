@@ -14,7 +14,7 @@ bool Adjacent(const LabelGraph& graph, int a, int b) {
   return std::binary_search(graph.neighbours[a].begin(), graph.neighbours[a].end(), b);
 }
 
-// Vertices and edges of the graph of these vertices and their neighbours.
+// Number of vertices and edges of the graph of these vertices and their neighbours.
 int SizeAround(const LabelGraph& graph, const std::vector<int>& vertices) {
   std::set<int> around(vertices.begin(), vertices.end());
   for (const int vertex : vertices)
@@ -38,7 +38,7 @@ std::vector<Spoke> SpokesOf(const std::vector<LayoutObject>& objects, const Labe
 
 double StarEditDistance(const std::vector<Spoke>& a, const std::vector<Spoke>& b,
                         double edge_tolerance_m) {
-  // What keeping a spoke saves over removing and adding it.
+  // Saving of keeping a spoke instead of removing and adding it.
   Eigen::MatrixXd saved = Eigen::MatrixXd::Zero(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {

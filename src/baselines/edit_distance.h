@@ -8,8 +8,7 @@
 
 namespace sslcd::baselines {
 
-/// A neighbour as seen from an object: what it is, and how far away. Together they are the object's
-/// neighbourhood.
+/// A neighbour of an object: its label and distance. All neighbours are the object's neighbourhood.
 struct Spoke {
   int label = 0;
   double length_m = 0;
@@ -17,21 +16,21 @@ struct Spoke {
 std::vector<Spoke> SpokesOf(const std::vector<LayoutObject>& objects, const LabelGraph& graph,
                             int vertex);
 
-/// The cheapest way from one neighbourhood to the other, found by assignment (Riesen and Bunke
-/// 2009, exact for stars). To add or remove a spoke costs 1. To keep one costs 0, and where lengths
-/// count (`edge_tolerance_m` > 0) up to 2, which is reached where they differ by that much. Spokes
-/// of different labels are not kept.
+/// The edit distance of two neighbourhoods by assignment (Riesen and Bunke 2009, exact for stars).
+/// Adding or removing a spoke costs 1. Keeping a spoke of the same label costs 0, or with
+/// `edge_tolerance_m` > 0 up to 2 in proportion to the difference of the lengths; it reaches 2 at
+/// the tolerance.
 double StarEditDistance(const std::vector<Spoke>& a, const std::vector<Spoke>& b,
                         double edge_tolerance_m);
 
-/// 1 - distance / (number of spokes of both), in [0, 1]; 0 where neither has any.
+/// 1 - distance / (number of spokes of both), in [0, 1]; 0 if both have none.
 double StarSimilarity(const std::vector<Spoke>& a, const std::vector<Spoke>& b,
                       double edge_tolerance_m);
 
-/// The graphs round a match are each that of the matched vertices and their neighbours. 1 - edit
+/// The graph around a match consists of the matched vertices and their neighbours. 1 - edit
 /// distance / size of the smaller one = (matched vertices + edges between them that both have) /
-/// (vertices + edges of the smaller one), in [0, 1]. What only the larger has costs nothing, and
-/// what lies further away does not count, since maps overlap in part. Matches are one to one.
+/// (vertices + edges of the smaller one), in [0, 1]. Additional parts of the larger graph and more
+/// distant parts cost nothing, since maps overlap only partially. Matches are one to one.
 double GraphSimilarity(const LabelGraph& local, const LabelGraph& global,
                        const ObjectPairs& matches);
 

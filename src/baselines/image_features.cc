@@ -20,8 +20,7 @@ cv::Mat Read(const std::string& path) {
   return image;
 }
 
-// By how much each feature of the left image lies further left in the right one; none: not seen
-// there for sure.
+// The disparity of each feature of the left image; none: not found in the right one.
 std::vector<std::optional<double>> Disparities(const cv::Mat& left, const cv::Mat& right,
                                                const std::vector<cv::Point2f>& pixels) {
   constexpr float kBackPx = 0.5f, kRowPx = 1.f, kLeastPx = 0.5f;

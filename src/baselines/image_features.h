@@ -14,22 +14,22 @@ namespace sslcd::baselines {
 /// ORB features of a rectified stereo pair.
 struct ImageFeatures {
   std::vector<Vec2> pixels;                   ///< in the left image
-  std::vector<BinaryDescriptor> descriptors;  ///< in step
-  /// in the left camera, where the right image has the feature, too [m]
+  std::vector<BinaryDescriptor> descriptors;  ///< in the same order
+  /// position in the left camera, if the right image also has the feature [m]
   std::vector<std::optional<Vec3>> points;
 };
 
-/// Upright features: cameras are not rolled, and descriptors that need not turn tell more apart
-/// (BRIEF, Calonder et al. 2010, which VINS-Fusion uses). Depth by tracking each from left to right
-/// and back (Lucas and Kanade, as in VINS-Fusion), to a fraction of a pixel. Throws
-/// Error(kBadInput) on an image that cannot be read, or a pair of different sizes.
+/// Detects upright features: cameras do not roll, and descriptors without rotation are more
+/// distinctive (BRIEF, Calonder et al. 2010, used by VINS-Fusion). Their depth comes from tracking
+/// from left to right and back (Lucas and Kanade, as in VINS-Fusion), to a fraction of a pixel.
+/// Throws Error(kBadInput) if an image cannot be read or the sizes differ.
 ImageFeatures ExtractFeatures(const std::string& left, const std::string& right,
                               const StereoCamera& stereo, const AppearanceOptions& options);
 
-/// Where the camera of `query` stands in that of `old`, and how many points agree. None: too few
-/// matches, or no pose. Matches are each other's nearest; a pose by RANSAC; then, as ORB-SLAM's
-/// loop closing does, all points of `old` are searched for where that pose has them, which finds
-/// several times as many.
+/// Estimates the pose of the camera of `query` in the camera of `old` and counts the inliers. Takes
+/// mutual nearest neighbours and a pose by RANSAC. Then it searches all points of `old` at their
+/// predicted pixels, like ORB-SLAM's loop closing, which gives several times as many matches. None:
+/// too few matches, or no pose.
 struct ImagePose {
   Pose T_old_query;
   int inliers = 0;

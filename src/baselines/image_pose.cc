@@ -9,7 +9,7 @@
 namespace sslcd::baselines {
 namespace {
 
-constexpr std::size_t kLeast = 6;  // matches for a pose at all
+constexpr std::size_t kLeast = 6;  // smallest number of matches of a pose
 
 struct Pair {
   int old = -1, query = -1, distance = 0;
@@ -20,8 +20,8 @@ cv::Mat AsMat(const std::vector<BinaryDescriptor>& descriptors) {
           const_cast<BinaryDescriptor*>(descriptors.data())};
 }
 
-// Old features with a point, and those of the query: each the other's nearest, and nearer than the
-// second nearest.
+// Mutual nearest neighbours of old features with a point and features of the query that pass the
+// ratio test.
 std::vector<Pair> Match(const ImageFeatures& query, const ImageFeatures& old,
                         const AppearanceOptions& options) {
   if (query.descriptors.empty() || old.descriptors.empty()) return {};
@@ -44,7 +44,7 @@ std::vector<Pair> Match(const ImageFeatures& query, const ImageFeatures& old,
   return pairs;
 }
 
-// A pose in OpenCV's terms: of points of the old camera in the query's.
+// A pose in OpenCV's convention: T_query_old.
 class Resection {
  public:
   Resection(const ImageFeatures& query, const ImageFeatures& old, const Camera& camera,
@@ -67,8 +67,8 @@ class Resection {
     return Refine();
   }
 
-  // Old points where the pose has them in the query's image: the most similar feature around, each
-  // taken once.
+  // Matches old points with the most similar feature around their prediction in the query's image,
+  // one to one.
   std::vector<Pair> Search() const {
     const Pose T_query_old = T_old_query().inverse();
     std::map<int, Pair> of_query;
@@ -93,7 +93,7 @@ class Resection {
     return pairs;
   }
 
-  // From where the pose is; only what agrees with it counts.
+  // Refines the pose over its inliers.
   bool Improve(const std::vector<Pair>& pairs) {
     Take(pairs);
     return Refine();
@@ -146,7 +146,7 @@ class Resection {
   const AppearanceOptions& options_;
   cv::Matx33d K_;
   Camera camera_;
-  std::vector<cv::Point3d> points_;  // of the matches at hand
+  std::vector<cv::Point3d> points_;  // points of the current matches
   std::vector<cv::Point2d> pixels_;
   cv::Mat rotation_, translation_;
 };

@@ -13,7 +13,7 @@ int Total(const LabelWalks& walks) {
   return total;
 }
 
-// Sum of `combine`(count in a, count in b) over what both have.
+// Sum of `combine`(count in a, count in b) over the common entries.
 template <class Combine>
 double SumCommon(const LabelWalks& a, const LabelWalks& b, Combine combine) {
   double sum = 0;

@@ -10,8 +10,8 @@
 
 namespace sslcd::baselines {
 
-/// Objects as the graph that all of these methods start from: a vertex per object, of which only
-/// the label counts, and an edge between any two that are at most `edge_m` apart.
+/// The object graph of these methods: a vertex with a label per object, and an edge between any two
+/// that are at most `edge_m` apart.
 struct LabelGraph {
   std::vector<int> labels;
   std::vector<std::vector<int>> neighbours;  ///< of each vertex, ascending
@@ -19,7 +19,7 @@ struct LabelGraph {
 /// An object whose position is not finite has no neighbours. O(n^2).
 LabelGraph MakeLabelGraph(const std::vector<LayoutObject>& objects, double edge_m);
 
-/// The labels along walks from one vertex, itself first, and how many walks have read them.
+/// Counts of the label sequences of walks from one vertex; a sequence starts with the vertex.
 using LabelWalks = std::map<std::vector<int>, int>;
 
 struct RandomWalkOptions {
@@ -28,20 +28,20 @@ struct RandomWalkOptions {
 };
 void DescribeFields(FieldVisitor& visitor, RandomWalkOptions& options);
 
-/// Random walks from each vertex; every neighbour is as likely as the others, the one just left
-/// too. Where there is none, the walk stays.
+/// Random walks from each vertex. All neighbours are equally likely, including the previous vertex.
+/// A vertex without neighbours keeps the walk.
 std::vector<LabelWalks> RandomWalks(const LabelGraph& graph, const RandomWalkOptions& options,
                                     std::mt19937_64& random);
 
-/// All walks of `steps` steps from each vertex, in place of a sample. A vertex without neighbours
-/// has none. Memory and time grow with degree^steps.
+/// All walks of `steps` steps from each vertex instead of a sample. A vertex without neighbours has
+/// none. Memory and time grow with degree^steps.
 std::vector<LabelWalks> AllWalks(const LabelGraph& graph, int steps);
 
-/// The share of walks that two vertices have in common, in [0, 1]: sum of min(count) over the
-/// larger number of walks.
+/// The share of common walks of two vertices, in [0, 1]: sum of min(count) divided by the larger
+/// number of walks.
 double CommonShare(const LabelWalks& a, const LabelWalks& b);
 
-/// Cosine of the angle between two vectors of counts, in [0, 1]; 0 where one is empty.
+/// Cosine of the angle between two vectors of counts, in [0, 1]; 0 if one is empty.
 double Cosine(const LabelWalks& a, const LabelWalks& b);
 
 }  // namespace sslcd::baselines

@@ -9,7 +9,7 @@
 
 namespace sslcd::baselines {
 
-/// All that config/baselines.yaml holds.
+/// All options of config/baselines.yaml.
 struct BaselineOptions {
   LinOptions lin;
   XViewOptions x_view;

@@ -9,7 +9,7 @@
 namespace sslcd::baselines {
 namespace {
 
-// Of two images.
+// The point matches of two images.
 struct Sum {
   int matches = 0;
   double confidence = 0;

@@ -13,16 +13,16 @@ namespace sslcd::baselines {
 /// mean confidence of the point matches of two images, 0 where there are fewer than five.
 struct PointMatchOptions {
   int least_matches = 5;
-  double accept_score = 0.5;  ///< not published: the paper sweeps it
+  double accept_score = 0.5;  ///< not published; the paper varies it
 };
 void DescribeFields(FieldVisitor& visitor, PointMatchOptions& options);
 
-/// `file`: a row for each point match, "query_frame match_frame confidence", frames by number,
-/// confidence in [0, 1], any order, '#' begins a comment. The answer is the old frame with the
-/// highest score (the earliest of equals), taken to be where the camera stands: point matches alone
-/// fix no metric pose. Frames the global map does not know are passed over. Throws Error(kBadInput)
-/// with file:line: unreadable, a wrong number of columns, frames that are negative or no whole
-/// numbers, a match frame that is not before its query, a confidence outside [0, 1].
+/// `file` has a row "query_frame match_frame confidence" per point match, in any order, with frame
+/// numbers and a confidence in [0, 1]; '#' starts a comment. The answer is the old frame with the
+/// highest score (the earliest on a tie) with an identity pose, since point matches alone determine
+/// no metric pose. Ignores frames that the global map lacks. Throws Error(kBadInput) with file:line
+/// for an unreadable file, a wrong number of columns, malformed or negative frame numbers, a match
+/// frame that is not before its query, and a confidence outside [0, 1].
 PlaceMatcher PointMatchMatcher(const std::string& file, const PointMatchOptions& options);
 
 }  // namespace sslcd::baselines

@@ -8,10 +8,10 @@
 
 namespace sslcd::benchmark {
 
-/// ATE after Sim(3) of a trajectory that another system has written (TUM rows, or VINS-Fusion's
-/// csv), paired by stamp with the true one. Throws Error(kBadInput): no such file, rows without
-/// stamps (KITTI's), or fewer than nine of ten true poses have one of the estimate within 10 ms: a
-/// system that was lost for longer has no comparable error.
+/// ATE after Sim(3) of another system's trajectory (TUM rows, or VINS-Fusion's csv), paired by
+/// stamp with the true one. Throws Error(kBadInput) if the file is missing, if rows have no stamps
+/// (KITTI's), or if fewer than nine of ten true poses have an estimate within 10 ms: the error of a
+/// system that was lost for longer is not comparable.
 ErrorStats ForeignAte(const std::string& file, const Trajectory& truth);
 
 }  // namespace sslcd::benchmark

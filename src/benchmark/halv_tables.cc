@@ -38,7 +38,7 @@ bool InBin(double viewpoint_rad, int bin) {
 
 std::string BinName(int bin) { return bin == kAllBins ? "all" : kViewpointBinNames[bin]; }
 
-// Was a keyframe recognised by a loop that was accepted, and rightly?
+// Whether an accepted and correct loop recognised the keyframe.
 bool Recognised(const Revisit& revisit, const std::vector<LoopOutcome>& loops) {
   const double near = RevisitOptions().spacing_m;
   return std::any_of(loops.begin(), loops.end(), [&](const LoopOutcome& loop) {
@@ -48,7 +48,7 @@ bool Recognised(const Revisit& revisit, const std::vector<LoopOutcome>& loops) {
 
 struct Counts {
   int revisits = 0, recognised = 0, loops = 0, wrong = 0, off_1m = 0;
-  std::vector<double> errors_m, errors_rad;  // of loops that are right
+  std::vector<double> errors_m, errors_rad;  // errors of correct loops
 };
 
 Counts CountBin(const std::vector<TrialResult>& results, int bin) {

@@ -9,7 +9,7 @@
 
 namespace sslcd::benchmark {
 
-/// All trials of one method, and what came of them, in step.
+/// All trials of one method and their results, in the same order.
 struct MethodResults {
   Method method;
   std::vector<Trial> trials;
@@ -20,31 +20,30 @@ struct MethodResults {
 /// deviation and largest error; the paper's own rows, measured on its own data, below.
 Table AteTable(const std::vector<MethodResults>& methods);
 
-/// What became of the keyframes that should be recognised, per viewpoint bin: recall with Wilson
-/// intervals, wrong loops (off by more than 5 m), the errors of the others. Only what the method
-/// accepted counts.
+/// Recognition of revisiting keyframes per viewpoint bin: recall with Wilson intervals, wrong loops
+/// (error above 5 m) and the errors of the other loops. Only accepted loops count.
 Table AttemptsTable(const MethodResults& method, const std::string& key, const std::string& title);
 
-/// Every loop that was accepted, a row each: the paper's figure of distance and rotation errors.
+/// All accepted loops, one row each: the paper's figure of distance and rotation errors.
 Table LoopTable(const std::vector<MethodResults>& methods);
 
-/// Average precision, per viewpoint bin as well, and recall without a wrong answer; from all
-/// answers, by their score.
+/// Average precision, also per viewpoint bin, and recall at full precision, from all answers by
+/// score.
 Table PrecisionRecallTable(const std::vector<MethodResults>& methods);
 
 /// The curves, with Wilson intervals.
 Table PrecisionRecallCurves(const std::vector<MethodResults>& methods);
 
 /// Recall of what each method accepted in bins of 15 degrees of viewpoint change, with Wilson
-/// intervals; bins without a keyframe are left out. A row a bin, a column a method; all methods
-/// have run on the same worlds.
+/// intervals; bins without a keyframe are left out. One row per bin, one column per method. All
+/// methods must have run on the same worlds.
 Table ViewpointTable(const std::vector<MethodResults>& methods, const std::string& key);
 
 /// The same with a row for each method and bin, `key`_curves.
 Table ViewpointCurves(const std::vector<MethodResults>& methods, const std::string& key);
 
-/// The paper's Table III: times of the stages, the median over runs of p50 and p95, and the largest
-/// of all.
+/// The paper's Table III: times of the stages, with the median over runs of p50 and p95, and the
+/// maximum of all.
 Table StageTable(const std::vector<TrialResult>& results);
 
 /// ATE, recall and wrong loops of sslcd and of its variants.

@@ -12,7 +12,7 @@
 namespace sslcd::benchmark {
 namespace {
 
-// What is asked of a single look at two layouts, without memory of earlier ones.
+// Matches two layouts without tracks of earlier attempts.
 std::optional<PlaceAnswer> OneLook(const PlaceQuery& query) {
   const LayoutAnswer found = MatchLayouts(query.local, query.global, Options().loop.match);
   if (found.hypotheses.empty()) return std::nullopt;
@@ -23,7 +23,7 @@ std::optional<PlaceAnswer> OneLook(const PlaceQuery& query) {
   return answer;
 }
 
-// The paper's two stages; the score is the sum of the similarities. It takes every match it finds.
+// The paper's two stages. The score is the sum of the similarities. It accepts every match.
 std::optional<PlaceAnswer> PaperStages(const PlaceQuery& query) {
   const auto matches = PaperMatch(query.local, query.global, Options().loop.paper);
   if (!matches) return std::nullopt;

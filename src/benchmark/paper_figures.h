@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the paper prints, for comparison. Measured on its own recordings and machine.
+// The figures of the paper, measured on its own recordings and machine.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ inline constexpr std::array<PaperAteRow, 6> kPaperAte{{
        {0.161, 0.069, 0.303}}}},
 }};
 
-/// Table III, by the names of our stages. [ms]
+/// Table III, by the names of sslcd's stages. [ms]
 struct PaperTime {
   std::string_view stage;
   double ms;
@@ -55,7 +55,7 @@ inline constexpr std::array<PaperTime, 4> kPaperTimes{{{"data association", 35.2
                                                        {"loop detection", 1.8},
                                                        {"drift correction", 48.4}}};
 
-/// Table I: mean 3D IoU on KITTI tracking sequences, which are given by number.
+/// Table I: mean 3D IoU on KITTI tracking sequences by number.
 struct PaperIou {
   std::string_view sequence;
   double cubeslam, visualdet3d, paper;

@@ -62,7 +62,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
                                                   const ResultFolder& folder, int threads,
                                                   const TrialHooks& hooks) {
   std::vector<TrialResult> results(trials.size());
-  std::vector<std::vector<std::size_t>> missing;  // by world, which is made once
+  std::vector<std::vector<std::size_t>> missing;  // by world, so that each world is made once
   std::map<std::string, std::size_t> worlds;
   int done = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -87,7 +87,7 @@ std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& tria
       try {
         results[i] = RunTrial(trials[i], *sequence);
         folder.Put(trials[i], results[i]);
-      } catch (...) {  // others need not end their worlds
+      } catch (...) {  // stops the other threads after their trial
         stopped = true;
         throw;
       }

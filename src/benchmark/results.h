@@ -10,17 +10,17 @@
 
 namespace sslcd::benchmark {
 
-/// A folder with the results of trials, each in a file of its own, so that a benchmark that was
-/// interrupted goes on where it stopped. Results of different versions of the code are never mixed.
+/// A folder with one result file per trial, so that an interrupted benchmark can continue. It never
+/// mixes results of different versions of the code.
 class ResultFolder {
  public:
-  /// Made if need be. Throws Error: kUsage where the folder holds results of another `commit` or
-  /// with other parameters of the baselines, kOutput where it cannot be written.
+  /// Creates the folder if necessary. Throws Error(kUsage) if it has results of another `commit` or
+  /// of other parameters of the baselines, and Error(kOutput) if it cannot be written.
   ResultFolder(std::string path, const std::string& commit, const std::string& baselines_yaml = "");
 
   const std::string& path() const { return path_; }
 
-  /// None: not there yet. Throws Error(kBadInput) on a file that is damaged.
+  /// None: not measured yet. Throws Error(kBadInput) if the file is damaged.
   std::optional<TrialResult> Find(const Trial& trial) const;
   void Put(const Trial& trial, const TrialResult& result) const;
 
@@ -30,14 +30,15 @@ class ResultFolder {
 };
 
 struct TrialHooks {
-  std::function<void(int done, int total)> progress;  ///< from any thread, one call at a time
-  /// true: finish what has begun; ask from any thread
+  /// called from any thread, never twice at the same time
+  std::function<void(int done, int total)> progress;
+  /// returns true to stop after the running trials; called from any thread
   std::function<bool()> stop;
 };
 
-/// Results of all trials, in step; those that are in the folder are not run again, but
-/// Method::from_files. On `threads` threads, with the same results for any number of them. None
-/// where `stop` ended it early. The first exception of a trial ends it, too.
+/// Runs the trials on `threads` threads and returns their results in the same order; the number of
+/// threads does not change them. Reuses results of the folder, except those of methods with
+/// from_files. None: `stop` ended it early. The first exception of a trial also ends it.
 std::optional<std::vector<TrialResult>> RunTrials(const std::vector<Trial>& trials,
                                                   const ResultFolder& folder, int threads,
                                                   const TrialHooks& hooks = {});

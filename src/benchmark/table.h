@@ -6,26 +6,26 @@
 
 namespace sslcd::benchmark {
 
-/// Cells as they are to be read; empty: nothing was measured.
+/// A table of formatted cells. An empty cell has no measurement.
 struct Table {
   std::string key;    ///< file name
   std::string title;  ///< one line
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  std::string note{};  ///< what stands below it
+  std::string note{};  ///< text below the table
 };
 
 std::string ToMarkdown(const Table& table);
-std::string ToCsv(const Table& table);  ///< RFC 4180: quotes where needed
-/// A list of objects, header -> cell; a cell that is a number becomes one, an empty one null.
+std::string ToCsv(const Table& table);  ///< RFC 4180
+/// A list of objects with the cells by header. Numeric cells become numbers, empty cells null.
 std::string ToJson(const Table& table);
 
-/// Puts the tables' Markdown between the lines `<!-- bench KEY -->` and `<!-- /bench -->` of a
-/// document. Throws Error(kBadInput) if a pair of lines is not there.
+/// Writes the tables as Markdown between the lines `<!-- bench KEY -->` and `<!-- /bench -->` of a
+/// document. Throws Error(kBadInput) if such a pair of lines is missing.
 std::string ReplaceTables(std::string document, const std::string& name,
                           const std::vector<Table>& tables);
 
-/// printf-style number.
+/// Formats a number like printf.
 std::string Cell(const char* format, double value);
 
 }  // namespace sslcd::benchmark

@@ -11,7 +11,7 @@
 namespace sslcd::benchmark {
 namespace {
 
-// Writes down which answers a matcher would have believed, and lets none pass.
+// Records the answers that a matcher would accept, and passes none on.
 PlaceMatcher OnlyAsked(PlaceMatcher matcher, std::set<int>& accepted) {
   return [matcher = std::move(matcher), &accepted](const PlaceQuery& query) {
     std::optional<PlaceAnswer> answer = matcher(query);

@@ -12,7 +12,7 @@
 namespace sslcd::benchmark {
 namespace {
 
-// Whole degrees, for they become part of a folder's name.
+// Whole degrees, since they are part of a folder name.
 std::optional<int> Degrees(const std::string& text) {
   const std::optional<double> number = ParseNumber(text);
   if (!number || *number != std::floor(*number) || *number < 0 || *number > 180)

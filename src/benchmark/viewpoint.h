@@ -8,18 +8,18 @@
 
 namespace sslcd::benchmark {
 
-/// The four cases seldom meet their way out at 15 to 135 degrees. These do: small loops (case 4)
-/// whose last leg crosses or follows it at an angle from a range, "LOW-HIGH" [deg], as
-/// --viewpoint-low-deg and --viewpoint-high-deg of sslcd_sim have it. The way out of a seed is the
-/// same for all ranges, so keyframes count from where it ends. Key: "lot-vLOW-HIGH". Throws
-/// Error(kUsage) on anything but two whole numbers, 0 <= LOW < HIGH <= 180.
+/// Small loops (case 4) whose last leg meets the outward pass at an angle from the range "LOW-HIGH"
+/// [deg], like --viewpoint-low-deg and --viewpoint-high-deg of sslcd_sim. They add the angles of 15
+/// to 135 degrees, which the four cases seldom have. The outward pass of a seed is the same for all
+/// ranges, so only keyframes after it count. Key: "lot-vLOW-HIGH". Throws Error(kUsage) unless the
+/// range has two whole numbers, 0 <= LOW < HIGH <= 180.
 Place PlaceAtViewpoint(const std::string& range);
 
-/// All the way round, 15 degrees each.
+/// Ranges of 15 degrees from 0 to 180.
 std::vector<std::string> ViewpointRanges();
 
-/// Are the rendered sequences of these trials in `folder`/WORLD? Throws Error(kBadInput) where one
-/// is not there, or is of another world, with the command that makes it.
+/// Checks that `folder`/WORLD has the rendered sequences of these trials. Throws Error(kBadInput)
+/// with the command to make it if a sequence is missing or shows another world.
 void CheckRendered(const std::string& folder, const std::vector<Trial>& trials);
 
 }  // namespace sslcd::benchmark

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The body is a loft: cross-sections at many stations along the car, joined to a skin.
+// The body is a loft: a surface through cross-sections along the car.
 #include <utility>
 
 #include "render/car_shape.h"
@@ -7,7 +7,7 @@
 namespace sslcd::render {
 namespace {
 
-// rows of the section up to here are the sides, the others bonnet, roof and boot
+// rows of the section up to this one are the sides, the others are bonnet, roof and boot
 constexpr int kTopRow = 8;
 
 /// Left half of a cross-section, from below the sill to the middle of the roof: y, z.
@@ -32,7 +32,8 @@ std::vector<Vec2f> Section(const CarShape& shape, float x) {
           {0, top}};
 }
 
-/// Where sections are: even, and closer at the ends and about the wheels, whose arches are round.
+/// Positions of the sections: even, and closer at the ends and around the wheels, whose arches are
+/// round.
 std::vector<float> Stations(const CarShape& shape) {
   std::vector<float> stations;
   constexpr int kEven = 40, kArch = 14;

@@ -15,7 +15,7 @@ const Surface kChrome{Vec3f(0.35f, 0.35f, 0.37f), 0.3f, 200, kLamp};
 
 bool Within(float value, float low, float high) { return low < value && value < high; }
 
-/// White with dark strokes: seven places of 3 x 5 blocks.
+/// A number plate: white with dark strokes, seven characters of 3 x 5 blocks.
 Surface Plate(const CarShape& shape, float u, float v) {
   const Surface white{Vec3f(0.75f, 0.76f, 0.74f), 0.03f, 30, kPlate};
   const Surface black{Vec3f(0.03f, 0.03f, 0.05f), 0.03f, 30, kSeam};
@@ -113,7 +113,8 @@ bool IsGlass(const CarShape& shape, const Spot& spot, float pillar) {
   return x > -shape.nose() + (shape.style == CarStyle::kSaloon ? 0.2f * shape.length : 0.16f);
 }
 
-/// Through the glass: seats before a brighter background, the dashboard below the windscreen.
+/// The interior behind the glass: seats before a brighter background, the dashboard below the
+/// windscreen.
 Surface Glass(const CarShape& shape, const Spot& spot, float pillar) {
   Surface glass{Vec3f(0.012f, 0.014f, 0.015f), 0.09f, 900, kGlass};
   const float seat_z = shape.belt + 0.2f;

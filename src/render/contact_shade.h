@@ -7,12 +7,12 @@
 
 namespace sslcd::render {
 
-/// How much of the sky the ground sees beside and below vehicles. An estimate from the distance to
-/// their footprints; rays would be exact, and either slow or noisy.
+/// Estimates the share of the sky that the ground sees beside and below vehicles, from the distance
+/// to their footprints. Ray casting would be exact, but slow or noisy.
 class ContactShade {
  public:
   ContactShade(const StageSet& set, const std::vector<StageSet::Thing>& things);
-  float OpenSky(const Vec3f& place) const;  ///< 0 to 1; 1 away from the ground
+  float OpenSky(const Vec3f& place) const;  ///< 0 to 1; 1 above the ground
 
  private:
   struct Footprint {

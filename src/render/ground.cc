@@ -6,11 +6,11 @@
 namespace sslcd::render {
 namespace {
 
-constexpr float kPavedWithin = 9;  // of what is used [m]
+constexpr float kPavedWithin = 9;  // distance from the used places [m]
 constexpr float kHalfLine = 0.055f;
 
-/// Rectangles of newer or older asphalt in some cells of a coarse grid, sealed along their edges: a
-/// factor.
+/// Factor of rectangles of newer or older asphalt in some cells of a coarse grid, with sealed
+/// edges.
 float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
   const Vec2f cell(9, 7);
   const Vec2f at = place.cwiseQuotient(cell);
@@ -23,9 +23,9 @@ float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
   return shade * (1 - 0.7f * Band(inside, 0.03f, footprint));
 }
 
-/// Cracks along the borders of bent cells, on some stretches of these: a factor.
+/// Factor of cracks along some borders of distorted cells.
 float Cracked(const Vec2f& place, float bend, std::uint32_t seed, float footprint) {
-  constexpr float kCells = 0.22f;  // a metre
+  constexpr float kCells = 0.22f;  // per metre
   const float open =
       Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, 0.12f, 2, footprint));
   if (open <= 0) return 1;
@@ -105,7 +105,7 @@ Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_
       oil_.push_back(drop);
     }
   }
-  for (const Vec2f& place : used.places) {  // a few of many that lie close together are enough
+  for (const Vec2f& place : used.places) {  // a few of the many close places are enough
     const std::vector<int>& others = near_used_.At(place);
     if (std::any_of(others.begin(), others.end(),
                     [&](int i) { return (used_[i] - place).norm() < 1.5f; }))
@@ -146,7 +146,7 @@ Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
   const float middle = Fractal(x, y, seed_ + 1, 0.8f, 5, footprint, 0.75f);
   const float grain = Fractal(x, y, seed_ + 2, 28, 3, footprint, 0.8f);
   float grey = 0.125f * (1 + 0.3f * wide + 0.26f * middle + 0.34f * grain);
-  const float stones = Clamp01(1.5f - 90 * footprint);  // of the mix; seen from nearby
+  const float stones = Clamp01(1.5f - 90 * footprint);  // share of stones, visible from nearby
   if (stones > 0) {
     const float speck = ValueNoise(x * 60, y * 60, seed_ + 4);
     grey += stones * (0.08f * Smooth(0.8f, 0.95f, speck) - 0.04f * Smooth(0.2f, 0.05f, speck));

@@ -10,12 +10,12 @@
 
 namespace sslcd::render {
 
-/// A grid of square cells over a rectangle, each with a list of numbers: what lies in or near it.
+/// A grid of square cells over a rectangle. Each cell has the list of objects in or near it.
 class NearList {
  public:
   NearList() = default;
   NearList(const Vec2f& low, const Vec2f& high, float cell);
-  /// to all cells that the rectangle touches
+  /// adds a number to all cells that the rectangle touches
   void Add(const Vec2f& low, const Vec2f& high, int number);
   const std::vector<int>& At(const Vec2f& place) const;
 
@@ -26,7 +26,7 @@ class NearList {
   std::vector<std::vector<int>> lists_;
 };
 
-/// Asphalt with stall lines, cracks, repairs and oil where things stand or drive, grass elsewhere.
+/// Asphalt with stall lines, cracks, repairs and oil in the used area, grass elsewhere.
 class Ground {
  public:
   Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed);

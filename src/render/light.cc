@@ -6,7 +6,7 @@
 namespace sslcd::render {
 namespace {
 
-// what asphalt sends up, as a share of the light from above
+// share of the light from above that asphalt reflects
 const Vec3f kGround(0.17f, 0.165f, 0.155f);
 
 Vec3f ClearSky(const Daylight& light, float up) {
@@ -60,8 +60,8 @@ Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, 
       surface.albedo.cwiseProduct(light.sun * (slant * sunlit) + ambient * (sky * surface.light));
   if (surface.mirror <= 0) return colour;
 
-  // Schlick's approximation of Fresnel's equations; the surroundings are sky over a dark horizon
-  // over the ground.
+  // Schlick's approximation of Fresnel's equations. The reflected surroundings are sky, a dark
+  // horizon and the ground.
   const float facing = std::max(-normal.dot(view), 0.f);
   const float grazing = std::pow(1 - facing, 5.f);
   const float mirror = surface.mirror + (1 - surface.mirror) * 0.8f * grazing;

@@ -62,7 +62,7 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
     return {text ? Vec3f(0.08f, 0.1f, 0.3f) : Vec3f(0.6f, 0.6f, 0.5f), 0.02f, 20, 2};
   }
   const int ring = Floor(4 * spot.at.z());
-  if (ring < 4 && Hash(seed) % 2) {  // a guard against bumpers, yellow and black
+  if (ring < 4 && Hash(seed) % 2) {  // a bumper guard, yellow and black
     const Vec3f colour = ring % 2 ? Vec3f(0.5f, 0.36f, 0.02f) : Vec3f(0.03f, 0.03f, 0.03f);
     return {Vec3f(colour * (1 + 0.25f * rust)), 0.03f, 30, 3 + ring};
   }

@@ -9,8 +9,8 @@ namespace sslcd::render {
 
 enum TreePart { kTrunk, kLeaf };
 
-/// A tree of many leaves, or a lamp post, that fills the box `dims` (across, across, height)
-/// standing on the ground.
+/// A tree of many leaves, or a lamp post, that fills the box `dims` (width, depth, height) on the
+/// ground.
 Mesh MakeTreeMesh(const Vec3f& dims, std::uint32_t seed);
 Mesh MakePoleMesh(const Vec3f& dims);
 

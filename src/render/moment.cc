@@ -34,9 +34,9 @@ std::vector<Sample> Moment::Look(const std::vector<Ray>& rays) const {
   std::vector<Point> points(rays.size());
   std::vector<Ray> to_sun(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (hits[i].instance < 0) continue;  // its ray to the sun has no length
+    if (hits[i].instance < 0) continue;  // no ray to the sun
     points[i] = PointOf(rays[i], hits[i]);
-    // rounding must not put it below its own surface
+    // offset against self-intersection by rounding
     const float off = 0.003f + 1e-4f * hits[i].distance;
     to_sun[i] = {points[i].at + off * points[i].flat, light_.to_sun,
                  points[i].flat.dot(light_.to_sun) > 0 ? kFar : 0};
@@ -74,8 +74,7 @@ Sample Moment::SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool
   const float length = ray.direction.norm(), distance = hit.distance * length;
   const Vec3f view = ray.direction / length;
   const int part = MeshOf(hit).parts[hit.triangle];
-  // A pixel covers a long and narrow piece of what is seen at a grazing angle; this is the mean of
-  // both.
+  // At a grazing angle a pixel covers a long and narrow area; this is the mean of both extents.
   const float footprint =
       pixel_angle_ * distance / std::sqrt(std::max(-point.flat.dot(view), 0.02f));
   const Surface surface =
@@ -91,7 +90,7 @@ Sample Moment::SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool
   sample.depth = hit.distance;
   sample.identity = thing.identity;
   const std::uint32_t painted = surface.thin
-                                    ? 0  // leaves have too many edges to smooth them all
+                                    ? 0  // leaves have too many edges to smooth
                                     : static_cast<std::uint32_t>(2 * surface.kind + (lit ? 1 : 0));
   const std::uint32_t building =
       thing.kind == StageSet::Kind::kTown ? static_cast<std::uint32_t>(part) : 0;

@@ -11,25 +11,25 @@
 
 namespace sslcd::render {
 
-/// What one ray brings home.
+/// The result of one ray.
 struct Sample {
   Vec3f colour = Vec3f::Zero();
-  float depth = 0;  ///< in lengths of the ray's direction; 0: sky
+  float depth = 0;  ///< in units of the ray's direction; 0: sky
   int identity = -1;
-  std::uint32_t key = 0;  ///< of the surface, and whether the sun shines on it; neighbours of equal
-                          ///< key need no smoothing
+  std::uint32_t key = 0;  ///< surface and shadow; no smoothing between neighbours of equal key
 };
 
-/// The world at one frame, in one light.
+/// The scene at one frame, in one light.
 class Moment {
  public:
   static constexpr float kFar = 2000;
 
-  /// `pixel_angle`: of a pixel in the middle of the image [rad]. Keeps references to all but that.
+  /// `pixel_angle`: angle of a pixel in the middle of the image [rad]. Keeps references to the
+  /// other arguments.
   Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame,
          float pixel_angle);
 
-  /// What each ray sees, with one more ray from there to the sun.
+  /// Casts the rays, and a second ray from each hit to the sun.
   std::vector<Sample> Look(const std::vector<Ray>& rays) const;
 
  private:
@@ -47,7 +47,7 @@ class Moment {
   const StageSet& set_;
   const Daylight& light_;
   std::vector<StageSet::Thing> things_;
-  std::vector<Eigen::Matrix3f> axes_;  ///< of the things' meshes in the scene
+  std::vector<Eigen::Matrix3f> axes_;  ///< rotations of the meshes in the scene
   std::vector<Vec3f> origins_;
   ContactShade shade_;
   Scene scene_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kPacket = 8;
 
-/// Embree's handles count references.
+/// Reference-counted handle of Embree.
 template <class Handle, void (*release)(Handle)>
 struct Releaser {
   using pointer = Handle;
@@ -141,7 +141,7 @@ void Scene::Hidden(const std::vector<Ray>& rays, std::vector<char>& hidden) cons
     const auto valid = Load(rays, first, packet);
     Occluded(valid.data(), impl_->scene.get(), packet);
     for (std::size_t lane = 0; lane < std::min(kPacket, rays.size() - first); ++lane) {
-      hidden[first + lane] = packet.tfar[lane] < 0;  // Embree's sign for "something is in the way"
+      hidden[first + lane] = packet.tfar[lane] < 0;  // Embree's code for a blocked ray
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands for ray_tracer_embree.cc where Embree is not installed.
+// Replaces ray_tracer_embree.cc if Embree is not installed.
 #include "render/ray_tracer.h"
 #include "sslcd/core/error.h"
 

@@ -18,8 +18,8 @@ struct Pixel {
   int x = 0, y = 0;
 };
 
-/// Rays of one image. Their directions are 1 long along the optical axis, so a hit's distance is
-/// its depth.
+/// Rays of one image. Their directions have length 1 along the optical axis, so the distance of a
+/// hit is its depth.
 class Eye {
  public:
   Eye(const Camera& camera, const Pose& T_scene_camera)
@@ -27,7 +27,7 @@ class Eye {
         axes_(T_scene_camera.so3().matrix().cast<float>()),
         origin_(T_scene_camera.translation().cast<float>()) {}
 
-  /// Through a place `off` a pixel's centre.
+  /// The ray at the offset `off` from a pixel's centre.
   Ray At(const Pixel& pixel, const Vec2f& off) const {
     const Vec3 way((static_cast<double>(pixel.x) + off.x() - camera_.cx) / camera_.fx,
                    (static_cast<double>(pixel.y) + off.y() - camera_.cy) / camera_.fy, 1);
@@ -40,7 +40,7 @@ class Eye {
   Vec3f origin_;
 };
 
-/// All pixels, neighbours close together: tiles of 4 x 2 in bands.
+/// All pixels in an order that keeps neighbours together: tiles of 4 x 2 in bands.
 std::vector<Pixel> InTiles(int width, int height) {
   std::vector<Pixel> pixels;
   pixels.reserve(static_cast<std::size_t>(width) * height);
@@ -54,7 +54,7 @@ std::vector<Pixel> InTiles(int width, int height) {
   return pixels;
 }
 
-/// Those next to another surface, or to another light on it.
+/// The pixels next to another surface or shadow.
 std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sample>& samples,
                          const Camera& camera) {
   std::vector<Pixel> edges;
@@ -68,12 +68,12 @@ std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sam
   return edges;
 }
 
-/// The mean of four rays instead of one. Depth and identity stay those of the pixel's centre.
+/// Takes the mean of four rays instead of one. Keeps depth and identity of the pixel's centre.
 void SmoothEdges(const Moment& moment, const Eye& eye, int width, const std::vector<Pixel>& edges,
                  std::vector<Sample>& samples) {
-  // with the centre: none in line
+  // offsets that are not in line with each other and the centre
   const Vec2f kPlaces[] = {{-0.375f, -0.125f}, {0.125f, -0.375f}, {0.25f, 0.375f}};
-  // the sun and its reflections would outshine all else in the mean
+  // otherwise the sun and its reflections would dominate the mean
   constexpr float kBrightest = 4;
   for (std::size_t first = 0; first < edges.size(); first += kBatch) {
     std::vector<Ray> rays;

@@ -15,31 +15,30 @@ enum class Side { kLeft, kRight };
 /// One image, row by row from the top left.
 struct View {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> bgr;  ///< three bytes a pixel
-  /// along the optical axis, through the pixel's centre; 0: sky [m]
+  std::vector<std::uint8_t> bgr;  ///< three bytes per pixel
+  /// depth along the optical axis at the pixel's centre; 0: sky [m]
   std::vector<float> depth;
-  std::vector<int> identity;  ///< WorldObject::id seen through the pixel's centre, -1: none
+  std::vector<int> identity;  ///< WorldObject::id at the pixel's centre; -1: none
   std::size_t PixelAt(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
 };
 
-/// Makes images of a world as its stereo camera sees it: the pinhole camera of calib.txt (pixel
-/// centres at whole numbers), whose right one is `baseline_m` to the right. Ray casting with
-/// Embree: Wald et al., "Embree: a kernel framework for efficient CPU ray tracing", 2014.
-///
-/// What the world does not tell (shape of cars, ground, buildings) follows from its objects and the
-/// seed. Objects stay within their cuboids.
+/// Renders the images of a world's stereo camera: the pinhole camera of calib.txt (pixel centres at
+/// whole numbers), and a second one `baseline_m` to the right. Ray casting with Embree: Wald et
+/// al., "Embree: a kernel framework for efficient CPU ray tracing", 2014.
+/// Details that the world does not define (shape of cars, ground, buildings) depend on its objects
+/// and the seed. Objects stay within their cuboids.
 class Renderer {
  public:
-  /// Keeps what it needs of the world. Throws Error(kUsage): options out of range; built without
-  /// Embree; a camera without size; nothing drives (no frames).
+  /// Copies the required parts of the world. Throws Error(kUsage) if options are out of range, the
+  /// build has no Embree, the camera has no size or the world has no frames.
   Renderer(const sim::HalvWorld& scene, std::uint64_t seed, const RenderOptions& options = {});
   ~Renderer();
 
   int frames() const;
-  int objects() const;  ///< in the world; identities are below that
+  int objects() const;  ///< number of objects in the world; identities are smaller
 
-  /// May be called from several threads; the result depends on the arguments alone. About 0.5 s for
-  /// 1280x720. Throws Error(kUsage) where there is no such frame.
+  /// Renders an image. May be called from several threads; the result depends only on the
+  /// arguments. Takes about 0.5 s for 1280x720. Throws Error(kUsage) if the frame does not exist.
   View Render(int frame, Side side) const;
 
  private:

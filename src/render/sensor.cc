@@ -6,7 +6,7 @@
 namespace sslcd::render {
 namespace {
 
-/// About normal, mean 0 and deviation 1: the sum of the hash's four bytes.
+/// Approximately normal with mean 0 and deviation 1: the sum of the four bytes of the hash.
 float NormalOf(std::uint32_t hash) {
   const auto sum =
       static_cast<float>((hash & 255) + (hash >> 8 & 255) + (hash >> 16 & 255) + (hash >> 24));

@@ -9,8 +9,8 @@
 
 namespace sslcd::render {
 
-/// From light to the bytes of a colour image (blue, green, red): vignetting, exposure, a film's
-/// soft highlights, gamma 2, noise that follows from `seed` and the pixel's number.
+/// Converts light to the bytes of a colour image (blue, green, red): vignetting, exposure,
+/// compressed highlights, gamma 2, and noise that depends on `seed` and the pixel's number.
 std::vector<std::uint8_t> Develop(const std::vector<Sample>& samples, int width, int height,
                                   float exposure, const RenderOptions& options, std::uint32_t seed);
 

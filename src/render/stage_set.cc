@@ -76,7 +76,7 @@ void StageSet::AddSurroundings(std::uint32_t seed) {
 }
 
 void StageSet::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed) {
-  constexpr double kSideBySide = 2.4;  // spaces along a kerb are narrower, and have none
+  constexpr double kSideBySide = 2.4;  // spaces along a kerb are narrower and have no stall lines
   Mesh mesh;
   AddBox(mesh, {-0.08f, -0.85f, 0}, {0.08f, 0.85f, 0.1f}, 0);
   ComputeNormals(mesh);

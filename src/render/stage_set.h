@@ -10,8 +10,7 @@
 
 namespace sslcd::render {
 
-/// What a world looks like, whatever the light: the meshes of all its objects and of their
-/// surroundings, and how each is painted.
+/// The scene without light: the meshes of all objects and of their surroundings, with their paint.
 class StageSet {
  public:
   StageSet(const sim::HalvWorld& scene, std::uint32_t seed);
@@ -20,11 +19,11 @@ class StageSet {
   struct Thing {
     Instance instance;
     Kind kind = Kind::kGround;
-    int identity = -1;  ///< of the WorldObject
+    int identity = -1;  ///< WorldObject::id
     std::uint32_t seed = 0;
   };
 
-  /// All that is there at a frame.
+  /// All meshes at a frame.
   std::vector<Thing> ThingsAt(int frame) const;
   Surface SurfaceOf(const Thing& thing, const Spot& spot) const;
 

@@ -8,21 +8,21 @@
 
 namespace sslcd::render {
 
-/// Where a surface is looked at. Frame of the mesh; z counts from the ground.
+/// A point of a surface in the frame of the mesh; z counts from the ground.
 struct Spot {
   Vec3f at, normal;
   int part = 0;
   float footprint = 0;  ///< width of a pixel there [m]
 };
 
-/// What light meets there.
+/// The material at a point.
 struct Surface {
   Vec3f albedo = Vec3f::Constant(0.5f);
-  float mirror = 0;   ///< share that is reflected head-on, as by a mirror; more at grazing angles
+  float mirror = 0;   ///< mirrored share of light at normal incidence; more at grazing angles
   float shine = 40;   ///< sharpness of the sun's reflection
-  int kind = 0;       ///< distinguishes neighbours whose border should be smooth
-  float light = 1;    ///< share of the sky that is not hidden by the object itself
-  bool thin = false;  ///< light comes through from behind
+  int kind = 0;       ///< smooths the border between neighbours of different kinds
+  float light = 1;    ///< share of the sky that the object does not hide
+  bool thin = false;  ///< light passes from behind
 };
 
 Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot);

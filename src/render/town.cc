@@ -6,9 +6,9 @@
 namespace sslcd::render {
 namespace {
 
-constexpr float kAround = 7;   // from what is used to the wall [m]
-constexpr float kGrid = 17;    // houses stand on a grid ...
-constexpr float kBeyond = 75;  // ... that goes on so far beyond the wall
+constexpr float kAround = 7;   // from the used area to the wall [m]
+constexpr float kGrid = 17;    // grid of the houses [m]
+constexpr float kBeyond = 75;  // extent of the grid beyond the wall [m]
 
 bool IsFree(const std::vector<Vec2f>& used, const Vec2f& low, const Vec2f& high, float clearance) {
   return std::none_of(used.begin(), used.end(), [&](const Vec2f& place) {
@@ -38,7 +38,7 @@ void AddWall(const std::vector<Vec2f>& used, const Vec2f& low, const Vec2f& high
   }
 }
 
-/// Running bonds: mortar between bricks of 25 x 8 cm, each of another shade.
+/// A wall in running bond: mortar between bricks of 25 x 8 cm, each of another shade.
 Vec3f Brick(float along, float up, std::uint32_t seed, const Vec3f& colour, float footprint) {
   const int row = Floor(up / 0.08f);
   const float shifted = along / 0.25f + (row % 2 == 0 ? 0 : 0.5f);

@@ -9,7 +9,8 @@
 
 namespace sslcd::render {
 
-/// Frame of the scene: x right, y where the first camera looks, z up from the ground.
+/// Frame of the scene: x right, y along the viewing direction of the first camera, z up from the
+/// ground.
 Pose SceneFromWorld(const sim::World& world);
 
 /// A house or a piece of wall: a box on the ground.
@@ -19,25 +20,24 @@ struct Building {
   bool wall = false;
 };
 
-/// What surrounds the objects: a wall around all that stands or drives within it, houses and trees
-/// beyond.
+/// The surroundings of the objects: a wall around the used area, houses and trees beyond.
 struct Town {
   std::vector<Building> buildings;
   std::vector<Vec2f> trees;
 };
 
-/// Where something stands or drives at any time, which must stay free, and the rectangle about what
-/// stands and about the camera's path.
+/// The places of all objects at any time, which must stay free, and the rectangle around the parked
+/// objects and the camera's path.
 struct UsedPlaces {
   std::vector<Vec2f> places;
   Vec2f low, high;
 };
 UsedPlaces FindUsedPlaces(const sim::World& world);
 
-/// Nothing is built within some metres of the used places.
+/// Keeps buildings some metres away from the used places.
 Town MakeTown(const UsedPlaces& used, std::uint32_t seed);
 
-/// One mesh of all buildings; a triangle's part is its building's number.
+/// One mesh of all buildings. The part of a triangle is the number of its building.
 Mesh MakeTownMesh(const Town& town);
 Surface TownSurface(const Town& town, const Spot& spot);
 

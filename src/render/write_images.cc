@@ -11,8 +11,8 @@
 namespace sslcd::render {
 namespace {
 
-/// Level 1: no other makes photographs much smaller, since most of them is grain. Run lengths suit
-/// these, and the usual strategy the large even areas of depth and identities.
+/// Level 1: higher levels hardly reduce photographs, which are mostly noise. Run lengths suit
+/// photographs; the default strategy suits the large even areas of depth and identities.
 void WritePng(const std::filesystem::path& folder, int frame, const cv::Mat& image) {
   const int strategy =
       image.depth() == CV_8U ? cv::IMWRITE_PNG_STRATEGY_RLE : cv::IMWRITE_PNG_STRATEGY_DEFAULT;
@@ -40,7 +40,7 @@ cv::Mat InstanceImage(const View& view) {
   return image;
 }
 
-/// Those that are left from before show another world.
+/// Removes images of an earlier run, which show another world.
 void RemoveImages(const std::filesystem::path& folder) {
   if (!std::filesystem::is_directory(folder)) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

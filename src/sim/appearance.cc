@@ -14,17 +14,17 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-/// Of unit length on average, in no preferred direction.
+/// Draws an isotropic vector of unit length on average.
 Vector RandomVector(Random& random, int dimension) {
   Vector vector(dimension);
   for (double& value : vector) value = random.Normal();
   return vector / std::sqrt(dimension);
 }
 
-/// What is the same in all sightings of one object.
+/// The parts that are common to all sightings of one object.
 struct Identity {
   Vector constant, forward, left;
-  double side = 0;  ///< share of what turns with the viewing direction
+  double side = 0;  ///< share of the part that rotates with the viewing direction
 };
 
 class Painter {
@@ -91,7 +91,7 @@ class Painter {
     return identity;
   }
 
-  /// Share of noise in one sighting: more from afar, and more in some images than in others.
+  /// Share of noise in one sighting. It grows with range and varies between images.
   double Blur(const Detection& detection) {
     constexpr double kUsualRange = 18, kGrowth = 0.4;
     const double far = std::min(detection.T_cam_object.translation().norm() / kUsualRange, 2.);
@@ -99,7 +99,7 @@ class Painter {
     return std::min((1 - noise_.same_side) * uneven * (1 + kGrowth * (far - 1)), 0.95);
   }
 
-  /// Bearing of the camera in the object's frame; 0 where all sides look alike. [rad]
+  /// Bearing of the camera in the object's frame; 0 if all sides look the same. [rad]
   double ViewedFrom(int frame, const WorldObject& object) const {
     if (world_.labels[object.label].symmetry == Symmetry::kFull) return 0;
     const Vec3 camera = object.PoseAt(frame).inverse() * world_.truth.poses[frame].translation();

@@ -94,7 +94,7 @@ EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int
     const std::vector<std::vector<Sighting>> cars = SightingsOf(sequence);
     if (cars.size() < 2) continue;
     const int share = pairs / static_cast<int>(sequences.size());
-    // Opposite views are rare, so that many pairs are drawn and few of them taken.
+    // Opposite views are rare, so most drawn pairs are rejected.
     for (int i = 0, opposites = 0, sames = 0;
          i < 100 * share && (opposites < share || sames < share); ++i) {
       const std::vector<Sighting>& car = Any(random, cars);

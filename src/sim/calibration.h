@@ -8,7 +8,7 @@
 
 namespace sslcd::sim {
 
-/// A property of HALV-sim: what it should be, and what it is.
+/// A property of HALV-sim: its target and its value.
 struct CalibrationRow {
   std::string what;
   double target = 0, reached = 0;
@@ -26,21 +26,21 @@ struct EmbeddingStats {
   CosineStats other_object;
 };
 
-/// Over random pairs of detections of cars. `pairs` are drawn of each kind, where there are such.
+/// Statistics over random pairs of detections of cars: `pairs` of each kind, if the kind exists.
 EmbeddingStats MeasureEmbeddings(const std::vector<HalvSequence>& sequences, int pairs);
 
-/// Of all detections of parked cars and vans, compared with the truth.
+/// Errors of all detections of parked cars and vans.
 struct DetectionStats {
   double iou = 0;    ///< mean 3D IoU: "raw" in eval/map_metrics.h
-  double flips = 0;  ///< share that faces the other way
+  double flips = 0;  ///< share with reversed heading
 };
 DetectionStats MeasureDetections(const World& world, const SimulatedDetections& detections);
 
-/// All four cases with seeds 1 to `seeds`: the paper's figures and our own of docs/halv_sim.md.
-/// Options other than the case are the caller's.
+/// Compares all four cases with seeds 1 to `seeds` with the paper's figures and with
+/// docs/halv_sim.md. The caller sets all options except the case.
 std::vector<CalibrationRow> Calibrate(int seeds, HalvOptions options = {});
 
-/// As a Markdown table.
+/// Formats the comparison as a Markdown table.
 std::string ToMarkdown(const std::vector<CalibrationRow>& rows);
 
 }  // namespace sslcd::sim

@@ -7,19 +7,19 @@
 namespace sslcd::sim {
 namespace {
 
-/// In [0, 2 pi); what rounding has left below zero does not become a full turn.
+/// Wraps an angle to [0, 2 pi). A tiny negative angle from rounding becomes 0, not a full turn.
 double Positive(double angle) {
   angle -= 2 * M_PI * std::floor(angle / (2 * M_PI));
   return angle > 2 * M_PI - 1e-9 ? 0 : angle;
 }
 
-// Everything in the plane (z, x), in which headings turn counter-clockwise.
+// All in the plane (z, x), in which headings turn counter-clockwise.
 Vec2 Centre(const Path::Point& at, double side, double radius) {
   return {at.z - side * radius * std::sin(at.heading), at.x + side * radius * std::cos(at.heading)};
 }
 
-/// `first`, `last`: 1 turns right, -1 turns left. Empty where the two circles are too near for a
-/// line between them.
+/// `first`, `last`: 1 turns right, -1 turns left. Empty if the two circles are too close for a line
+/// between them.
 std::vector<PathPiece> Word(const Path::Point& from, const Path::Point& to, double radius,
                             int first, int last) {
   const Vec2 between = Centre(to, last, radius) - Centre(from, first, radius);

@@ -7,9 +7,9 @@
 
 namespace sslcd::sim {
 
-/// The shortest way from one place and direction to another that consists of an arc, a straight
-/// line and an arc, none tighter than `radius_m` (Dubins 1957, his four words with a straight
-/// line). Always exists for turns to the same side.
+/// The shortest path from one pose to another that consists of an arc, a straight line and an arc
+/// of radius `radius_m` (Dubins 1957, the four words with a straight line). It always exists,
+/// because arcs to the same side do.
 std::vector<PathPiece> ArcLineArc(const Path::Point& from, const Path::Point& to, double radius_m);
 
 double LengthOf(const std::vector<PathPiece>& pieces);

@@ -27,7 +27,7 @@ double AteOf(const Trajectory& odometry, const Trajectory& truth) {
   return ComputeAte(odometry.poses, truth.poses, Alignment::kSim3).error.rmse;
 }
 
-/// As a detector hands them out; in the order of the objects they would tell who is who.
+/// Shuffles the detections, because the order of the objects would reveal the identities.
 void SortByScore(SimulatedDetections& detections) {
   const std::vector<int> identity = detections.identity;
   int row = 0;

@@ -12,39 +12,39 @@
 
 namespace sslcd::sim {
 
-/// Where HALV-sim drives. The data set of the paper (HALV) is not public; docs/halv_sim.md says
-/// what is modelled.
+/// The world and the path of HALV-sim. The paper's data set (HALV) is not public; docs/halv_sim.md
+/// describes the model.
 struct HalvScene {
   int case_number = 1;         ///< 1 rectangle, 2 straight out and back, 3 curve, 4 small loop
   std::string layout = "lot";  ///< "lot", "street", or a JSON file of parked cars
-  /// between the two passes where they meet; -1: the case's
+  /// change of heading between the two passes where they meet; -1: that of the case
   double viewpoint_low_deg = -1, viewpoint_high_deg = -1;
-  /// factor on the straight parts of the path
+  /// factor on the length of the straight parts of the path
   double size = 1;
   double speed_mps = 2;
   double keyframe_hz = 3;
-  double taken_fraction = 0.6;  ///< of the generated stalls
-  /// of the parked vehicles, where the layout does not say
+  double taken_fraction = 0.6;  ///< share of occupied stalls in generated layouts
+  /// share of the parked vehicles, if the layout does not define it
   double van_fraction = 0.08, truck_fraction = 0.03;
   bool marks = true;  ///< poles and trees in generated layouts
-  /// share of the parked vehicles that has gone, and been replaced, at the second pass
+  /// share of the parked vehicles that is replaced before the second pass
   double churn = 0;
-  int driving_cars = 2;     ///< every second one is oncoming
+  int driving_cars = 2;     ///< number of driving cars; every second one is oncoming
   double render_scale = 1;  ///< 1: images of 1280x720
 };
 void DescribeFields(FieldVisitor& visitor, HalvScene& scene);
 
-/// How far the odometry drifts.
+/// The drift of the odometry.
 struct HalvDrift {
-  /// which errors, relative to each other
+  /// the errors relative to each other
   OdometryNoise shape{0.01, 5e-4, 5e-5, 4e-3, 5e-4, 0.015, 40};
-  /// mean ATE over seeds, after Sim(3); -1: the case's; 0: `shape` as given
+  /// mean ATE over seeds, after Sim(3); -1: that of the case; 0: uses `shape` unchanged
   double ate_m = -1;
-  double ate_spread = 0.15;  ///< one seed's ATE differs from that by up to this fraction
+  double ate_spread = 0.15;  ///< largest relative difference of one seed's ATE from the mean
 };
 void DescribeFields(FieldVisitor& visitor, HalvDrift& drift);
 
-/// Noise of a stereo detector whose mean single-frame 3D IoU is .45.
+/// The noise of a stereo detector with a mean single-frame 3D IoU of .45.
 DetectorNoise HalvDetector();
 
 struct HalvOptions {
@@ -54,8 +54,8 @@ struct HalvOptions {
   AppearanceNoise appearance;
 };
 
-/// A place for one vehicle, taken or free: where its middle is in the world and which way it faces,
-/// from +z towards +x.
+/// A place for one vehicle, occupied or free: its centre in the world and its heading from +z
+/// towards +x.
 struct ParkingSpace {
   double x = 0, z = 0, heading = 0;
   double length_m = 0, width_m = 0;
@@ -63,32 +63,32 @@ struct ParkingSpace {
 
 struct HalvWorld {
   World world;
-  /// the way out ends here; what changed between the passes changes here
+  /// path length of the outward pass; changes between the passes happen there
   int return_frame = 0;
-  double viewpoint_rad = 0;  ///< between the two passes where they meet
-  /// vehicles of a layout file that stood in the way or twice in the same place
+  double viewpoint_rad = 0;  ///< change of heading between the two passes where they meet
+  /// removed vehicles of a layout file: on the path, or overlapping another one
   int left_out = 0;
   std::vector<ParkingSpace> spaces;
 };
 
-/// World and path. Same seed, same world. Throws Error: kUsage (a value out of range, the path
-/// leaves the lot, no cars beside it), kBadInput (the layout file).
+/// Makes world and path. The same seed gives the same world. Throws Error(kUsage) if a value is out
+/// of range, the path leaves the lot or has no cars beside it, and Error(kBadInput) for a malformed
+/// layout file.
 HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene = {});
 
-/// Everything that WriteSequence needs.
+/// A complete sequence for WriteSequence.
 struct HalvSequence {
   HalvWorld scene;
   Trajectory odometry;
-  double drift_factor = 1;  ///< on the errors of HalvDrift::shape
+  double drift_factor = 1;  ///< factor on the errors of HalvDrift::shape
   SimulatedDetections detections;
 };
 HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options = {});
 
-/// Odometry that drifts as told: the errors of `shape`, scale error excepted, times one factor with
-/// which the ATE after Sim(3) is `ate_m` in the mean over draws. Of these draws one is taken whose
-/// own ATE is near a value drawn from ate_m (1 -+ spread), so that few seeds suffice for the mean
-/// while every step errs as much as with any other seed. Throws Error(kUsage) where no factor does
-/// it.
+/// Makes odometry with the requested drift: the errors of `shape`, except the scale error, times a
+/// factor that gives a mean ATE after Sim(3) of `ate_m` over draws. Takes a draw whose ATE is near
+/// a random value from ate_m (1 -+ spread). So few seeds suffice for the mean, and the steps have
+/// the same noise for all seeds. Throws Error(kUsage) if there is no such factor.
 struct CalibratedOdometry {
   Trajectory odometry;
   double factor = 1;
@@ -96,8 +96,7 @@ struct CalibratedOdometry {
 CalibratedOdometry SimulateOdometryWithAte(const Trajectory& truth, const OdometryNoise& shape,
                                            double ate_m, double spread, std::uint64_t seed);
 
-/// ATE of odometry that is never corrected, mean over seeds: what the paper reports of VINS-Fusion.
-/// [m]
+/// Mean ATE of uncorrected odometry over seeds, which the paper reports for VINS-Fusion. [m]
 double HalvAte(int case_number);
 
 }  // namespace sslcd::sim

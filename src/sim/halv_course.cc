@@ -48,7 +48,7 @@ HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg
   const Path out(pieces);
   const Path::Point meet = out.At(shape.meet_m * size);
   const double angle = random.Uniform(low_deg, high_deg) * M_PI / 180;
-  const double aside = random.Normal(0, 0.4);  // nobody drives twice along the same line
+  const double aside = random.Normal(0, 0.4);  // real passes have a lateral offset
 
   std::vector<PathPiece> shortest;
   for (double turn : {angle, -angle}) {

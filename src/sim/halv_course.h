@@ -8,35 +8,36 @@
 
 namespace sslcd::sim {
 
-/// One of the paper's four cases: a way out, and a last leg that meets the way out again at another
-/// angle.
+/// One of the paper's four cases: an outward pass, and a last leg that meets it again at an angle.
 struct HalvCase {
   const char* name;
   std::vector<PathPiece> out;
-  double meet_m;  ///< where on the way out the last leg meets it
-  /// the last leg begins so long before and ends so long after that
+  double meet_m;  ///< path length where the last leg meets the outward pass
+  /// length of the last leg before and after the meeting point
   double before_m, after_m;
-  /// then it turns into the way out, against its direction, for so long
+  /// length that it then follows the outward pass in reverse direction
   double along_m;
-  double viewpoint_low, viewpoint_high;  ///< by how much its direction differs there [deg]
-  /// of VINS-Fusion without a loop (paper Table II), after Sim(3)
+  /// range of the change of heading at the meeting point [deg]
+  double viewpoint_low, viewpoint_high;
+  /// ATE of VINS-Fusion without loops (paper Table II), after Sim(3)
   double ate_m;
 };
 
 /// `number` 1 to 4: rectangle, straight out and back, curve, small loop.
 const HalvCase& HalvCaseOf(int number);
 
-/// What is driven.
+/// The path of a sequence.
 struct HalvCourse {
   Path path;
-  double return_m = 0;              ///< here the way out ends
-  double last_leg_m = 0;            ///< here the last leg begins
-  double viewpoint_rad = 0;         ///< between way out and last leg, where they meet
-  std::vector<Path::Point> points;  ///< of the path, every half metre
+  double return_m = 0;    ///< path length at the end of the outward pass
+  double last_leg_m = 0;  ///< path length at the start of the last leg
+  /// change of heading between outward pass and last leg at their meeting point
+  double viewpoint_rad = 0;
+  std::vector<Path::Point> points;  ///< points of the path, every half metre
 };
 
-/// A course of a case. The viewpoint is drawn from [low, high] [deg]; straight pieces are `size`
-/// times as long as the case's.
+/// Draws a course of a case with a viewpoint from [low, high] [deg]. Straight pieces are `size`
+/// times as long as those of the case.
 HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg, double size,
                           std::uint64_t seed);
 

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kCameraHeight = 1.2;  // of a camera on a ground vehicle [m]
 
-/// ZED 2 as the paper's Table of sensors has it: 1280x720, 110 x 70 degrees; 12 cm between its
-/// cameras.
+/// ZED 2 according to the paper's table of sensors: 1280x720, 110 x 70 degrees, baseline of 12 cm.
 World EmptyWorld(double render_scale) {
   World world;
   const int width = static_cast<int>(std::lround(1280 * render_scale));
@@ -41,7 +40,7 @@ World EmptyWorld(double render_scale) {
 
 struct Places {
   std::vector<Slot> vehicles, marks;
-  double taken_fraction = 1;  ///< of the places for vehicles
+  double taken_fraction = 1;  ///< share of occupied places
   int left_out = 0;
 };
 
@@ -70,7 +69,7 @@ WorldObject& Park(World& world, Random& random, const HalvScene& scene, Slot slo
                     : slot.label == "Van" ? Vec3(car + Vec3(0.4, 0.2, 0.5))
                                           : Vec3(car + Vec3(0.6, 0.35, 1.1));
   const bool from_file = scene.layout != "lot" && scene.layout != "street";
-  if (!from_file) {  // nobody parks exactly
+  if (!from_file) {  // real cars do not park exactly
     if (random.Chance(0.3)) slot.heading += M_PI;
     slot.x += random.Normal(0, 0.12);
     slot.z += random.Normal(0, 0.12);
@@ -89,7 +88,7 @@ void AddMark(World& world, Random& random, const Slot& slot) {
   object.paint = tree ? Vec3(0.2, 0.33, 0.13) : Vec3(0.5, 0.5, 0.52);
 }
 
-/// `count` of the numbers below `size`, in random order.
+/// Draws `count` distinct numbers below `size`, in random order.
 std::vector<int> Draw(Random& random, int size, int count) {
   std::vector<int> numbers(size);
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -99,8 +98,7 @@ std::vector<int> Draw(Random& random, int size, int count) {
   return numbers;
 }
 
-/// Before the return some vehicles leave; another one comes for each, to the same place or to a
-/// free one.
+/// Replaces some vehicles before the second pass by others, at the same place or at a free one.
 void Churn(const HalvScene& scene, std::uint64_t seed, int frame, std::vector<Slot> parked,
            std::vector<Slot> free, World& world) {
   Random random(seed, kChurnStream);

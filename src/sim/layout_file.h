@@ -11,22 +11,22 @@ namespace sslcd::sim {
 
 /// Vehicles of a real lot. The file is a JSON list of {"x","y","z","qx","qy","qz","w"}: positions
 /// in metres, z up, and the quaternion's yaw ("qw" for "w" is taken, too; roll, pitch and z do not
-/// count, the world is flat). "label" is optional: Car, Van or Truck. Which of a vehicle's axes is
-/// its length is not told, so it is the one along which fewer of them overlap. Vehicles that still
-/// overlap an earlier one are left out. In the axes of Slot: x right, z forward. Throws
-/// Error(kBadInput) with file, line and key.
+/// count, the world is flat). "label" is optional: Car, Van or Truck. The file does not define
+/// which axis of a vehicle is its length, so the reader takes the one with fewer overlaps. It
+/// leaves out vehicles that still overlap an earlier one. In the axes of Slot: x right, z forward.
+/// Throws Error(kBadInput) with file, line and key.
 struct LayoutFile {
   std::vector<Slot> slots;
-  int doubles = 0;  ///< left out
+  int doubles = 0;  ///< vehicles that are left out
 };
 LayoutFile ReadLayout(const std::string& path);
 
-/// Moves the vehicles to where the course fits best among them: the way out and the last leg see
-/// many in common, few are in the way. Those are removed. Throws Error(kUsage) where the course
+/// Moves the vehicles to the best fit of the course: the outward pass and the last leg see many
+/// common vehicles, and few are on the path. Removes the latter. Throws Error(kUsage) if the course
 /// would leave the lot.
 struct PlacedLayout {
   std::vector<Slot> slots;
-  int in_the_way = 0;  ///< removed
+  int in_the_way = 0;  ///< removed vehicles on the path vehicles on the path vehicles on the path
 };
 PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& course);
 

@@ -6,7 +6,7 @@
 namespace sslcd::sim {
 namespace {
 
-/// Along an arc, in closed form.
+/// A point on an arc, in closed form.
 Path::Point Advance(const Path::Point& from, double length, double curvature) {
   const double turn = length * curvature;
   // sin(turn/2)/(turn/2) times the length is the chord; its direction is half the turn away.

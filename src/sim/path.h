@@ -7,22 +7,22 @@
 
 namespace sslcd::sim {
 
-/// A stretch of constant curvature; positive turns right, seen from above.
+/// A path segment of constant curvature; positive turns right, seen from above.
 struct PathPiece {
   double length_m = 0;
   double curvature_per_m = 0;
 };
 
 /// A planar line in the x-z plane of the world, from the origin in direction +z. Arc length may be
-/// negative (straight extension to the back) and longer than the pieces (`closed`: they are run
-/// through again and again; else straight on).
+/// negative (straight extension to the back) and longer than the segments (`closed`: they repeat;
+/// otherwise straight extension).
 class Path {
  public:
   explicit Path(std::vector<PathPiece> pieces, bool closed = false);
 
   double length() const { return length_; }
 
-  /// Where, and in which direction (angle from +z towards +x), the line is at arc length `s_m`.
+  /// Position and heading (angle from +z towards +x) of the line at arc length `s_m`.
   struct Point {
     double x = 0, z = 0, heading = 0;
   };

@@ -6,8 +6,7 @@
 namespace sslcd::sim {
 
 double Random::Normal() {
-  // Box-Muller; the second value is thrown away so that the object has no hidden state besides the
-  // engine.
+  // Box-Muller. Drops the second value, so that the engine is the only state.
   const double radius = std::sqrt(-2. * std::log(1. - Uniform()));
   return radius * std::cos(2. * M_PI * Uniform());
 }

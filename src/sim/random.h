@@ -6,11 +6,11 @@
 
 namespace sslcd::sim {
 
-/// Random numbers that are the same with every standard library: the engine's output is fixed by
-/// the C++ standard, that of std::normal_distribution and its kin is not.
+/// Random numbers that are the same with every standard library. The C++ standard defines the
+/// output of the engine, but not that of std::normal_distribution and similar classes.
 class Random {
  public:
-  /// Different streams of one seed have nothing to do with each other.
+  /// Different streams of one seed are independent.
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0)
       : engine_(seed + 0x9E3779B97F4A7C15u * stream) {}
 
@@ -19,7 +19,7 @@ class Random {
   double Normal();  ///< mean 0, standard deviation 1
   double Normal(double mean, double sigma) { return mean + sigma * Normal(); }
   bool Chance(double probability) { return Uniform() < probability; }
-  int Poisson(double mean);  ///< cost grows with the mean; 0 for mean <= 0
+  int Poisson(double mean);  ///< the cost grows with the mean; 0 for mean <= 0
 
  private:
   std::mt19937_64 engine_;

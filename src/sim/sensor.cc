@@ -23,7 +23,7 @@ Draw DrawNormals(Random& random) {
   return draw;
 }
 
-/// An object in view and how much of it is left by the image border.
+/// An object in view and the share of it inside the image.
 struct Sighting {
   const WorldObject* object = nullptr;
   Pose T_cam_object;
@@ -122,7 +122,7 @@ class Detector {
     return detection;
   }
 
-  /// Cars and vans are taken for each other, and so are poles and trees.
+  /// Confuses cars with vans, and poles with trees.
   std::string Mistaken(const std::string& label) {
     if (noise_.wrong_label == 0 || !random_.Chance(noise_.wrong_label)) return label;
     constexpr std::pair<const char*, const char*> kMistakes[] = {
@@ -142,7 +142,7 @@ class Detector {
     return box.Area() > 0 ? std::optional(box) : std::nullopt;
   }
 
-  /// A car that is not there, on the ground somewhere in the image.
+  /// A false detection of a car on the ground, at a random place in the image.
   Detection Imagine() {
     const double half_view = std::atan(0.5 * world_.camera.width / world_.camera.fx);
     const double range = random_.Uniform(8, std::max(9., noise_.max_range_m));

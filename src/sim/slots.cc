@@ -9,12 +9,12 @@
 namespace sslcd::sim {
 namespace {
 
-constexpr double kLength = 4.8, kWidth = 1.9;  // of a slot's vehicle [m]
+constexpr double kLength = 4.8, kWidth = 1.9;  // size of a slot's vehicle [m]
 constexpr double kClearance = 1.2;             // from the camera's path to a vehicle
 constexpr double kStall = 2.6;                 // width of a stall
 constexpr double kAisles = 16.6;               // from one aisle's middle to the next one's
 constexpr double kToStall = 5.5;               // from an aisle's middle to that of a stall
-constexpr double kAround = 14;                 // the car park goes on so far beyond the path
+constexpr double kAround = 14;                 // margin of the car park around the path
 constexpr double kSpace = 5.8;                 // a kerb-side parking space
 constexpr double kRightKerb = 3.2, kLeftKerb = -6.6;
 
@@ -22,7 +22,7 @@ struct Range {
   int first, last;
 };
 
-/// Multiples of `step` that cover all points' coordinates and the surroundings.
+/// Multiples of `step` that cover the coordinates of all points and a margin.
 Range Multiples(const std::vector<Path::Point>& points, double Path::Point::*coordinate,
                 double step) {
   const auto [low, high] = std::minmax_element(

@@ -9,26 +9,26 @@
 
 namespace sslcd::sim {
 
-/// A place where a vehicle can stand: its centre and the direction it faces (from +z towards +x).
+/// A place for a vehicle: its centre and heading (from +z towards +x).
 struct Slot {
   double x = 0, z = 0, heading = 0;
   std::string label;  ///< empty: any vehicle
 };
 
-/// Where the slot lies in the world, `y_m` down. [T_world_object]
+/// The pose of a vehicle in the slot, `y_m` down. [T_world_object]
 Pose PoseOf(const Slot& slot, double y_m);
 
-/// Nobody who drives along the points comes nearer than a metre or so to a vehicle in the slot.
+/// Whether a path along the points keeps about a metre of distance from a vehicle in the slot.
 bool IsClear(const Slot& slot, const std::vector<Path::Point>& points);
 
-/// Vehicles of usual size in the two slots would touch.
+/// Whether vehicles of usual size in the two slots would touch.
 bool Overlap(const Slot& a, const Slot& b);
 
 /// A regular car park around the points: aisles along z, one of them at x = 0, with stalls across
-/// on both sides. Stalls in the way are left out.
+/// on both sides. Leaves out stalls on the path.
 std::vector<Slot> LotSlots(const std::vector<Path::Point>& points);
 
-/// Parking spaces along both kerbs of everything that is driven; those in the way are left out.
+/// Parking spaces along both kerbs of the path. Leaves out those on the path.
 std::vector<Slot> StreetSlots(const Path& path, const std::vector<Path::Point>& points);
 
 /// Places for poles (label "Pole") and trees ("Tree") in such a car park and along such a street.

@@ -3,8 +3,7 @@
 
 namespace sslcd::sim {
 
-/// Streams of one seed (see Random), so that another noise setting leaves everything else as it
-/// was.
+/// Streams of one seed (see Random), so that a change of one noise setting changes nothing else.
 enum Stream {
   kWorldStream = 0,
   kOdometryStream = 1,

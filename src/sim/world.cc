@@ -39,7 +39,7 @@ World MakeStreet(std::uint64_t seed, const StreetOptions& options) {
   Random random(seed);
   World world = EmptyWorld();
 
-  constexpr double kAhead = 60;   // the street goes on where the drive ends
+  constexpr double kAhead = 60;   // length of the street beyond the end of the drive
   constexpr double kSpace = 5.8;  // one kerb-side parking space
   const double driven = options.speed_mps * (options.frames - 1) / options.frame_rate_hz;
   std::vector<PathPiece> pieces;
@@ -96,7 +96,7 @@ World MakeParkingLot(std::uint64_t seed, const ParkingLotOptions& options) {
   const Path path(lap, true);
   Drive(path, options.frames, options.frame_rate_hz, options.speed_mps, world);
 
-  // Cars stand across the aisle, nose in or tail in. Both aisles are laid out along their own
+  // Cars park across the aisle, nose in or tail in. The layout of both aisles follows their
   // direction of travel.
   const double other_aisle = 0.5 * path.length() - 0.5 * options.aisle_m;
   for (double start : {-0.5 * options.aisle_m, other_aisle}) {

@@ -11,10 +11,10 @@ namespace sslcd::sim {
 
 /// Writes an ordinary sequence folder: calib.txt, times.txt, odometry.txt and groundtruth.txt
 /// (TUM), detections.txt (KITTI tracking rows with score), sequence.yaml, landmark_ids.txt with the
-/// true identity of every row, for evaluation only, and, where the detections have them,
-/// embeddings.npy and colours.npy. The folder is made if need be. Throws Error(kUsage) when it
-/// holds something already and `overwrite` is not set, and Error(kOutput) when it cannot be
-/// written; each file appears complete or not at all.
+/// true identity of every row (for evaluation only), and, if the detections have them,
+/// embeddings.npy and colours.npy. Creates the folder if necessary. Throws Error(kUsage) if the
+/// folder is not empty and `overwrite` is not set, and Error(kOutput) if it cannot be written. Each
+/// file is written completely or not at all.
 void WriteSequence(const World& world, const Trajectory& odometry,
                    const SimulatedDetections& detections, const std::filesystem::path& folder,
                    bool overwrite = false);
