@@ -9,8 +9,8 @@
 
 namespace sslcd {
 
-/// The global map that a local one is compared with: the objects of passes that ended before a
-/// point of the path, indexed. Follows the passes from call to call. Copyable.
+/// The global map of an attempt: an index of the objects of passes that ended before a point of the
+/// path. Updates incrementally from call to call. Copyable.
 class GlobalLayout {
  public:
   explicit GlobalLayout(const LoopOptions& options)
@@ -18,7 +18,8 @@ class GlobalLayout {
         reach_m_(options.match.reach_m),
         min_sightings_(options.layout.min_sightings) {}
 
-  /// The index as of now. Holds until the next call. O(what has changed); O(map) if everything has.
+  /// Updates and returns the index, which is valid until the next call. O(changes); O(map) if
+  /// everything has changed.
   const LayoutIndex& Update(const MapState& state, const PassMap& passes, double old_until_m);
 
  private:

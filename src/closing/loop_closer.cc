@@ -79,7 +79,7 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
 }
 
-// True: a loop was accepted.
+// Returns true if a loop was accepted.
 bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   const std::optional<FoundLoop> found = finder_->Find({state, passes_, ledger_.path(), window});
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
@@ -97,7 +97,7 @@ void LoopCloser::Correct(MapState& state, double here_m, double scale) {
 
 void LoopCloser::Review(const MapState& state) {
   passes_.Rebuild(state);
-  finder_->Reset();  // where its poses were everything has moved
+  finder_->Reset();  // its poses are invalid after the correction
   ReviewLoops(state, passes_, ledger_, options_);
 }
 

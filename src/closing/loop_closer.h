@@ -10,31 +10,31 @@
 
 namespace sslcd {
 
-/// Loop closure as it runs with the keyframes (paper IV): decides when to look, and hands what the
-/// finder finds to the ledger and the corrector. Holds no reference to the map; copyable.
+/// Loop closure at keyframes (paper IV): decides when to search and passes the results of the
+/// finder to the ledger and the corrector. Has no reference to the map; copyable.
 class LoopCloser {
  public:
-  /// `matcher`: a host's; none: the finder that `options.finder` names.
+  /// `matcher` is the host's matcher; none: the finder of `options.finder`.
   LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_map, Gallery::Mode galleries,
              const PlaceMatcher& matcher);
   LoopCloser(const LoopCloser& other);
   LoopCloser(LoopCloser&&) = default;
 
-  /// Takes in the newest frame; `seen`: its detections with their appearance.
+  /// Adds the newest frame. `seen` has its detections with appearance.
   void AddFrame(const MapState& state, const std::vector<Detection>& seen) {
     passes_.AddFrame(state, seen);
   }
 
-  /// Looks for a loop if the camera has come far enough since the last time, and corrects
-  /// trajectory and map by it. `scale`: metres per odometry metre.
+  /// Searches for a loop if the camera has moved far enough since the last attempt, and corrects
+  /// trajectory and map. `scale` is metres per odometry metre.
   void AddKeyframe(MapState& state, double scale, TimingTable& timing);
 
-  /// After the last frame: looks from the latest cameras, which nothing more will surround with
-  /// objects, and then a second time along the whole run, now that the first loops have made the
-  /// trajectory right: there the prior is narrow and few objects suffice.
+  /// Searches after the last frame: from the latest cameras, whose local maps are complete now, and
+  /// then a second time along the whole run. The first loops have corrected the trajectory, so the
+  /// prior is narrow and few objects suffice.
   void Finish(MapState& state, double scale, TimingTable& timing);
 
-  /// After everything was refined and associated again: see ReviewLoops.
+  /// Reviews the loops after the refinement, see ReviewLoops.
   void Review(const MapState& state);
 
   LoopLedger& ledger() { return ledger_; }

@@ -15,7 +15,7 @@
 namespace sslcd {
 namespace {
 
-// Solves the graph and gives the rows of `loops` its verdict. False: not solvable.
+// Solves the graph and applies its verdict to the rows of `loops`. False: not solvable.
 bool SolveGraph(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
                 const LoopOptions& options) {
   if (!options.robust) return SolvePoseGraph(graph.graph, options.graph.graph).usable;
@@ -79,7 +79,7 @@ MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
 
 BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,
                           const WholeMapOptions& whole_map) {
-  // From where the pose graph has left everything; more of them change next to nothing.
+  // Starts at the solution of the pose graph, where more iterations hardly change the result.
   constexpr int kMaxSteps = 4;
   const std::vector<int> keyframes =
       SelectKeyframes(state.frames, options.keyframe_m, kGraphKeyframeRad);
@@ -88,7 +88,7 @@ BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& opti
   adjust.map.learn_noise = false;
   adjust.ba.max_iterations = std::min(adjust.ba.max_iterations, kMaxSteps);
   adjust.ba.odometry = options.odometry;
-  adjust.ba.odometry.scale_prior = 0;  // the scale stays
+  adjust.ba.odometry.scale_prior = 0;  // fixes the scale
   double log_scale = std::log(scale);
   return OptimiseMap(state, keyframes, log_scale, {}, adjust);
 }

@@ -6,30 +6,31 @@
 
 namespace sslcd {
 
-/// Brings trajectory and map in line with the accepted loops. The steps in their order; each is a
+/// The steps that correct trajectory and map by the accepted loops, in their order. Each is a
 /// function of the state and the ledger.
 
-/// Whether the trajectory already goes through all loops that no solve has seen yet.
+/// Whether the trajectory already agrees with all loops that are not solved yet.
 bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger);
 
-/// Solves the pose graph with all loops ever accepted, which decides again about each of them if
-/// `options.robust`, and moves trajectory and map. False: not solvable, nothing has moved.
+/// Solves the pose graph with all loops ever accepted and moves trajectory and map. If
+/// `options.robust`, it decides about each of these loops again. False: not solvable, nothing has
+/// moved.
 bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
                        const LoopOptions& options, const DetectionNoise& noise);
 
-/// Matched objects of accepted loops become one landmark where they lie within `fuse_m` of each
-/// other, and so do the duplicates that this brings to light. The ledger's ids follow.
+/// Fuses matched objects of accepted loops that are within `fuse_m` of each other, and the
+/// duplicates that this reveals. Updates the ids of the ledger.
 MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
                              const WholeMapOptions& options);
 
-/// Adjusts cameras and objects after a loop has moved them: a few steps of bundle adjustment over
-/// the keyframes of the pose graph, with the scale as it is and odometry as loose as there. Not
-/// usable, and nothing moves, where there are more keyframes than `options.adjust_keyframes`.
+/// Adjusts cameras and objects after a loop closure: a few steps of bundle adjustment over the
+/// keyframes of the pose graph, with fixed scale and the odometry noise of the pose graph. Not
+/// usable, and nothing moves, if there are more keyframes than `options.adjust_keyframes`.
 BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,
                           const WholeMapOptions& whole_map);
 
-/// How the layout around a camera moves with it: yaw about its place. Heights are the layout's own
-/// and stay.
+/// The motion of the layout around a camera: yaw about the camera and shift. Heights are relative
+/// to the layout and stay.
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity);
 
 }  // namespace sslcd

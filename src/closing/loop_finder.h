@@ -12,19 +12,19 @@
 
 namespace sslcd {
 
-/// Which stretch of the path to look at for a loop.
+/// The path segment of an attempt to close a loop.
 struct SearchWindow {
-  double here_m = 0;   ///< the end of the local map on the path [m]
-  double lag_m = 0;    ///< the query camera stood this far before that
+  double here_m = 0;   ///< path length at the end of the local map [m]
+  double lag_m = 0;    ///< path from the query camera to the end of the local map
   double local_m = 0;  ///< length of the local map
-  /// the query camera may have stood this far before the first or after the last matched object
+  /// largest path from the query camera to the first or last matched object
   double beyond_m = 0;
 
-  /// Where the passes of the global map must have ended.
+  /// The passes of the global map must have ended before this path length.
   double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
 };
 
-/// What a finder may look at. Refers to all of it.
+/// The input of a finder. Refers to its parts.
 struct FinderInput {
   const MapState& state;
   const PassMap& passes;
@@ -32,41 +32,43 @@ struct FinderInput {
   SearchWindow window;
 };
 
-/// A loop, measured, with the finder's decision in its row.
+/// A measured loop with the finder's decision in its row.
 struct FoundLoop {
   LoopMeasurement loop;
-  double sigma_m = 0;      ///< how well the matched objects agree; 0: measured without objects
-  int track = -1;          ///< of the same track of poses: same number; -1: none
-  bool confirmed = false;  ///< a good measurement: to be accepted as soon as its track is
+  /// standard deviation of the matched objects; 0: measured without objects
+  double sigma_m = 0;
+  int track = -1;          ///< number of the track of poses; -1: none
+  bool confirmed = false;  ///< a good measurement, which is accepted together with its track
 };
 
-/// Looks for the local map in the global one. What it remembers between calls is its own.
+/// Searches the local map in the global one. May keep state between calls.
 class LoopFinder {
  public:
   virtual ~LoopFinder() = default;
   virtual std::unique_ptr<LoopFinder> Clone() const = 0;
 
-  /// None: nothing there to decide about.
+  /// Searches for a loop. None: there is no candidate.
   virtual std::optional<FoundLoop> Find(const FinderInput& input) = 0;
 
-  /// The local map's coordinates have changed: new = change(old).
+  /// Transforms the state after a change of the local map's coordinates: new = change(old).
   virtual void MoveLocalMap(const YawShift&) {}
 
-  /// The trajectory was refined, or the search starts again at the beginning of the run.
+  /// Drops the state after a refinement of the trajectory, or before a second search from the start
+  /// of the run.
   virtual void Reset() {}
 
-  /// Whether it can be asked about earlier stretches again, after the last frame.
+  /// Whether it supports a second search of earlier path segments after the last frame.
   virtual bool CanLookBack() const { return true; }
 };
 
-/// Follows poses over consecutive attempts (loop/pose_tracks.h) and decides by DecideTrack.
+/// Tracks poses over consecutive attempts (loop/pose_tracks.h) and decides by DecideTrack.
 std::unique_ptr<LoopFinder> MakeTrackFinder(const LoopOptions& options);
 
-/// The two-stage matching, the drift and the loop frame as printed (paper IV-B to IV-D), which know
-/// no refusal.
+/// The two-stage matching, the drift and the loop frame as printed (paper IV-B to IV-D). It never
+/// refuses a loop.
 std::unique_ptr<LoopFinder> MakePrintedFinder(const LoopOptions& options);
 
-/// A matcher of the host finds the place and decides; measuring is ours.
+/// The host's matcher finds the place and decides; sslcd measures the loop.
 std::unique_ptr<LoopFinder> MakeHostFinder(const LoopOptions& options, PlaceMatcher matcher);
 
 }  // namespace sslcd

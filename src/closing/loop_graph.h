@@ -10,26 +10,28 @@
 
 namespace sslcd {
 
-/// A turn that makes a keyframe of the pose graph and of the adjustment after a loop. [rad]
+/// Rotation from one keyframe of the pose graph to the next, also for the adjustment after a loop.
+/// [rad]
 inline constexpr double kGraphKeyframeRad = 0.5;
 
-/// A loop between two frames, by their indices.
+/// A loop between two frames, given by index.
 struct LoopEdge {
   int match = 0, query = 0;
   const LoopClosure* closure = nullptr;
 };
 
-/// The pose graph of paper IV-D, Eqs. 20 and 21, with the loops that these lack.
+/// The pose graph of paper IV-D, Eqs. 20 and 21, including the loops that the equations lack.
 struct LoopGraph {
-  /// the vertices: indices of frames, ascending; ends of loops are among them
+  /// frame index of each vertex, ascending; includes the ends of loops
   std::vector<int> keyframes;
-  /// odometry between keyframes, then the loops in the order given
+  /// odometry between keyframes, followed by the loops in the given order
   PoseGraph graph;
-  std::size_t first_loop = 0;       ///< among the edges
-  std::vector<double> kept_before;  ///< per edge, for SolveRobust
+  std::size_t first_loop = 0;       ///< index of the first loop among the edges
+  std::vector<double> kept_before;  ///< argument of SolveRobust, per edge
 };
 
-/// `scale`: metres per odometry metre. `up`: unit vector against gravity. [world]
+/// Builds the graph. `scale` is metres per odometry metre, `up` the unit vector against gravity in
+/// the world.
 LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,
                          const Vec3& up, const LoopOptions& options);
 

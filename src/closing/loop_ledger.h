@@ -13,51 +13,54 @@
 
 namespace sslcd {
 
-/// An attempt to close a loop that had something to compare.
+/// An attempt to close a loop with a candidate.
 struct LoopAttempt {
   FoundLoop found;
-  std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< the row's, by the ids they have now
-  std::optional<LoopClosure> remeasured;                 ///< the row as the refined map measures it
+  /// matched pairs of the row with current ids
+  std::vector<std::pair<LandmarkId, LandmarkId>> pairs;
+  std::optional<LoopClosure> remeasured;  ///< the row measured in the refined map
   SearchWindow window;
-  /// accepted at some time: an edge of the pose graph, which may refuse it
+  /// accepted at some time, so it is an edge of the pose graph, which may refuse it
   bool in_graph = false;
-  bool solved = false;  ///< the pose graph was solved with it
+  bool solved = false;  ///< a solve of the pose graph has included it
 
   LoopClosure& row() { return found.loop.row; }
   const LoopClosure& row() const { return found.loop.row; }
   bool accepted() const { return row().decision == LoopDecision::kAccepted; }
 };
 
-/// What has become of every attempt of a run. Copyable.
+/// All attempts of a run and their decisions. Copyable.
 class LoopLedger {
  public:
-  /// False, and no entry: the newest frame has led to these two cameras before.
+  /// Adds an attempt. Returns false without adding it if the newest frame has already given a loop
+  /// between these cameras.
   bool Add(const FoundLoop& found, const SearchWindow& window, int newest_frame);
 
-  /// Enters the newest attempt, which its finder has accepted, into the pose graph, and with it the
-  /// confirmed attempts of the same track.
+  /// Adds the newest attempt, which its finder has accepted, to the pose graph, together with the
+  /// confirmed attempts of its track.
   void AcceptNewest(const FrameStore& frames);
 
-  /// Forgets attempts from the `first` one on that were never accepted.
+  /// Removes attempts from index `first` on that were never accepted.
   void DropUnaccepted(std::size_t first);
 
-  /// Landmarks were fused.
+  /// Updates the ids of fused landmarks.
   void Rename(const MergedIds& merged);
 
   std::vector<LoopAttempt>& attempts() { return attempts_; }
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
 
   bool AnyAccepted() const;
-  /// Whether a loop with a query camera within `within_m` of that point of the path is accepted.
+  /// Whether there is an accepted loop with a query camera within `within_m` of this path length.
   bool AcceptedNear(const FrameStore& frames, double path_m, double within_m) const;
   /// Edges of the accepted loops.
   std::vector<LoopEdge> AcceptedEdges() const;
-  /// The path, with the accepted loops as shortcuts.
+  /// The path with the accepted loops as shortcuts.
   PathGraph AcceptedPath(const FrameStore& frames) const;
-  /// The same with all loops accepted since the last call of ResetPath, refused ones too.
+  /// The same with all loops accepted since the last call of ResetPath, including those refused
+  /// later.
   const PathGraph& path() const { return path_; }
   void ResetPath(const FrameStore& frames) { path_ = AcceptedPath(frames); }
-  /// Every attempt, in order, as it was measured last.
+  /// The rows of all attempts in order, with their last measurement.
   std::vector<LoopClosure> Rows() const;
 
  private:

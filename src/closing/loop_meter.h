@@ -13,35 +13,35 @@
 
 namespace sslcd {
 
-/// What a loop closure says, measured from matched objects.
+/// A loop measured from matched objects.
 struct LoopMeasurement {
   LoopClosure row;
-  int query = 0, match = 0;  ///< the two cameras: indices into the frames
-  double heading_sigma = 0;  ///< of T_match_query about the vertical, by its matches [rad]
+  int query = 0, match = 0;  ///< indices of the two frames
+  /// standard deviation of the heading of T_match_query from its matches [rad]
+  double heading_sigma = 0;
 };
 
-/// Objects of the local map that older passes have seen, too.
+/// Objects of the local map that older passes have also seen.
 struct CommonObjects {
   const PassLayout& local;
-  std::vector<std::pair<int, LandmarkId>> pairs;  ///< index of local, the old landmark
-  double sigma_m;                                 ///< how well their positions agree
-  double old_until_m;                             ///< where the path of the older passes ends
+  std::vector<std::pair<int, LandmarkId>> pairs;  ///< local index and old landmark
+  double sigma_m;                                 ///< standard deviation of their positions
+  double old_until_m;                             ///< path length at the end of the older passes
 };
 
-/// Matches by their indices -> index of local, old landmark.
+/// Converts matches of indices to pairs of local index and old landmark.
 std::vector<std::pair<int, LandmarkId>> OldLandmarks(
     const std::vector<std::pair<int, int>>& matches, const LayoutIndex& global);
 
 /// Turns matched layouts into the relative pose of two cameras (paper IV-D, Eqs. 17 and 18).
-///
-/// The paper moves the newest camera by the drift of all matched objects. Odometry bends both maps,
-/// though, so that drift holds in their midst and not at their ends: the query camera is one among
-/// its matched objects, or not far from them, the match camera the old one nearest to its corrected
-/// pose, and objects seen far from the two along the path count less. Both maps are levelled first:
-/// the ground at one place has one slope, whatever odometry says.
+/// The paper moves the newest camera by the drift of all matched objects. But odometry errors
+/// deform both maps, so the drift is valid in their centre and not at their ends. Therefore the
+/// query camera is one near its matched objects, the match camera is the old one nearest to its
+/// corrected pose, and objects seen at a large path distance from the two have less weight. Both
+/// maps are aligned with gravity first, since the ground at one place has one slope.
 class LoopMeter {
  public:
-  /// Refers to all three.
+  /// Keeps references to all arguments.
   LoopMeter(const MapState& state, const PassMap& passes, const LoopOptions& options)
       : state_(state),
         frames_(state.frames),
@@ -49,14 +49,14 @@ class LoopMeter {
         passes_(passes),
         options_(options) {}
 
-  /// Tries the camera at `query_m` of path and, while the heading remains too uncertain, cameras
-  /// further back; none that stood more than `beyond_m` before the first common object or after the
-  /// last one. What odometry may do over that stretch counts in the covariance. None where the
-  /// objects fix no pose.
+  /// Tries the camera at `query_m` of path and, while the heading is too uncertain, earlier
+  /// cameras. Excludes cameras more than `beyond_m` before the first common object or after the
+  /// last one. The covariance includes the odometry noise of that path. None: the objects do not
+  /// determine a pose.
   std::optional<LoopMeasurement> Measure(const CommonObjects& common, double query_m,
                                          double beyond_m) const;
 
-  /// Of two cameras, given by their indices.
+  /// Measures the loop between two frames, given by index.
   std::optional<LoopMeasurement> MeasureBetween(int query, int match,
                                                 const CommonObjects& common) const;
 

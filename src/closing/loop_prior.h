@@ -8,9 +8,9 @@
 
 namespace sslcd {
 
-/// Log odds of a pose before any object is looked at: would odometry have to be off by more than
-/// the path, shortcuts taken, explains? Against poses strewn evenly over the searched map, as
-/// LayoutFit::evidence is. Refers to passes, layout and index while it is used.
+/// The prior log odds of a pose: the likelihood of the required odometry error over the path with
+/// shortcuts, against poses uniformly distributed over the searched map, like LayoutFit::evidence.
+/// Keeps references to passes, layout and index.
 PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances,
                                 const PassLayout& local, const LayoutIndex& index,
                                 const LoopPriorOptions& options);

@@ -37,7 +37,7 @@ std::optional<MeanSighting> MeanPlace(const PassObject& pass, const MapState& st
     yaws.push_back(gravity.YawOf((frame.T_world_cam * T_cam_object).so3()));
   }
   if (static_cast<int>(yaws.size()) < std::max(1, range.min_sightings)) return std::nullopt;
-  Vec2 axis(0, 0);  // of doubled angles: a heading may be turned round by mistake
+  Vec2 axis(0, 0);  // of doubled angles, since headings may be reversed
   for (const double yaw : yaws) axis += Vec2(std::cos(2 * yaw), std::sin(2 * yaw));
   const Vec3 position = information.ldlt().solve(weighted);
   return MeanSighting{{position, VoteHeading(0.5 * std::atan2(axis.y(), axis.x()), yaws)},

@@ -7,21 +7,21 @@
 
 namespace sslcd {
 
-/// Where on the path to look, and how many sightings are asked for.
+/// A range of the path and the smallest number of sightings.
 struct PathRange {
   double from_m = 0, to_m = 0;
   int min_sightings = 1;
 };
 
-/// Where sightings put an object, on average.
+/// The mean place of an object over its sightings.
 struct MeanSighting {
   UprightPose pose;     ///< in the world
-  double height_m = 0;  ///< over the camera that saw it from nearest
-  double seen_m = 0;    ///< on the path
+  double height_m = 0;  ///< height over the camera nearest to it
+  double seen_m = 0;    ///< mean path length of the sightings
 };
 
-/// Information-weighted mean of where the sightings of a pass on a range of the path put an object.
-/// None if they are fewer than asked for.
+/// Information-weighted mean place over the sightings of a pass in a range of the path. None: too
+/// few sightings.
 std::optional<MeanSighting> MeanPlace(const PassObject& pass, const MapState& state,
                                       const DetectionNoise& noise, const PathRange& range);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The layouts that passes make.
+// The layouts of passes.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -131,7 +131,8 @@ LayoutChanges PassMap::ChangesBefore(const MapState& state, double to_m, int min
   if (changes.all) {
     changes.objects = Before(state, to_m, min_sightings).objects;
   } else {
-    // A pass that moves with its anchor, or has just become old, was seen by one of these frames.
+    // Changed passes were seen by one of these frames: those that moved with their anchor and those
+    // that became old.
     std::set<int> touched(journal_.begin() + static_cast<std::ptrdiff_t>(mark.journal),
                           journal_.end());
     AddSeenIn(frames, first_change, frames.size(), touched);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life of passes; the layouts that they make are in pass_layout.cc.
+// The life cycle of passes. Their layouts are in pass_layout.cc.
 #include "closing/pass_map.h"
 
 #include <algorithm>

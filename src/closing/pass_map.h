@@ -16,70 +16,70 @@
 
 namespace sslcd {
 
-/// One landmark on one pass: its sightings between two long stretches without any. A landmark that
-/// was recognised on a later pass has several of these. Loop closure matches passes rather than
-/// landmarks: that tells how far the odometry has drifted in between, also where the map has long
-/// fused what both have seen.
+/// One landmark on one pass: its sightings between two long path segments without any. A landmark
+/// that was recognised on a later pass has several passes. Loop closure matches passes instead of
+/// landmarks, which measures the drift between them even if the map has fused their landmarks.
 struct PassObject {
   LandmarkId id;
-  double first_m = 0, last_m = 0;              ///< path travelled at its first and last sighting
-  std::vector<std::pair<int, int>> sightings;  ///< index of the frame, index of the detection in it
-  /// the frame that a finished pass is tied to; -1: not finished yet
+  double first_m = 0, last_m = 0;              ///< path length at its first and last sighting
+  std::vector<std::pair<int, int>> sightings;  ///< index of the frame and of the detection in it
+  /// frame that a finished pass moves with; -1: not finished
   int anchor = -1;
-  /// where the pass puts the object; it moves with its anchor
+  /// pose of the object on this pass, which moves with the anchor
   Pose T_anchor_object;
   double height_m = 0;         ///< over the camera that saw it from nearest
   PerCue<Gallery> appearance;  ///< what it looked like on this pass
 };
 
-/// Objects as matching sees them, and where they are in the world, in step. The height of a layout
-/// object is that over the camera that saw it from nearest: odometry's drift in height and tilt
+/// The objects of a layout with their poses in the world, in the same order. The height of a layout
+/// object is relative to the camera nearest to it, so that odometry drift of height and tilt
 /// cancels.
 struct PassLayout {
   std::vector<LayoutObject> objects;
   std::vector<UprightPose> places;
-  std::vector<double> seen_m;  ///< where on the path, on average; of the last pass
+  std::vector<double> seen_m;  ///< mean path length of the sightings of the last pass
 };
 
-/// What has happened to the objects that PassMap::Before lists.
+/// The changes of the objects that PassMap::Before lists.
 struct LayoutChanges {
-  bool all = false;                   ///< anything may have changed: `objects` are all there are
-  std::vector<LayoutObject> objects;  ///< as they are now, by id
-  std::vector<int> gone;              ///< ids that may have been listed before and no longer are
+  /// everything may have changed; `objects` is the complete list
+  bool all = false;
+  std::vector<LayoutObject> objects;  ///< changed objects with current values, by id
+  std::vector<int> gone;              ///< ids that may have been listed before and are not any more
 };
 
 struct MeanSighting;
 
-/// The passes of a run and the layouts they make. Holds no reference: the map and the frames whose
-/// passes these are go into each call. Copyable.
+/// The passes of a run and their layouts. Has no references: each call gets the map and the frames.
+/// Copyable.
 class PassMap {
  public:
-  /// Where a reader of ChangesBefore was at its last call.
+  /// The state of a reader of ChangesBefore at its last call.
   struct Mark {
-    int generation = -1;  ///< none: everything is new
+    int generation = -1;  ///< -1: no call yet
     FrameStore::Revision revision = 0;
     std::size_t journal = 0;
     double to_m = 0;
   };
 
-  /// A landmark out of sight for more path than `split_m` is on another pass when it comes back.
+  /// A landmark that was out of sight for more than `split_m` of path starts a new pass.
   PassMap(const DetectionNoise& noise, double split_m,
           Gallery::Mode galleries = Gallery::Mode::kByViewpoint)
       : noise_(noise), split_m_(split_m), galleries_(galleries) {}
 
-  /// Takes in the newest frame of `state`. `seen`: its detections with their appearance, which the
-  /// frame itself does not keep.
+  /// Adds the newest frame of `state`. `seen` has its detections with appearance, which the frame
+  /// does not keep.
   void AddFrame(const MapState& state, const std::vector<Detection>& seen);
 
-  /// Starts again from what the frames say now, e.g. after everything was associated again. A pass
-  /// takes its appearance over from the former passes it mostly consists of.
+  /// Rebuilds all passes from the frames, e.g. after a new association. A pass gets the appearance
+  /// of the previous passes that it mostly consists of.
   void Rebuild(const MapState& state);
 
-  /// Landmarks were fused: ids that are gone -> the landmarks they were merged into.
+  /// Updates the ids of fused landmarks. `merged` maps merged ids to their landmarks.
   void Rename(const std::map<int, LandmarkId>& merged);
 
-  /// Objects seen at least `min_sightings` times between two points of the path, where those
-  /// sightings put them.
+  /// Objects with at least `min_sightings` sightings in a range of the path, at the mean place of
+  /// these sightings.
   PassLayout Between(const MapState& state, double from_m, double to_m, int min_sightings) const;
 
   /// The same from `from_m` on.
@@ -87,24 +87,24 @@ class PassMap {
     return Between(state, from_m, std::numeric_limits<double>::infinity(), min_sightings);
   }
 
-  /// Objects by their passes that ended before `to_m` of path, one each.
+  /// Objects with passes that ended before `to_m` of path, one entry per object.
   PassLayout Before(const MapState& state, double to_m, int min_sightings) const;
 
-  /// What has changed in Before(state, to_m, min_sightings) since `mark`, which moves on to now;
-  /// one mark goes with one `min_sightings`. O(what was seen since then, and what has become old);
-  /// O(passes) if everything has moved.
+  /// The changes of Before(state, to_m, min_sightings) since `mark`, which is updated. Use each
+  /// mark with one value of `min_sightings`. O(sightings and finished passes since then); O(passes)
+  /// if everything has moved.
   LayoutChanges ChangesBefore(const MapState& state, double to_m, int min_sightings,
                               Mark& mark) const;
 
-  /// Where the passes that ended before `to_m` put a landmark; none if there is no such pass.
+  /// The mean place of a landmark over the passes that ended before `to_m`; none without such a
+  /// pass.
   std::optional<UprightPose> PlaceBefore(const MapState& state, LandmarkId id, double to_m,
                                          int min_sightings) const;
 
   /// Indices of the passes of a landmark, ascending.
   const std::vector<int>& PassesOf(LandmarkId id) const;
 
-  /// Where on the path a landmark was seen on that one of its finished passes that is nearest to
-  /// `path_m`. [m]
+  /// The path length of a landmark's finished pass that is nearest to `path_m`. [m]
   double NearestPass(const FrameStore& frames, LandmarkId id, double path_m) const;
 
   const std::vector<PassObject>& passes() const { return passes_; }
@@ -126,11 +126,11 @@ class PassMap {
   double split_m_;
   Gallery::Mode galleries_;
   std::vector<PassObject> passes_;
-  std::map<int, std::vector<int>> passes_of_;  // landmark -> indices of its passes
-  std::map<int, int> open_;                    // landmark -> its present pass
-  mutable std::map<std::string, int> labels_;  // numbers of labels, given on first use
-  int generation_ = 0;                         // how often everything was rebuilt
-  std::vector<int> journal_;  // landmarks whose passes have ended or were renamed, as it happened
+  std::map<int, std::vector<int>> passes_of_;  // indices of passes by landmark
+  std::map<int, int> open_;                    // current pass by landmark
+  mutable std::map<std::string, int> labels_;  // number by label, assigned on first use
+  int generation_ = 0;                         // number of rebuilds
+  std::vector<int> journal_;  // landmarks whose passes have ended or were renamed, in order of time
 };
 
 }  // namespace sslcd

@@ -13,7 +13,7 @@ void PathGraph::AddShortcut(double a_m, double b_m) {
   shortcuts_[b_m].push_back(a_m);
 }
 
-// Dijkstra over the shortcuts' ends.
+// Dijkstra over the ends of the shortcuts.
 PathGraph::Distances PathGraph::From(double from_m) const {
   Distances result;
   result.from_m_ = from_m;

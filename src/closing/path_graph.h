@@ -6,14 +6,14 @@
 
 namespace sslcd {
 
-/// How much path lies between two points of a trajectory when closed loops count as shortcuts: that
-/// is how far odometry may have drifted between them.
+/// The path length between two points of a trajectory with closed loops as shortcuts, which
+/// determines the drift between them.
 class PathGraph {
  public:
-  /// The points at `a_m` and `b_m` of the path [m] have been tied together.
+  /// Connects the points at the path lengths `a_m` and `b_m` [m].
   void AddShortcut(double a_m, double b_m);
 
-  /// Shortest way from `from_m` to the other point.
+  /// Shortest path from `from_m` to the other point. [m]
   class Distances {
    public:
     double To(double to_m) const;
@@ -21,12 +21,12 @@ class PathGraph {
    private:
     friend class PathGraph;
     double from_m_ = 0;
-    std::map<double, double> distance_;  // of each shortcut's ends
+    std::map<double, double> distance_;  // distance by end of a shortcut
   };
   Distances From(double from_m) const;
 
  private:
-  std::map<double, std::vector<double>> shortcuts_;  // each end -> the others
+  std::map<double, std::vector<double>> shortcuts_;  // connected ends by end
 };
 
 }  // namespace sslcd

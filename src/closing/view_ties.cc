@@ -11,13 +11,13 @@
 namespace sslcd {
 namespace {
 
-/// The ground that a camera sees best.
+/// The ground point at `ahead_m` ahead of a camera.
 Vec3 Spot(const FrameRecord& frame, double ahead_m) {
   return frame.T_world_cam * Vec3(0, 0, ahead_m);
 }
 
-/// The earlier camera, of another pass, that looks at nearly the same spot as frame `i`; -1: none.
-/// `reach_m`: how much path may lie between them, with closed loops as shortcuts.
+/// The earlier camera of another pass whose ground point is nearest to that of frame `i`; -1: none.
+/// `reach_m` is the largest path between them with closed loops as shortcuts.
 int SameSpot(const FrameStore& frames, int i, const PathGraph& path, double reach_m,
              const LoopViewOptions& options) {
   const Vec3 spot = Spot(frames[i], options.ahead_m);
@@ -45,7 +45,8 @@ bool IsMeasurement(const RelativePose& pose) {
 double PathUntilOff(const OdometryNoise& noise, double off_m) {
   constexpr double kStep = 5, kLongest = 10000;  // [m]
   double path = 0;
-  // A heading that walks by s per sqrt(m) has moved the camera by s L^1.5 / sqrt(3) after L metres.
+  // A random walk of the heading of s per sqrt(m) moves the camera by s L^1.5 / sqrt(3) after L
+  // metres.
   const auto off = [&](double length) {
     return std::hypot(noise.translation_floor_m, noise.translation_walk * std::sqrt(length),
                       noise.rotation_walk * std::pow(length, 1.5) / std::sqrt(3.));

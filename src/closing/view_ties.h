@@ -11,18 +11,19 @@
 
 namespace sslcd {
 
-/// Ties cameras of different passes whose images show the same ground, wherever odometry or closed
-/// loops say roughly where they stand. Loops of objects are right to some decimetres, since cuboids
-/// lack the same side on a whole pass; images are right to some centimetres, once it is known where
-/// to look. `path`: the accepted loops are its shortcuts. In order of the later camera, one tie
-/// each at most. Answers that are not finite, or whose covariance is singular, are left out.
+/// Aligns images of different passes that show the same ground, with an initial guess from odometry
+/// and closed loops. Loops of objects have errors of some decimetres, since a whole pass sees one
+/// side of the cuboids; aligned images have errors of some centimetres. `path` has the accepted
+/// loops as shortcuts. Returns at most one tie per later camera, in order. Ignores answers that are
+/// not finite or have a singular covariance.
 std::vector<ViewTie> TieViews(const FrameStore& frames, const PathGraph& path,
                               const ViewAligner& align, const LoopOptions& options);
 
-/// The ties that the trajectory, adjusted with them, agrees with: it does not with wrong ones.
+/// Selects the ties that agree with the trajectory after an adjustment with them, which excludes
+/// wrong ones.
 std::vector<ViewTie> AgreeingTies(const std::vector<ViewTie>& ties, const FrameStore& frames);
 
-/// How much path such an odometry goes until it is likely to be `off_m` off. [m]
+/// The path length after which the standard deviation of this odometry is `off_m`. [m]
 double PathUntilOff(const OdometryNoise& noise, double off_m);
 
 }  // namespace sslcd

@@ -11,7 +11,7 @@ struct NamedValue {
   double value;
 };
 
-// `small` may be at most `large`; `otherwise` says what would go wrong.
+// Checks `small` <= `large`; `otherwise` describes the consequence.
 void CheckOrder(const NamedValue& small, const NamedValue& large, const char* otherwise,
                 std::vector<FieldProblem>& problems) {
   if (small.value <= large.value) return;
@@ -37,7 +37,7 @@ void CheckLoop(const LoopOptions& loop, std::vector<FieldProblem>& problems) {
 }  // namespace
 
 std::vector<FieldProblem> Check(const Options& options) {
-  Options copy = options;  // visitors may write
+  Options copy = options;  // a visitor needs mutable fields
   std::vector<FieldProblem> problems =
       CheckRanges([&copy](FieldVisitor& visitor) { DescribeFields(visitor, copy); });
   CheckOrder({"filter.min_size_m", options.filter.min_size_m},

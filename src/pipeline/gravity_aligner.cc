@@ -19,8 +19,7 @@ Pose GravityAligner::Align(const Pose& T_odom_cam) {
     const Vec3 axis = mean_up_.cross(gravity_.up);
     const double tilt = std::atan2(axis.norm(), mean_up_.dot(gravity_.up));
     if (options_.enabled && tilt > options_.max_slope_rad) {
-      // What the mean is over by, it was so over the whole stretch: the camera is turned by its
-      // share of it.
+      // The excess of the mean belongs to the whole segment: this step corrects its share.
       const auto turn =
           lie::SO3<double>::Exp((share * (tilt - options_.max_slope_rad)) * axis.normalized());
       level_.so3() = turn * level_.so3();

@@ -8,27 +8,28 @@
 
 namespace sslcd {
 
-/// Keeps drifting odometry upright. Without gravity measurements roll and pitch drift like
-/// everything else, by 15 degrees and more over kilometres of LiDAR odometry; a map that is tilted
-/// against another one no longer looks like it from above. But a camera on the ground stands
-/// upright on average, up to the slope of the ground: where the mean over a stretch of path tilts
-/// further than any slope, the excess is drift and is turned back, bit by bit.
+/// Aligns drifting odometry with gravity. Without gravity measurements roll and pitch drift, by 15
+/// degrees and more over kilometres of LiDAR odometry, and layouts of tilted maps cannot be
+/// compared from above. A camera on the ground is upright on average, up to the slope of the
+/// ground. If the mean tilt over a path segment exceeds any slope, the excess is drift and is
+/// corrected gradually.
 class GravityAligner {
  public:
   GravityAligner(const GravityFrame& gravity, const LevelOptions& options)
       : gravity_(gravity), options_(options) {}
 
-  /// The next pose of the odometry, levelled. The first camera tells which of its directions is up:
-  /// it stands upright up to a slope, too.
+  /// Aligns the next odometry pose. The first camera defines its up direction, since it is upright
+  /// up to a slope.
   Pose Align(const Pose& T_odom_cam);
 
  private:
   GravityFrame gravity_;
   LevelOptions options_;
-  std::optional<Pose> raw_;  // the last one as it came in
-  Pose level_;               // ... and as it went out
+  std::optional<Pose> raw_;  // the last input pose
+  Pose level_;               // the last output pose
   Vec3 up_in_cam_{0, 0, 0};
-  Vec3 mean_up_{0, 0, 0};  // of the camera, in the world, over the last stretch
+  Vec3 mean_up_{0, 0,
+                0};  // up direction of the camera in the world, averaged over the last segment
 };
 
 }  // namespace sslcd

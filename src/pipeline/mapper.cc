@@ -19,7 +19,7 @@
 namespace sslcd {
 namespace {
 
-// Where a landmark's views are averaged: by viewpoint, or all together as in the paper.
+// The averaging of a landmark's views: by viewpoint, or all together as in the paper.
 Gallery::Mode GalleryMode(const AssociationOptions& association) {
   return association.method == AssociationOptions::Method::kPaper ? Gallery::Mode::kMean
                                                                   : Gallery::Mode::kByViewpoint;
@@ -44,7 +44,7 @@ void CheckFrame(const Frame& frame, const FrameStore& frames) {
                                           " s is not after the one before it");
 }
 
-// The store keeps what was seen, not how it looked: passes and landmarks do that.
+// The store keeps detections without appearance, which passes and landmarks keep.
 std::vector<Detection> WithoutAppearance(std::vector<Detection> detections) {
   for (Detection& detection : detections) detection.appearance = {};
   return detections;
@@ -72,7 +72,7 @@ struct Mapper::Impl {
   SlidingWindow window;
   LoopCloser loops;
   double log_scale = 0;
-  double refined_log_scale = 0;  // what the last full-map optimisation found
+  double refined_log_scale = 0;  // result of the last full-map optimisation
   std::vector<ViewTie> view_ties;
   TimingTable timing;
 };
@@ -137,7 +137,7 @@ BaSummary Mapper::Refine() {
   WholeMapOptions whole_map = WholeMap(m.options);
   LoopEvidence evidence;
   if (loop.enabled) m.loops.Finish(m.state, m.scale(), m.timing);
-  if (m.loops.ledger().AnyAccepted()) {  // the path keeps the bends that loops have made
+  if (m.loops.ledger().AnyAccepted()) {  // later frames keep the correction of the loops
     whole_map.ba.odometry = loop.odometry;
     evidence.odometry_factors = LearnOdometry(m.state, m.loops.ledger(), m.scale(), loop);
   }
@@ -177,7 +177,7 @@ PoseGraph Mapper::Graph() const {
         {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }
   for (const LoopClosure& loop : LoopClosures()) {
-    // else the tie would count twice
+    // otherwise the tie would count twice
     if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;
     graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,
                            Eigen::Matrix<double, 6, 6>(loop.covariance).inverse(), true});

@@ -43,10 +43,10 @@ Options DefaultOptions(Mode mode) {
   options.refine.rounds = 1;
   LoopOptions& loop = options.loop;
   loop.finder = LoopOptions::Finder::kPrinted;
-  loop.lag_m = 0;                    // the newest camera is tied
-  loop.layout.hindsight_m = 0;       // one search only
-  loop.robust = false;               // no loop is ever refused ...
-  loop.acceptance.withdraw_m = 1e9;  // ... or withdrawn
+  loop.lag_m = 0;                    // the newest camera is the query
+  loop.layout.hindsight_m = 0;       // no second search
+  loop.robust = false;               // never refuses a loop
+  loop.acceptance.withdraw_m = 1e9;  // never withdraws a loop
   loop.acceptance.withdraw_rad = 4;
   loop.adjust_keyframes = 0;
   loop.learn_odometry = false;

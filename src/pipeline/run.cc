@@ -12,8 +12,8 @@ bool LacksColour(const Frame& frame) {
                      [](const auto& d) { return d.box && d.appearance[Cue::kColour].empty(); });
 }
 
-// Colour vectors for the detections that have a box and no colour yet; false when the image could
-// not be read.
+// Computes colour vectors of the detections with a box and without a colour. False: the image
+// cannot be read.
 bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
   return hooks.with_image(frame.image_left, [&](const ImageView& image) {
     for (Detection& detection : frame.detections)

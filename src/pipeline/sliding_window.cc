@@ -98,8 +98,7 @@ void SlidingWindow::AddObjects(const MapState& state, BaProblem& problem) const 
   }
 }
 
-// The oldest camera leaves, and with it the objects that no camera of the window sees any more;
-// what they said of the others stays as a prior.
+// Marginalises the oldest camera and the objects that no other camera of the window sees.
 void SlidingWindow::Slide(MapState& state, const BaProblem& problem) {
   std::vector<int> gone_objects;
   for (int k = 0; k < static_cast<int>(problem.objects.size()); ++k) {

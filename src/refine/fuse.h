@@ -8,29 +8,29 @@
 #include "map/map_state.h"
 #include "sslcd/refine/options.h"
 
-/// Landmarks that turn out to be one object become one: the confirmed one of the two, else the one
-/// seen more often, keeps its id and takes the other's sightings and appearance; its pose is the
-/// mean of both, weighted by information. The frames' lists of matched landmarks follow.
+/// Fuses duplicate landmarks. The confirmed one of the two, otherwise the one with more sightings,
+/// keeps its id and gets the other's sightings and appearance. Its pose is the information-weighted
+/// mean of both. The frames' lists of matched landmarks get the new id.
 namespace sslcd {
 
-/// Ids that are gone -> the landmark that each was merged into, which may be gone itself.
+/// Merged ids and the landmark that replaced each; that one may be merged itself.
 using MergedIds = std::map<int, LandmarkId>;
-/// The landmark that `id` is part of now; `id` itself where it is not gone.
+/// The current landmark of `id`; `id` itself if it was not merged.
 LandmarkId Resolve(LandmarkId id, const MergedIds& merged);
 
-/// Were both seen in one frame, more often than by a detector's slip? Then they are two objects.
+/// Whether both were seen in the same frames, more often than by detector errors. Then they are two
+/// objects.
 bool SeenTogether(const MapLandmark& a, const MapLandmark& b);
 
-/// The pairs that a loop closure has matched, once map and trajectory have moved, and then every
-/// duplicate that this brings to light. Pairs may form chains. Left alone: pairs of an unknown id,
-/// of two labels, of objects that drive or that were seen together.
+/// Fuses the pairs that a loop closure has matched, after map and trajectory have moved, and then
+/// all duplicates that this reveals. Pairs may form chains. Ignores pairs with an unknown id,
+/// different labels, driving objects, or objects seen together.
 MergedIds FuseMatched(MapState& state, const std::vector<std::pair<LandmarkId, LandmarkId>>& pairs,
                       const WholeMapOptions& options);
 
-/// Confirmed landmarks of one label that stand in one place: no further apart than
-/// `refine.duplicate_m`, and than the detector's errors explain or their bodies leave room for. Not
-/// those seen together, nor those of two visits that nothing ties to each other yet (see
-/// PathSegments).
+/// Fuses confirmed landmarks of the same label at the same place: closer than `refine.duplicate_m`,
+/// and closer than the detector's errors explain or than their sizes allow. Excludes landmarks seen
+/// together, and landmarks of passes that are not linked yet (see PathSegments).
 MergedIds FuseDuplicates(MapState& state, const WholeMapOptions& options);
 
 }  // namespace sslcd

@@ -14,8 +14,7 @@ bool InMap(const MapLandmark& landmark, const RefineOptions& options) {
          static_cast<int>(landmark.sightings.size()) >= options.min_sightings;
 }
 
-// A frame as the optimisation sees it: its nearest keyframe, and where it is from there according
-// to the odometry.
+// The nearest keyframe of a frame and the odometry between them.
 struct Anchor {
   int camera = 0;
   Pose T_camera_frame;
@@ -42,8 +41,8 @@ std::vector<Anchor> Anchors(const FrameStore& frames, const std::vector<int>& ke
   return anchors;
 }
 
-// Keyframes are the problem's cameras; what other frames saw counts as seen from the keyframe next
-// to them.
+// Keyframes are the cameras of the problem. Sightings of other frames are assigned to the nearest
+// keyframe.
 BaProblem FullProblem(const MapState& state, const std::vector<int>& keyframes, double log_scale,
                       const std::vector<ViewTie>& ties, const WholeMapOptions& options) {
   const ObjectMap& map = state.map;

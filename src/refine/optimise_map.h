@@ -12,20 +12,20 @@
 
 namespace sslcd {
 
-/// What loops say beyond the objects that they have made one.
+/// Constraints of the full-map optimisation from loops, beyond fused objects.
 struct LoopEvidence {
-  OdometryFactors odometry_factors;  ///< on BaOptions::odometry
+  OdometryFactors odometry_factors;  ///< factors on BaOptions::odometry
   std::vector<ViewTie> view_ties;
 };
 
-/// Bundle adjustment over keyframes (indices of frames) and every landmark of the map, once more
-/// with the detector's noise learnt if `options.map.learn_noise`. What other frames saw counts as
-/// seen from the nearest keyframe; frames and objects that take no part follow. Moves trajectory,
-/// map and scale; nothing moves where the summary is not usable.
+/// Bundle adjustment over keyframes (indices of frames) and all landmarks of the map, repeated with
+/// the learnt detector noise if `options.map.learn_noise`. Sightings of other frames are assigned
+/// to the nearest keyframe. Other frames and objects follow the result. Moves trajectory, map and
+/// scale; changes nothing if the summary is not usable.
 BaSummary OptimiseMap(MapState& state, const std::vector<int>& keyframes, double& log_scale,
                       const LoopEvidence& loops, const WholeMapOptions& options);
 
-/// Poses of all sightings of a landmark in the world. `cameras`: frame number -> T_world_cam.
+/// Poses of all sightings of a landmark in the world. `cameras` has T_world_cam by frame number.
 std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int, Pose>& cameras,
                                 const GravityFrame& gravity);
 

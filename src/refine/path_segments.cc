@@ -16,7 +16,7 @@ PathSegments::PathSegments(const MapState& state, double length_m) {
     if (seen.size() < 2) continue;
     for (const int a : seen)
       for (const int b : seen)
-        if (std::abs(a - b) > 1)  // an object links what lies around it as well
+        if (std::abs(a - b) > 1)  // an object also links the neighbours of its segments
           for (int i = -1; i <= 1; ++i)
             for (int j = -1; j <= 1; ++j) links_.insert({a + i, b + j});
   }

@@ -10,8 +10,8 @@
 namespace sslcd {
 
 /// Decides which segments of the path may observe the same place: neighbouring segments, and
-/// segments linked by a landmark that a loop closure has fused. Between other segments the drift
-/// may put anything anywhere, so that standing in one place is no evidence.
+/// segments linked by a landmark that a loop closure has fused. Between other segments the drift is
+/// unknown, so that equal positions are no evidence of equal objects.
 class PathSegments {
  public:
   /// Segments of `length_m` of odometry path; <= 0: everything is one segment.

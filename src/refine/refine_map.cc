@@ -13,8 +13,8 @@
 namespace sslcd {
 namespace {
 
-// What is seen often enough and has not been found driving belongs to the map, also where the
-// stream ended too early for it to be confirmed.
+// Confirms landmarks with enough sightings that are not driving, for which the stream ended too
+// early.
 void ConfirmAll(ObjectMap& map, const WholeMapOptions& all) {
   const RefineOptions& options = all.refine;
   std::vector<LandmarkId> confirm, drop;
@@ -29,13 +29,13 @@ void ConfirmAll(ObjectMap& map, const WholeMapOptions& all) {
   }
   for (const LandmarkId id : confirm) {
     map.SetState(id, LandmarkState::kConfirmed);
-    map.SetPose(id, map.at(id).pose);  // back into the index
+    map.SetPose(id, map.at(id).pose);  // updates the spatial index
   }
   for (const LandmarkId id : drop) map.SetState(id, LandmarkState::kStale);
 }
 
-// Every detection that does not belong to a driving object looks for its landmark again, with the
-// refined poses.
+// Associates every detection that does not belong to a driving object again, with the refined
+// poses.
 void AssociateAgain(MapState& state, const WholeMapOptions& options, const Camera* camera) {
   ObjectMap& map = state.map;
   const PathSegments segments(state, options.map.memory_m);
@@ -72,7 +72,7 @@ void AssociateAgain(MapState& state, const WholeMapOptions& options, const Camer
   for (const LandmarkId id : confirmed) map.SetSightings(id, std::move(sightings[id.value]));
 }
 
-// Compares where a landmark was seen early with where it was seen late.
+// Compares the early and the late positions of a landmark.
 bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity, double moved_m,
               double elapsed_s, double min_speed_mps) {
   const int third = static_cast<int>(seen.size()) / 3;
@@ -88,10 +88,10 @@ bool HasMoved(const std::vector<UprightPose>& seen, const GravityFrame& gravity,
   return distance > moved_m && distance > min_speed_mps * elapsed_s;
 }
 
-// Share of the frames between its sightings in which a landmark was seen. Not counted: frames
-// without any detection, in which the detector may not have run, and gaps of more than two seconds,
-// in which it was out of sight. `detector_runs`: frame -> how many frames with detections there
-// were up to it.
+// Share of the frames between its sightings in which a landmark was seen. Ignores frames without
+// any detection, in which the detector may not have run, and gaps of more than two seconds, in
+// which the landmark was out of sight. `detector_runs` has the number of frames with detections up
+// to each frame.
 double SeenShare(const MapLandmark& landmark, const std::map<int, int>& detector_runs) {
   int runs = 1;
   for (std::size_t i = 1; i < landmark.sightings.size(); ++i) {

@@ -9,8 +9,8 @@
 namespace sslcd {
 namespace {
 
-// Path travelled up to each frame, odometry metres. A standing camera creeps a little, so that no
-// two frames share a place and weights by path are always defined.
+// Path length up to each frame in odometry metres. A camera at rest adds a tiny length, so that
+// weights by path are always defined.
 std::vector<double> PathOf(const FrameStore& frames) {
   constexpr double kCreep = 1e-6;
   std::vector<double> path(frames.size(), 0.);
@@ -51,8 +51,8 @@ void MoveKeyframes(FrameStore& frames, const std::vector<int>& keyframes,
     const int from = keyframes[k];
     Pose T_key_frame = before[from].inverse() * before[i];
     if (i > from && k < last) {
-      // What the step to the next keyframe was corrected by, in the frame of this one: the rotation
-      // has no lever arm.
+      // The correction of the step to the next keyframe in the frame of this one, so that the
+      // rotation has no lever arm.
       const int to = keyframes[k + 1];
       const Pose correction =
           poses[k].inverse() * poses[k + 1] * (before[from].inverse() * before[to]).inverse();
@@ -69,7 +69,7 @@ void MoveObjects(MapState& state, const std::vector<Pose>& before, const Detecti
   ObjectMap& map = state.map;
   const FrameStore& frames = state.frames;
   assert(static_cast<std::size_t>(frames.size()) == before.size());
-  std::map<int, Pose> moved;  // by frame number: where its camera carries the world
+  std::map<int, Pose> moved;  // by frame number: the motion of its camera in the world
   for (int i = 0; i < frames.size(); ++i)
     moved[frames[i].frame] = frames[i].T_world_cam * before[i].inverse();
 
@@ -77,7 +77,7 @@ void MoveObjects(MapState& state, const std::vector<Pose>& before, const Detecti
   for (const auto& [id, landmark] : map.landmarks()) {
     const Pose T_world_object = ToPose(landmark.pose, map.gravity());
     Vec3 position(0, 0, 0);
-    Vec2 turn(0, 0);  // a sum of unit vectors: angles have no mean
+    Vec2 turn(0, 0);  // a sum of unit vectors, since angles have no mean
     double information = 0;
     for (const Sighting& sighting : landmark.sightings) {
       const auto motion = moved.find(sighting.frame);

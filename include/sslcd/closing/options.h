@@ -8,56 +8,56 @@
 
 namespace sslcd {
 
-/// What is compared with what.
+/// The local and the global map of an attempt to close a loop.
 struct LoopLayoutOptions {
   double every_m = 5.;   ///< path from one attempt to the next
   double local_m = 75.;  ///< path whose objects make up the local map
-  /// the same in the second search at the end of a run, where the pose is nearly known and fewer
-  /// objects are enough; 0: there is no second search
+  /// the same in the second search at the end of a run, where the narrow prior needs fewer objects;
+  /// 0: no second search
   double hindsight_m = 60.;
-  /// path between the end of the global map's passes and the start of the local map
+  /// path between the end of the global map and the start of the local map
   double gap_m = 10.;
-  /// an object that was out of sight for this length of path is on another pass when it comes back
+  /// an object that was out of sight for this length of path starts a new pass
   double split_m = 30.;
-  int min_sightings = 2;  ///< objects with fewer sightings on a pass take no part
+  int min_sightings = 2;  ///< objects with fewer sightings on a pass are ignored
 };
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 
-/// How far odometry may be off before any object is looked at. Closed loops count as shortcuts:
-/// after the first one the trajectory is nearly right, and the prior is narrow.
+/// The prior of the drift, before objects are compared. Closed loops are shortcuts of the path:
+/// after the first one the prior is narrow.
 struct LoopPriorOptions {
   double drift_share = 0.02;  ///< standard deviation of the position, share of the path
   double drift_yaw = 0.02;    ///< random walk of the yaw [rad per sqrt(m)]
-  double surprise = 1e-6;     ///< share of loops for which the two above do not hold
+  double surprise = 1e-6;     ///< share of loops that violate the two values above
 };
 void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
 
-/// Where cameras of different passes are tied to each other by their images (ViewAligner): where
-/// odometry, with closed loops as shortcuts, says where to look.
+/// The selection of camera pairs of different passes to align by their images (ViewAligner).
+/// Odometry with closed loops as shortcuts gives the initial guess.
 struct LoopViewOptions {
   bool enabled = true;
-  double every_m = 2;  ///< least path from one tie to the next
-  /// Two cameras look at one spot on the ground if the points this far ahead of each (see
+  double every_m = 2;  ///< smallest path from one tie to the next
+  /// Two cameras see the same ground if the points at this distance ahead of them (see
   /// AlignmentRange) are at most `apart_m` apart.
   double ahead_m = 7;
   double apart_m = 6;
-  double gap_m = 30;  ///< least path between the two cameras
-  /// Most path between the two cameras, closed loops counted as shortcuts. Where odometry
-  /// (LoopOptions::odometry) needs more path than that to be off by `guess_m`, that path counts.
+  double gap_m = 30;  ///< smallest path between the two cameras
+  /// Largest path between the two cameras, with closed loops as shortcuts. The limit is larger if
+  /// the odometry (LoopOptions::odometry) needs more path to drift by `guess_m`.
   double reach_m = 75;
   double guess_m = 0.3;
 };
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options);
 
-/// What loop closure expects of odometry, from some metres to kilometres: five to ten times what
-/// OdometryNoise expects over the metres of a sliding window. Chosen on Victoria Park, the pole
-/// sequences and HALV-sim, whose loops reveal such errors.
+/// The odometry noise that loop closure assumes over metres to kilometres: five to ten times the
+/// default OdometryNoise of a sliding window. Chosen on Victoria Park, the pole sequences and
+/// HALV-sim, whose loops reveal such errors.
 OdometryNoise LongPathOdometryNoise();
 
 /// Loop closure, paper IV.
 struct LoopOptions {
-  /// How loops are found: by tracks of poses, or as the paper prints it. A host's PlaceMatcher
-  /// replaces either.
+  /// How loops are found: by tracks of poses, or as printed in the paper. A host's PlaceMatcher
+  /// replaces both.
   enum class Finder { kTracks, kPrinted };
 
   bool enabled = true;
@@ -68,28 +68,28 @@ struct LoopOptions {
   LoopPriorOptions prior;
   LoopAcceptanceOptions acceptance;
   LoopViewOptions views;
-  /// path from the query camera to the newest one: matched objects lie before and behind it
+  /// path from the query camera to the newest one, so that matched objects lie on both sides of it
   double lag_m = 25.;
-  /// Errors of every loop measured by objects that its matches do not show, per axis.
+  /// Additional standard deviations per axis of every loop measured by objects.
   double sigma_m = 0.15;
   double sigma_rad = 0.02;
-  /// matched landmarks that are farther apart than this after the correction do not become one
+  /// largest distance of matched landmarks after the correction that are fused
   double fuse_m = 3.;
   DriftOptions drift;
   double keyframe_m = 5.;  ///< path from one vertex of the pose graph to the next
-  /// Of the edges between them. Coarser than the odometry of a good stereo rig: what loops reveal
-  /// over kilometres is more than what the sliding window has to expect over metres.
+  /// Noise of the odometry edges of the pose graph. Larger than that of a good stereo rig, since
+  /// loops reveal errors over kilometres that the sliding window does not see over metres.
   OdometryNoise odometry = LongPathOdometryNoise();
   /// at the end of a run, learn the errors of odometry from the closed loops
   /// (LearnOdometryFactors)
   bool learn_odometry = true;
-  /// false: every accepted loop stays an edge, as in the paper (Eqs. 20, 21)
+  /// false: the pose graph keeps every accepted loop, as in the paper (Eqs. 20, 21)
   bool robust = true;
   RobustPoseGraphOptions graph;
-  /// up to this number of keyframes all cameras and objects are adjusted after each correction; in
-  /// longer runs only at the end
+  /// up to this number of keyframes each correction is followed by an adjustment of all cameras and
+  /// objects; longer runs do this only at the end
   int adjust_keyframes = 500;
-  PaperMatchOptions paper;  ///< of Finder::kPrinted
+  PaperMatchOptions paper;  ///< for Finder::kPrinted
 };
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options);
 

@@ -11,33 +11,32 @@
 
 namespace sslcd {
 
-/// What is asked at each attempt to close a loop: do the objects seen lately lie somewhere among
-/// those of older passes? Both lists are in the world's gravity-aligned axes as the trajectory
-/// stands now, so they differ by the drift; heights are those over the camera.
+/// The query of an attempt to close a loop: find the recently seen objects (`local`) among those of
+/// older passes (`global`). Both lists are in gravity-aligned axes of the current world frame, so
+/// they differ by the drift. Heights are relative to the camera.
 struct PlaceQuery {
   const std::vector<LayoutObject>&local, &global;
   int frame = 0;      ///< number of the newest frame
-  int old_frame = 0;  ///< number of the newest frame that the global map knows
+  int old_frame = 0;  ///< number of the newest frame of the global map
 };
 
-/// Where a matcher finds the place. Either from objects (`matches`: index of local, of global;
-/// those that agree with each other), or from two images (`match_frame`, `T_match_query` of the
-/// query's newest frame). What two images say is an edge of the pose graph and nothing more: bundle
-/// adjustment, which sees objects only, would undo it and has to be off (refine.enabled: false,
-/// loop.adjust_keyframes: 0).
+/// The answer of a matcher. It comes either from objects (`matches`: consistent pairs of indices
+/// into local and global) or from two images (`match_frame`, and `T_match_query` of the query's
+/// newest frame). An answer from images is only an edge of the pose graph. Bundle adjustment, which
+/// knows only objects, would undo it and must be off (refine.enabled: false, loop.adjust_keyframes:
+/// 0).
 struct PlaceAnswer {
   std::vector<std::pair<int, int>> matches{};
   int match_frame = -1;
   Pose T_match_query{};
-  double score = 0;       ///< higher is surer
-  bool accepted = false;  ///< sure enough, by the matcher's own rule, to close a loop
+  double score = 0;       ///< higher is more certain
+  bool accepted = false;  ///< the matcher's decision to close a loop
 };
 
-/// Takes the place of sslcd's own matching and belief (MapperContext::place_matcher): for
-/// comparison, or to try another idea. None: nothing found. Called at every attempt, in order; at
-/// the end (Mapper::Refine) several times about the newest frame, to tie several cameras. What it
-/// throws ends the run, and so does an answer that names an object or a frame that there is not
-/// (Error, kUsage).
+/// Replaces sslcd's matching and acceptance (MapperContext::place_matcher), for comparisons or
+/// other methods. None: no place found. Runs at every attempt, in order, and at the end
+/// (Mapper::Refine) several times for the newest frame, to tie several cameras. Its exceptions end
+/// the run. An answer with an unknown object or frame throws Error(kUsage).
 using PlaceMatcher = std::function<std::optional<PlaceAnswer>(const PlaceQuery&)>;
 
 }  // namespace sslcd

@@ -24,57 +24,56 @@ namespace sslcd {
 class TimingTable;
 struct Options;
 
-/// What the mapper has to know about the world and the sensor before the first frame.
+/// The world and the sensor of a mapper, known before the first frame.
 struct MapperContext {
   GravityFrame gravity;
   LabelTable labels;
-  std::optional<Camera> camera;  ///< none: nothing is projected, the box cue drops out
+  std::optional<Camera> camera;  ///< none: association does not use 2D boxes
   PlaceMatcher place_matcher{};  ///< none: sslcd's own
-  ViewAligner view_aligner{};    ///< none: loops are measured by their objects alone
+  ViewAligner view_aligner{};    ///< none: only objects measure loops
 };
 
-/// What one frame did.
+/// The result of one frame.
 struct FrameReport {
   Pose T_world_cam;
-  FilterReport filter;  ///< what became of its detections
+  FilterReport filter;  ///< counts of its kept and dropped detections
   MapUpdate map;
   bool keyframe = false;
-  BaSummary window;  ///< of the sliding window; not usable where none ran
+  BaSummary window;  ///< sliding-window adjustment; not usable if none ran
 };
 
-/// The streaming facade: frames in, a map of objects and a corrected trajectory out (paper III).
-/// The world is the odometry's frame, made metric: the first camera stays where the odometry has
-/// it. Not thread-safe; one mapper per sequence.
+/// The streaming interface: takes frames and builds a map of objects and a corrected trajectory
+/// (paper III). The world is the odometry's frame with metric scale; the first camera keeps its
+/// odometry pose. Use one mapper per sequence; it is not thread-safe.
 class Mapper {
  public:
   /// Options: pipeline/options.h
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
-  /// A copy has all of the state and goes its own way, e.g. to Refine() in a thread of its own
-  /// while the original takes in frames. It shares the host's functions (MapperContext). O(frames +
-  /// map).
+  /// A copy has its own state, e.g. to run Refine() on another thread while the original adds
+  /// frames. It shares the host's functions (MapperContext). O(frames + map).
   Mapper(const Mapper& other);
   Mapper& operator=(const Mapper& other);
   Mapper(Mapper&&) noexcept;
   Mapper& operator=(Mapper&&) noexcept;
 
-  /// Frames in order of time. O(window), whatever the size of the map, but for attempts to close a
-  /// loop. Throws Error(kBadInput) on a stamp that does not increase or a pose that is not finite;
-  /// the mapper is then as it was before.
+  /// Adds the next frame in order of time. O(window) for any size of the map, except for attempts
+  /// to close a loop. Throws Error(kBadInput) and keeps its state if the stamp does not increase or
+  /// the pose is not finite.
   FrameReport AddFrame(const Frame& frame);
 
-  /// Full-map optimisation over all frames so far: poses, landmarks and scale move, and accepted
-  /// loops are measured anew. With a ViewAligner images of different passes are aligned, and all is
-  /// optimised once more with that. May be called any time, and again.
+  /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
+  /// With a ViewAligner it also aligns images of different passes and optimises again with these.
+  /// May be called at any time and repeatedly.
   BaSummary Refine();
 
   const GravityFrame& gravity() const;
-  NoiseScale noise_scale() const;          ///< what was learnt of the detector
-  Trajectory CameraTrajectory() const;     ///< one pose a frame
-  std::vector<MapObject> Objects() const;  ///< every landmark, by id
-  /// every attempt, refused ones too
+  NoiseScale noise_scale() const;          ///< learnt factors on the detector's noise
+  Trajectory CameraTrajectory() const;     ///< T_world_cam of each frame
+  std::vector<MapObject> Objects() const;  ///< all landmarks, sorted by id
+  /// all attempts to close a loop, including refused ones
   std::vector<LoopClosure> LoopClosures() const;
-  const std::vector<ViewTie>& view_ties() const;  ///< of the last Refine
+  const std::vector<ViewTie>& view_ties() const;  ///< ties of the last Refine()
   /// Frames by their numbers, the metric odometry between them, accepted loops and view ties.
   PoseGraph Graph() const;
   /// metres per odometry metre

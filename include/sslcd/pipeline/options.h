@@ -15,18 +15,18 @@
 
 namespace sslcd {
 
-/// The sliding window that runs with every keyframe.
+/// The sliding-window adjustment at every keyframe.
 struct WindowOptions {
   bool enabled = true;
   int keyframes = 8;           ///< cameras in the window
-  double keyframe_m = 0.5;     ///< a new keyframe whenever the path has grown by this
-  double keyframe_rad = 0.05;  ///< a new keyframe whenever the camera has turned by this
+  double keyframe_m = 0.5;     ///< path from one keyframe to the next
+  double keyframe_rad = 0.05;  ///< rotation of the camera that makes a new keyframe
   /// objects with fewer sightings stay out ("more than 4 times", paper III-C)
   int min_sightings = 5;
 };
 void DescribeFields(FieldVisitor& visitor, WindowOptions& options);
 
-/// Everything that can be configured.
+/// All options of the mapper.
 struct Options {
   DetectionFilterOptions filter;
   ColourOptions colour;
@@ -41,12 +41,12 @@ struct Options {
 };
 void DescribeFields(FieldVisitor& visitor, Options& options);
 
-/// What is wrong with these options: each field outside its own range (NaN is), and fields that do
-/// not fit together. Empty: nothing. All problems at once, in the order of the fields.
+/// Returns all problems of the options in the order of the fields: fields outside their range
+/// (including NaN) and fields that do not fit together. Empty: the options are valid.
 std::vector<FieldProblem> Check(const Options& options);
 
-/// Presets of all options: the equations as printed (paper), or the system as its users need it
-/// (robust; the same as `Options()`). A preset is nothing but values of options.
+/// Presets of all options: the equations as printed in the paper (kPaper), or the recommended
+/// system (kRobust, the same as `Options()`). A preset only sets values of options.
 enum class Mode { kRobust, kPaper };
 Options DefaultOptions(Mode mode);
 

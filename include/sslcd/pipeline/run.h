@@ -21,34 +21,34 @@ namespace sslcd {
 /// asked again then.
 using FrameSource = std::function<std::optional<Frame>()>;
 
-/// What a host may hang into an offline run. All optional, all called from the calling thread.
+/// Functions of the host for an offline run. All are optional and run on the calling thread.
 struct RunHooks {
   std::function<void(int done, int total)> progress;  ///< after each frame
-  /// true: finish this frame, keep what there is
+  /// returns true to stop after this frame and keep the results
   std::function<bool()> stop;
-  /// Loads an image for the colour cue and hands it to the callback; false where that fails. None:
-  /// no colour.
+  /// Loads an image for the colour cue and passes it to the callback; returns false on failure.
+  /// Empty: no colour cue.
   std::function<bool(const std::string& path, const std::function<void(const ImageView&)>&)>
       with_image;
 };
 
-/// What came out of an offline run.
+/// The result of an offline run.
 struct RunResult {
-  std::vector<int> frames;          ///< frame numbers, in step with the trajectories
-  Trajectory trajectory, odometry;  ///< T_world_cam, T_odom_cam of every frame that was processed
-  std::vector<MapObject> objects;   ///< all landmarks, by id; the map is those that are confirmed
-  /// frames, the metric odometry between them, accepted loops, ties of views
+  std::vector<int> frames;          ///< frame number of each pose of the trajectories
+  Trajectory trajectory, odometry;  ///< T_world_cam and T_odom_cam of every processed frame
+  std::vector<MapObject> objects;   ///< all landmarks by id; the confirmed ones are the map
+  /// frames, metric odometry between them, accepted loops and ties of views
   PoseGraph graph;
-  std::vector<LoopClosure> loops;  ///< every attempt to close one, in order
-  /// pairs of cameras that were aligned by their images (ViewAligner)
+  std::vector<LoopClosure> loops;  ///< all attempts in order, including refused ones
+  /// number of camera pairs aligned by their images (ViewAligner)
   int views_tied = 0;
   double scale = 1;        ///< metres per odometry metre
-  NoiseScale noise_scale;  ///< what was learnt of the detector
+  NoiseScale noise_scale;  ///< learnt factors on the detector's noise
   FilterReport filter;
   BaSummary refinement;
   TimingTable timing;
   int images_failed = 0;
-  bool stopped = false;  ///< the stop hook ended it early
+  bool stopped = false;  ///< the stop hook ended the run early
 };
 
 /// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop).
@@ -56,8 +56,7 @@ struct RunResult {
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context,
                       const Options& options, const RunHooks& hooks = {});
 
-/// The same for frames that come one by one, e.g. made from images (frontend/image_frontend.h).
-/// `total` is for the progress only.
+/// The same for a source of frames, e.g. ImageFrontend. Only the progress uses `total`.
 RunResult RunSequence(const FrameSource& next, int total, const MapperContext& context,
                       const Options& options, const RunHooks& hooks = {});
 

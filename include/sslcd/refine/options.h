@@ -13,21 +13,21 @@ struct RefineOptions {
   /// false: there is no second search for loops at the end of a run either
   bool enabled = true;
   int rounds = 2;  ///< rounds of: optimise, associate, fuse
-  /// A camera enters the optimisation whenever the path has grown by `keyframe_m` or the camera has
-  /// turned by `keyframe_rad`. All other frames follow their neighbours.
+  /// A frame is a keyframe of the optimisation after `keyframe_m` of path or a rotation of
+  /// `keyframe_rad`. All other frames follow their neighbours.
   double keyframe_m = 1.;
   double keyframe_rad = 0.1;
   int min_sightings = 2;    ///< objects with fewer sightings do not enter the final map
   double duplicate_m = 1.;  ///< landmarks of one label closer than this become one object
   /// a landmark whose late sightings are farther than this from its early ones has moved
   double moved_m = 1.5;
-  /// a movable object seen in a smaller share of the frames that it was in sight for is taken for
-  /// several passing ones
+  /// a movable object that was seen in a smaller share of the frames in which it was visible counts
+  /// as several passing objects
   double min_seen_share = 0.4;
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 
-/// Keeping odometry upright that has no measurement of gravity.
+/// Gravity alignment of odometry without a measurement of gravity.
 struct LevelOptions {
   bool enabled = true;
   double max_slope_rad = 0.1;  ///< steepest mean slope of the ground over `window_m` of path
@@ -38,7 +38,7 @@ struct LevelOptions {
 };
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options);
 
-/// What optimisation and fusion of the whole map read.
+/// The options of optimising and fusing the whole map.
 struct WholeMapOptions {
   DetectionNoise noise;
   MapOptions map;
