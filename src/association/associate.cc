@@ -14,8 +14,8 @@ namespace {
 SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate& candidate) {
   SimilarityCues cues;
   const Detection& detection = *query.detection;
-  // A landmark that projects to nothing is out of view: its overlap with a detected box is zero,
-  // not unknown.
+  // A landmark without a projection is out of view: its overlap with a detected box is zero, not
+  // missing.
   if (detection.box)
     cues.iou = candidate.projected_box ? Iou(*detection.box, *candidate.projected_box) : 0.;
   if (candidate.appearance == nullptr) return cues;
@@ -25,9 +25,9 @@ SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate
   return cues;
 }
 
-// exp(-d^2/4) of the horizontal Mahalanobis distance under the best belief; 0 outside the gates. A
-// less plausible belief counts half, so that a parked landmark is never outbid by what its driving
-// twin might have done.
+// exp(-d^2/4) of the horizontal Mahalanobis distance from the best predicted position; 0 outside
+// the gates. A less plausible prediction counts half, so that a parked landmark wins against a
+// predicted motion.
 double Geometry(const AssociationQuery& query, const AssociationCandidate& candidate,
                 const AssociationOptions& options) {
   if (std::abs(query.height - candidate.height) > options.gate_vertical_m) return 0;

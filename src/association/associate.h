@@ -12,25 +12,25 @@
 
 namespace sslcd {
 
-/// Where something is in the horizontal plane of the world. [m, m^2]
+/// A Gaussian position in the horizontal plane of the world. [m, m^2]
 struct PlanarBelief {
   Vec2 position{0, 0};
   Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
 };
 
-/// A detection d_i as association sees it.
+/// A detection d_i in data association.
 struct AssociationQuery {
   const Detection* detection = nullptr;
   PlanarBelief place;
-  double height = 0;         ///< of the centre above the world's origin [m]
+  double height = 0;         ///< height of the centre above the world's origin [m]
   double viewpoint_rad = 0;  ///< bearing of the camera in the object frame
 };
 
-/// A landmark o_k as association sees it in this frame.
+/// A landmark o_k in data association with this frame.
 struct AssociationCandidate {
   std::string label;
-  /// where it may be, the more plausible first (parked, driving); >= 1
+  /// possible positions, most plausible first (parked, driving); at least one
   std::vector<PlanarBelief> beliefs;
   double height = 0;
   double viewpoint_rad = 0;
@@ -38,12 +38,13 @@ struct AssociationCandidate {
   const PerCue<Gallery>* appearance = nullptr;  ///< null: unknown
 };
 
-/// W_d of Eq. 2 (queries x candidates); 0 = must not match.
+/// W_d of Eq. 2 (queries x candidates); 0: must not match.
 Eigen::MatrixXd AssociationMatrix(const std::vector<AssociationQuery>& queries,
                                   const std::vector<AssociationCandidate>& candidates,
                                   const AssociationOptions& options);
 
-/// Index of the candidate for each query, -1 for none; one-to-one with the largest total score.
+/// Returns the index of the candidate of each query, -1 for none. Maximises the total score of a
+/// one-to-one assignment.
 std::vector<int> Associate(const std::vector<AssociationQuery>& queries,
                            const std::vector<AssociationCandidate>& candidates,
                            const AssociationOptions& options);

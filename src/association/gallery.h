@@ -8,36 +8,36 @@
 
 namespace sslcd {
 
-/// What a landmark has looked like: the paper's H_k and E_k, bounded.
-/// Eqs. 5 and 6 average the dot product with every past vector: O(n), and dominated by the side
-/// seen most. The average of dot products is the dot product with the average, so `kMean` keeps
-/// just that (same value, O(1)); `kByViewpoint` keeps one average per viewing direction and
-/// compares with the bin nearest to the current one.
+/// The appearance of a landmark: the paper's H_k and E_k with bounded memory. Eqs. 5 and 6 average
+/// the dot product with every past vector: O(n), and dominated by the side seen most. The average
+/// of dot products is the dot product with the average, so `kMean` keeps just that (same value,
+/// O(1)); `kByViewpoint` keeps one average per viewing direction and compares with the bin nearest
+/// to the current one.
 class Gallery {
  public:
   enum class Mode { kMean, kByViewpoint };
 
   explicit Gallery(Mode mode = Mode::kByViewpoint) : mode_(mode) {}
 
-  /// Adds a vector seen from `viewpoint_rad`: the bearing of the camera in the object frame, 0 =
-  /// from the front. Vectors of one gallery have one length; an empty vector, or one of another
-  /// length, is ignored.
+  /// Adds a vector seen from `viewpoint_rad`, the bearing of the camera in the object frame (0:
+  /// from the front). All vectors of a gallery have the same length; an empty vector or one of
+  /// another length is ignored.
   void Add(const std::vector<float>& vector, double viewpoint_rad);
 
   /// Similarity of a vector seen from `viewpoint_rad` in [0, 1] (negative dot products count as 0).
   /// None while either is empty.
   std::optional<double> Compare(const std::vector<float>& vector, double viewpoint_rad) const;
 
-  /// What was seen from each direction that something was seen from: the mean vector, so that the
-  /// dot product of two views is the mean of those of their sightings.
+  /// Returns the mean vector of each viewing direction with sightings. The dot product of two views
+  /// is the mean of the dot products of their sightings.
   std::vector<AppearanceView> Views() const;
 
-  /// Takes over what another gallery has seen (fusion of two landmarks), its viewpoints turned by
+  /// Adds the vectors of another gallery (fusion of two landmarks) with viewpoints rotated by
   /// `turn_rad`.
   void Merge(const Gallery& other, double turn_rad = 0.);
 
  private:
-  // 45 degrees each: what a change of viewpoint leaves recognisable
+  // 45 degrees each: a range of viewpoints with similar appearance
   static constexpr int kBins = 8;
   struct Bin {
     std::vector<float> sum;

@@ -7,8 +7,8 @@
 
 namespace sslcd {
 
-/// The cues that compare a detection d_i with a landmark o_k, each in [0, 1]; none where the data
-/// has no such thing.
+/// The similarity cues of a detection d_i and a landmark o_k, each in [0, 1]; none if the data is
+/// missing.
 struct SimilarityCues {
   std::optional<double> iou;  ///< Eq. 4: detected box against the landmark's projected cuboid
   /// dot product with the landmark's past vectors: Eq. 5 for the colour, Eq. 6 for the embedding

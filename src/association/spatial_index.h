@@ -7,17 +7,17 @@
 
 namespace sslcd {
 
-/// Hash grid over the horizontal plane. Finding what lies near a point costs as much as there is
-/// near that point, however large the map is. Not thread-safe.
+/// Hash grid over the horizontal plane. The cost of a search depends only on the number of objects
+/// near the point, not on the size of the map. Not thread-safe.
 class SpatialIndex {
  public:
   explicit SpatialIndex(double cell_m = 10.) : cell_m_(cell_m) {}
 
-  /// Inserts `id`, or moves it if it is there already. Coordinates in metres.
+  /// Inserts or moves `id`. Coordinates in metres.
   void Put(int id, double x, double y);
   void Remove(int id);
 
-  /// Ids within `radius_m` of the point, ascending (so that callers are deterministic).
+  /// Ids within `radius_m` of the point in ascending order, so that callers are deterministic.
   std::vector<int> Near(double x, double y, double radius_m) const;
 
   std::size_t size() const { return place_.size(); }

@@ -6,13 +6,14 @@
 namespace sslcd {
 namespace {
 
-// A derivative in the tangent space as one in the seven numbers: PlusJacobian undoes the factor.
+// Converts a derivative in the tangent space to the seven parameters; PlusJacobian cancels the
+// factor.
 template <int kRows>
 void StoreAmbient(const Eigen::Matrix<double, kRows, 6>& J, const double* pose, double* jacobian) {
   Eigen::Matrix<double, 6, 7, Eigen::RowMajor> minus;
   PoseManifold().MinusJacobian(pose, minus.data());
   Eigen::Map<Eigen::Matrix<double, kRows, 7, Eigen::RowMajor>> ambient(jacobian);
-  // Rotation and translation do not mix: two products of half the size.
+  // Rotation and translation are independent, so two products of half the size suffice.
   ambient.template leftCols<4>() =
       J.template rightCols<3>().lazyProduct(minus.bottomLeftCorner<3, 4>());
   ambient.template rightCols<3>() =
@@ -83,7 +84,7 @@ bool OdometryCost::Evaluate(double const* const* blocks, double* residual,
   Eigen::Map<Vec6> r(residual);
   r.noalias() = whiten * e;
   if (jacobians == nullptr) return true;
-  // e(d_to) = Log(E Exp(d_to)); moving `from` by d is moving `to` by -Adj(B^-1) d.
+  // e(d_to) = Log(E Exp(d_to)). A perturbation d of `from` equals -Adj(B^-1) d of `to`.
   const Matrix6 J_to = whiten.lazyProduct(Matrix6(Pose::RightJacobianInverse(e)));
   if (jacobians[0] != nullptr) {
     const Matrix6 J_from = -J_to.lazyProduct(Matrix6(B.inverse().Adj()));

@@ -38,11 +38,12 @@ class BaTerms {
   ceres::SubsetManifold without_yaw_{4, {3}};
   ceres::SphereManifold<3> direction_manifold_;
   ceres::CauchyLoss loss_, tie_loss_;
-  ceres::Problem ceres_;  // refers to what stands above
+  ceres::Problem ceres_;  // refers to the members above
   std::vector<std::array<double, 7>> cameras_;
   std::vector<std::array<double, 4>> objects_;
   double log_scale_ = 0;
-  std::array<double, 3> up_{};  // where slopes are known: against gravity, in the world
+  std::array<double, 3>
+      up_{};  // unit vector against gravity in the world, if there is a slope prior
 };
 
 }  // namespace sslcd

@@ -15,9 +15,9 @@
 /// the world [m, rad]; the scale is log(metres per odometry metre).
 namespace sslcd {
 
-/// Robust form of Eq. 8: what a camera measured of an upright object, against where the map has it.
-/// Whitened. Residual [radial, lateral, vertical, yaw]: position error in the measured ray's frame,
-/// and heading error in the world folded into one yaw period.
+/// Robust form of Eq. 8: the whitened difference of a measured and an estimated upright object.
+/// Residual [radial, lateral, vertical, yaw]: position error in the measured ray's frame, and
+/// heading error in the world, wrapped to one yaw period.
 struct ObjectResidual {
   Pose T_cam_object;  ///< measured
   DetectionSigmas sigmas;
@@ -61,8 +61,8 @@ struct ObjectResidual {
 };
 
 /// Eq. 8 as printed: r = log(T_wo^-1 T_wc T_co), 6 components [rho, phi] in the object frame,
-/// unweighted: metres and radians count alike. The object is upright (the paper sets roll and pitch
-/// to zero).
+/// unweighted: metres and radians have equal weight. The object is upright (the paper sets roll and
+/// pitch to zero).
 struct PaperObjectResidual {
   Pose T_cam_object;
   GravityFrame gravity;
@@ -82,9 +82,9 @@ struct PaperObjectResidual {
   }
 };
 
-/// Consecutive cameras against the odometry, whose translations are off by one common factor:
-/// r = diag(W_t, W_r) Log((s T_ij)^-1 T_i^-1 T_j), components [rho / exp(log_scale), phi], s T =
-/// (R, exp(log_scale) t): the sigma of a translation is that of the odometry as measured.
+/// The odometry between consecutive cameras with a common scale factor of the translations: r =
+/// diag(W_t, W_r) Log((s T_ij)^-1 T_i^-1 T_j), components [rho / exp(log_scale), phi], s T = (R,
+/// exp(log_scale) t). The sigma of a translation refers to the unscaled odometry.
 struct OdometryResidual {
   Pose T_from_to;  ///< odometry, as measured
   OdometryWhitening whiten;
@@ -106,7 +106,7 @@ struct OdometryResidual {
   }
 };
 
-/// Holds a camera near a pose: r = diag(1/sigma) Log(T_0^-1 T). Fixes the gauge.
+/// A prior of a camera pose that fixes the gauge: r = diag(1/sigma) Log(T_0^-1 T).
 struct PosePrior {
   Pose T_world_cam;
   double sigma_translation = 1, sigma_rotation = 1;
@@ -123,8 +123,8 @@ struct PosePrior {
   }
 };
 
-/// A camera on the ground stands upright up to the ground's slope: r = (R_world_cam up_in_cam - up)
-/// / sigma, about the slope's angle in sigmas. `up`: unit vector in the world.
+/// A prior of an upright camera on sloped ground: r = (R_world_cam up_in_cam - up) / sigma,
+/// approximately the slope's angle in sigmas. `up` is a unit vector in the world.
 struct SlopeResidual {
   Vec3 up_in_cam;    ///< unit vector
   double sigma = 1;  ///< [rad]
@@ -139,7 +139,7 @@ struct SlopeResidual {
   }
 };
 
-/// r = (x - mean) / sigma, for directions as unit vectors.
+/// A prior of a direction as unit vector: r = (x - mean) / sigma.
 struct DirectionPrior {
   Vec3 mean;
   double sigma = 1;  ///< [rad]

@@ -8,7 +8,7 @@
 namespace sslcd {
 
 /// r = r0 + J (x - x0) over the blocks named by a BaPrior: cameras, objects, log scale, in this
-/// order. The difference is Log(x0^-1 x) for cameras, and folded into (-pi, pi] for the yaw of
+/// order. The difference is Log(x0^-1 x) for cameras, and wrapped to (-pi, pi] for the yaw of
 /// objects.
 class MarginalPriorCost final : public ceres::CostFunction {
  public:

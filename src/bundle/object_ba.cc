@@ -16,17 +16,17 @@ namespace {
 ceres::Solver::Options SolverOptions(const BaOptions& options) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  // Eigen's sparse Cholesky: SuiteSparse's supernodes gain nothing on blocks this small, and it may
-  // start threads.
+  // Eigen's sparse Cholesky: SuiteSparse is not faster for such small blocks and may start threads.
   solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   solver.max_num_iterations = options.max_iterations;
-  solver.num_threads = 1;  // sums in a fixed order: same bytes on every machine size
+  solver.num_threads =
+      1;  // fixed order of sums, so that results do not depend on the number of cores
   solver.logging_type = ceres::SILENT;
-  // steps that gain less change no state by anything that counts
+  // steps with a smaller gain do not change the states relevantly
   solver.function_tolerance = 1e-5;
-  // weak modes (a long chain's bend) take many steps under more damping
+  // weak modes (bending of a long chain) need many steps with more damping
   solver.initial_trust_region_radius = 1e6;
-  // Gauss-Newton is Levenberg-Marquardt with the damping off.
+  // Gauss-Newton is Levenberg-Marquardt without damping.
   if (options.solver == BaOptions::Solver::kGaussNewton) {
     solver.initial_trust_region_radius = 1e32;
     solver.max_trust_region_radius = 1e33;

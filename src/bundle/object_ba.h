@@ -29,23 +29,23 @@ struct BaSighting {
   Pose T_cam_object;
 };
 
-/// Odometry between two cameras, translation as measured (before scaling).
+/// Odometry between two cameras, with the unscaled translation.
 struct BaOdometry {
   int from = 0, to = 0;
   Pose T_from_to;
 };
 
-/// Two cameras whose place to each other was measured otherwise, e.g. from their images. It may be
-/// wrong (Cauchy loss).
+/// Another measurement of the relative pose of two cameras, e.g. from their images. It may be wrong
+/// (Cauchy loss).
 struct BaTie {
-  int from = 0, to = 0;  ///< indices of cameras; the same twice says nothing
+  int from = 0, to = 0;  ///< indices of cameras; a tie of a camera with itself is ignored
   RelativePose pose;     ///< T_from_to, metric
 };
 
-/// What is known of the remaining states once others have been marginalised: 0.5 |r0 + J (x -
-/// x0)|^2. The state order is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
+/// The prior of the remaining states after marginalisation: 0.5 |r0 + J (x - x0)|^2. The state
+/// order is cameras (6 each, tangent at x0), objects (4 each), log scale (1).
 struct BaPrior {
-  std::vector<int> frames, object_ids;  ///< whose states it talks about, by name
+  std::vector<int> frames, object_ids;  ///< the states of the prior, by frame number and object id
   std::vector<Pose> cameras;            ///< x0
   std::vector<UprightPose> objects;     ///< x0
   double log_scale = 0;                 ///< x0
@@ -54,12 +54,11 @@ struct BaPrior {
   bool empty() const { return J.rows() == 0; }
 };
 
-/// What is known of a vehicle's road: how steep it is, and that elsewhere it is steep otherwise.
-/// Nothing else holds the roll and pitch of an odometry that does not measure gravity, and with
-/// them its height, between the ends of a loop.
+/// The prior of the slope of the road, which varies along the path. It constrains roll and pitch of
+/// an odometry without gravity measurement, and thus its height, between the ends of a loop.
 struct SlopePrior {
-  double sigma_rad = 0;   ///< standard deviation of the slope; 0: nothing is known
-  double length_m = 200;  ///< of path, after which the slope is another one
+  double sigma_rad = 0;   ///< standard deviation of the slope; 0: no prior
+  double length_m = 200;  ///< path length over which the slope is constant
 };
 
 struct BaProblem {
@@ -70,32 +69,31 @@ struct BaProblem {
   std::vector<BaOdometry> odometry;
   std::vector<BaTie> ties;
   double log_scale = 0;
-  double expected_log_scale = 0;  ///< mean of the scale's prior, where `prior` is empty
-  BaPrior prior;                  ///< empty: the first camera and the scale get their own
-  /// Holds the first camera where it is, also where there is a prior: what is left of a long way
-  /// says next to nothing about where in the world all of it is.
+  double expected_log_scale = 0;  ///< mean of the scale's prior if `prior` is empty
+  BaPrior prior;                  ///< empty: the first camera and the scale get default priors
+  /// Fixes the first camera also with a prior, because the prior of a long path hardly constrains
+  /// the position in the world.
   bool hold_first = false;
   DetectionNoise noise;
   NoiseScale noise_scale;
-  OdometryFactors odometry_factors;  ///< on BaOptions::odometry
-  /// The first camera, which stands on a slope like all others, tells which direction of the
-  /// cameras is up.
+  OdometryFactors odometry_factors;  ///< factors on BaOptions::odometry
+  /// The first camera defines the up direction of the cameras; it is on a slope like all others.
   SlopePrior slope;
 };
 
 /// Eq. 7: moves cameras, objects and scale to the minimum. Deterministic for any thread count.
-/// Never throws on odd geometry: a problem without sightings and ties, or with non-finite input
-/// comes back unchanged with `usable` false.
+/// Never throws: a problem without sightings and ties, or with input that is not finite, stays
+/// unchanged and `usable` is false.
 BaSummary SolveBa(BaProblem& problem, const BaOptions& options);
 
-/// The prior that replaces the given cameras and objects (sorted indices) and every residual that
-/// touches them, linearised where the problem stands (Schur complement). Objects not named must not
-/// be seen from a dropped camera only.
+/// Computes the prior that replaces the given cameras and objects (sorted indices) and all their
+/// residuals, linearised at the current states (Schur complement). Every other object must be seen
+/// from at least one remaining camera.
 BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
                     const std::vector<int>& objects, const BaOptions& options);
 
-/// Factor between the detector's real scatter about the map and `problem.noise`, per component,
-/// from the median of the absolute residuals. Keeps the present scale where there are fewer than 20
+/// Estimates the factor of the detector's scatter around the map relative to `problem.noise`, per
+/// component, from the median of the absolute residuals. Keeps the current scale with fewer than 20
 /// residuals.
 NoiseScale EstimateNoiseScale(const BaProblem& problem);
 

@@ -13,14 +13,14 @@
 
 namespace sslcd {
 
-/// Calls work(i) for each i below `count`, in any order, on `threads` threads at most; the calling
-/// one is among them. After each, progress(done, count), one call at a time, `done` from 1 on. The
-/// first exception of either ends it and is thrown here when all threads have stopped. Needs
+/// Calls work(i) for each i below `count`, in any order, on up to `threads` threads including the
+/// calling one. Calls progress(done, count) after each, never twice at the same time, with `done`
+/// counting from 1. The first exception of either stops all threads and is then thrown again. Needs
 /// Threads::Threads.
 inline void ForEach(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                     const std::function<void(int done, int count)>& progress = {}) {
   std::atomic<std::size_t> next{0};
-  std::mutex mutex;  // of `problem` and `done`
+  std::mutex mutex;  // protects `problem` and `done`
   std::exception_ptr problem;
   int done = 0;
   const auto take = [&] {

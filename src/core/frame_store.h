@@ -11,9 +11,9 @@
 
 namespace sslcd {
 
-/// A frame as the mapper remembers it.
+/// A stored frame.
 struct FrameRecord {
-  int frame = 0;                      ///< its number in the dataset
+  int frame = 0;                      ///< frame number in the dataset
   double stamp = 0;                   ///< [s]
   double travelled = 0;               ///< path of the odometry up to this frame [m]
   Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
@@ -22,15 +22,15 @@ struct FrameRecord {
   std::vector<LandmarkId> matched;    ///< landmark of each detection; value -1: none
 };
 
-/// All frames of a run, in order of time. Frames are named by their index in the store. Every pose
-/// changes through it, so that a reader can ask which frames have moved since it last looked.
+/// All frames of a run, in order of time, identified by their index in the store. All pose changes
+/// go through the store, so that a reader can ask which frames have moved since a revision.
 /// Copyable.
 class FrameStore {
  public:
-  /// A moment in the life of the store.
+  /// A counter of changes.
   using Revision = std::uint64_t;
 
-  /// Adds the newest frame; fills in the path travelled.
+  /// Adds the newest frame and sets its `travelled`.
   void Append(FrameRecord record);
 
   int size() const { return static_cast<int>(frames_.size()); }
@@ -42,19 +42,20 @@ class FrameStore {
   std::vector<FrameRecord>::const_iterator end() const { return frames_.end(); }
 
   void SetPose(int index, const Pose& T_world_cam);
-  /// Does not count as a change: readers that keep landmarks learn of merged ids by name.
+  /// Sets the landmarks of a frame's detections. Does not change the revision: readers that store
+  /// landmarks are notified of merged ids.
   void SetMatched(int index, std::vector<LandmarkId> matched);
 
-  /// Number of the frame that is the first one at `path_m` of path or beyond; size() where the path
-  /// ends before. O(log n).
+  /// Index of the first frame at or beyond `path_m` of path; size() if the path ends before. O(log
+  /// n).
   int FirstFrom(double path_m) const;
 
-  /// The same, but the last frame where the path ends before. There must be a frame.
+  /// The same, but the last frame if the path ends before. The store must not be empty.
   int AtPath(double path_m) const;
 
   Revision revision() const { return revision_; }
 
-  /// The first frame that was added or has moved after that revision; size() where there is none.
+  /// Index of the first frame that was added or moved after the revision; size() if there is none.
   /// O(log n).
   int FirstChangeSince(Revision revision) const;
 
@@ -63,8 +64,8 @@ class FrameStore {
 
   std::vector<FrameRecord> frames_;
   Revision revision_ = 0;
-  // (revision, first frame it changed), both strictly ascending: a later change of an earlier frame
-  // covers the ones before it.
+  // (revision, first changed frame), both strictly ascending: a later change of an earlier frame
+  // replaces previous entries.
   std::vector<std::pair<Revision, int>> changes_;
 };
 

@@ -8,8 +8,8 @@ namespace sslcd {
 /// log(sum(exp(values))) without overflow; minus infinity for no values.
 double LogSumExp(const std::vector<double>& values);
 
-/// x with P(chi2 with `dof` degrees of freedom <= x) = probability; Wilson and Hilferty's
-/// approximation (within 0.5 % for dof >= 3 and probabilities from .9 to .999).
+/// The quantile of the chi-squared distribution with `dof` degrees of freedom; Wilson and
+/// Hilferty's approximation (within 0.5 % for dof >= 3 and probabilities from .9 to .999).
 double Chi2Quantile(double probability, int dof);
 
 /// Standard deviation of a normal distribution per median absolute deviation.

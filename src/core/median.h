@@ -8,7 +8,7 @@
 
 namespace sslcd {
 
-/// The one in the middle; of an even number the upper of the two. There has to be one. O(n).
+/// The median; the upper one of the two for an even count. `values` must not be empty. O(n).
 template <class T>
 T Median(std::vector<T> values) {
   assert(!values.empty());

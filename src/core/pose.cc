@@ -10,7 +10,7 @@
 namespace sslcd {
 
 double WrapAngle(double angle_rad, double period_rad) {
-  // to the bit
+  // exact for axes
   if (-0.5 * period_rad < angle_rad && angle_rad <= 0.5 * period_rad) return angle_rad;
   double wrapped = std::fmod(angle_rad + 0.5 * period_rad, period_rad);
   if (wrapped <= 0) wrapped += period_rad;
@@ -22,7 +22,8 @@ double WrapAngle(double angle_rad) { return WrapAngle(angle_rad, 2 * M_PI); }
 GravityFrame GravityFrame::FromUp(const Vec3& up) {
   GravityFrame frame;
   frame.up = up.normalized();
-  // x unless up is (nearly) x: so KITTI gets (x, z) and VINS (x, y) as its horizontal axes.
+  // Forward is x unless up is (nearly) x. The horizontal axes are (x, z) for KITTI and (x, y) for
+  // VINS.
   const Vec3 candidate = std::abs(frame.up.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
   frame.forward = (candidate - frame.up * frame.up.dot(candidate)).normalized();
   frame.left = frame.up.cross(frame.forward);

@@ -5,7 +5,7 @@
 
 namespace sslcd {
 
-/// The logistic function 1 / (1 + exp(-x)): the probability that a logit stands for.
+/// The logistic function 1 / (1 + exp(-x)), which maps a logit to a probability.
 inline double Sigmoid(double x) { return 1 / (1 + std::exp(-x)); }
 
 }  // namespace sslcd

@@ -6,8 +6,8 @@
 
 namespace sslcd {
 
-/// Hands out items in order, e.g. the frames of a sequence; none: that was the last one. May throw,
-/// and is not asked again then.
+/// Returns items in order, e.g. the frames of a sequence; none after the last one. It may throw and
+/// is not called again after that.
 template <class T>
 using Source = std::function<std::optional<T>()>;
 

@@ -19,10 +19,10 @@ double LogRatio(double value, double mean, double other_mean, double sigma) {
   return 0.5 * (b * b - a * a);
 }
 
-// How much of the same side two views show: 1 the same, -1 opposite ones; where sides are not told
-// apart, in between.
+// Cosine of the angle between two views: 1 for the same side, -1 for opposite sides; a mean value
+// if sides are not distinguished.
 double SharedSide(const AppearanceView& a, const AppearanceView& b, Symmetry symmetry) {
-  if (symmetry == Symmetry::kFull) return 1;  // looks alike from everywhere
+  if (symmetry == Symmetry::kFull) return 1;  // looks the same from all sides
   const double cosine = std::cos(a.viewpoint_rad - b.viewpoint_rad);
   return symmetry == Symmetry::kPi ? std::abs(cosine) : cosine;
 }

@@ -8,16 +8,16 @@
 
 namespace sslcd {
 
-/// Numbers listed by the cells of a grid that has no bounds: chains in a hash table. To add one, to
-/// take one out and to come to a cell's list is O(1) on average, however large the map is and
-/// however much of it is empty.
+/// Lists of numbers by the cells of an unbounded grid, as chains in a hash table. Adding, removing
+/// and finding a cell's list are O(1) on average, for any size of the map and any share of empty
+/// cells.
 class CellLists {
  public:
   explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(256, -1) {}
 
-  /// The column or row of a finite coordinate. Far out (2^29 cells) all share the last one.
+  /// The column or row of a finite coordinate. Coordinates beyond 2^29 cells share the last one.
   int Cell(double coordinate) const {
-    constexpr double kMiddle = 1 << 29;  // keeps numbers positive, so that cutting off rounds down
+    constexpr double kMiddle = 1 << 29;  // keeps numbers positive, so that truncation rounds down
     return static_cast<int>(std::clamp(coordinate * per_cell_ + kMiddle, 2., 2 * kMiddle - 2));
   }
 
@@ -35,7 +35,7 @@ class CellLists {
     head = entry;
   }
 
-  /// The number has to be there.
+  /// Removes a number that the cell contains.
   void Remove(int column, int row, int number) {
     int* link = &heads_[Slot(column, row)];
     const auto is_it = [&](const Entry& e) {
@@ -48,7 +48,7 @@ class CellLists {
     free_ = entry;
   }
 
-  /// The numbers of a cell, in no particular but always the same order.
+  /// The numbers of a cell in an unspecified but deterministic order.
   class Iterator {
    public:
     Iterator(const CellLists* lists, int column, int row, int entry)
@@ -64,7 +64,7 @@ class CellLists {
     bool operator!=(const Iterator& other) const { return entry_ != other.entry_; }
 
    private:
-    void SkipOthers() {  // of other cells with the same hash
+    void SkipOthers() {  // skips entries of other cells with the same hash
       while (entry_ >= 0 &&
              (lists_->entries_[entry_].column != column_ || lists_->entries_[entry_].row != row_))
         entry_ = lists_->entries_[entry_].next;
@@ -87,9 +87,9 @@ class CellLists {
   struct Entry {
     int column = 0, row = 0, number = 0, next = -1;
   };
-  // chains for each entry: a cell that lists nothing is mostly seen at once
+  // chains per entry, so that most empty cells have an empty chain
   static constexpr std::size_t kRoom = 4;
-  // cells of a square of so many by so many lie together in memory
+  // a square of kTile x kTile cells is contiguous in memory
   static constexpr int kTile = 8;
 
   std::size_t Slot(int column, int row) const {
@@ -109,7 +109,7 @@ class CellLists {
   }
 
   double per_cell_;
-  std::vector<int> heads_;  // of the chains, kRoom times a power of two
+  std::vector<int> heads_;  // first entries of the chains; the size is a power of two
   std::vector<Entry> entries_;
   int free_ = -1;
 };

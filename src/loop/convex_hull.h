@@ -7,8 +7,8 @@
 
 namespace sslcd {
 
-/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain, O(n log n)). Empty for
-/// no points; points on an edge are no corners.
+/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain, O(n log n)). Empty
+/// without points. Points on an edge are not corners.
 std::vector<Vec2> ConvexHull(std::vector<Vec2> points);
 
 }  // namespace sslcd

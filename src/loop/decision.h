@@ -13,35 +13,36 @@
 /// (ApplyGraphVerdict), and of the refined trajectory (IsWithdrawn).
 namespace sslcd {
 
-/// `evidence`: of the distinct poses found, best first, at least one [nats]. `matches`: how many
-/// objects agree under the best. `mirror_evidence`: what the mirror image of the local map reaches;
-/// asked only where everything else speaks for the pose.
+/// `evidence` has the evidence of the distinct poses, best first, at least one [nats]. `matches` is
+/// the number of matched objects of the best one. `mirror_evidence` computes the evidence of the
+/// mirror image of the local map; it is only called if all other rules accept the pose.
 LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t matches,
                              const std::function<double()>& mirror_evidence,
                              const SingleLookOptions& options);
 
-/// What is known about the best track of poses when it is decided about.
+/// The evidence for the decision about the best track of poses.
 struct TrackEvidence {
-  double evidence = 0;           ///< of all its attempts, against chance [nats]
-  double margin = 0;             ///< log odds against all other tracks and "nowhere" [nats]
-  double second_margin = 0;      ///< the same of the second best track
-  double own_evidence = 0;       ///< of the objects of this attempt alone, at the track's pose
-  double heading_sigma_rad = 0;  ///< of the measured loop
-  double apart_m = 0;            ///< between query and match camera
+  double evidence = 0;       ///< evidence of all its attempts against chance [nats]
+  double margin = 0;         ///< log odds against all other tracks and "nowhere" [nats]
+  double second_margin = 0;  ///< the same for the second best track
+  /// evidence of the objects of this attempt alone, at the track's pose [nats]
+  double own_evidence = 0;
+  double heading_sigma_rad = 0;  ///< standard deviation of the heading of the measured loop
+  double apart_m = 0;            ///< distance between query and match camera
 };
 
 struct TrackVerdict {
   LoopVerdict loop;
-  /// This attempt is a good measurement; it is accepted as soon as its track is.
+  /// the attempt is a good measurement, which is accepted together with its track
   bool confirmed = false;
 };
 TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions& options);
 
-/// A solve of the pose graph has kept the loop or has refused it; either may change later.
+/// Applies the verdict of a pose graph solve to the loop. A later solve may change it.
 void ApplyGraphVerdict(bool kept, LoopClosure& loop);
 
-/// Does the refined trajectory, with the query camera at `T_match_query` in the match camera's
-/// frame, contradict the loop as it was measured?
+/// Whether the refined trajectory, with the query camera at `T_match_query` in the match camera's
+/// frame, contradicts the measured loop.
 bool IsWithdrawn(const LoopClosure& loop, const Pose& T_match_query,
                  const LoopAcceptanceOptions& options);
 

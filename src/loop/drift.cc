@@ -10,7 +10,7 @@
 namespace sslcd {
 namespace {
 
-using namespace drift;  // NOLINT(google-build-using-namespace): its own private header
+using namespace drift;  // NOLINT(google-build-using-namespace): private header
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -61,14 +61,13 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
     equations.Add<1>(J_yaw, Eigen::Matrix<double, 1, 1>(YawError(match, state) / match.sigma_yaw),
                      problem.loss_scale);
   }
-  // The vertical stays the vertical, within tilt_sigma_rad. In 4 DoF these two rows meet no free
-  // column.
+  // The vertical is kept within tilt_sigma_rad. In 4 DoF these two rows have no free column.
   const Vec3 up = R.transpose() * Vec3::UnitZ();
   Eigen::Matrix<double, 2, 6> J_tilt;
   J_tilt << Eigen::Matrix<double, 2, 3>::Zero(),
       Mat3(Rotation::hat(up)).topRows<2>() / options.tilt_sigma_rad;
   equations.Add<2>(J_tilt, up.head<2>() / options.tilt_sigma_rad, 0);
-  if (!options.six_dof) {  // roll and pitch on their own: the prior alone is what is known of them
+  if (!options.six_dof) {  // only the prior constrains roll and pitch
     for (const int i : {3, 4}) {
       equations.H.row(i).setZero();
       equations.H.col(i).setZero();
@@ -79,7 +78,7 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
   return equations;
 }
 
-/// The centred, gravity-aligned answer in the world's axes.
+/// Transforms the centred, gravity-aligned result to the world's axes.
 void Store(const Problem& problem, const State& state, const Mat6& covariance,
            const GravityFrame& gravity, DriftResult& result) {
   const Pose T_gravity_global_local(state.R, state.t - state.R * problem.centre);
@@ -165,7 +164,7 @@ DriftResult SolveDrift(const std::vector<DriftPair>& pairs, const GravityFrame& 
     result.reason = "objects on one spot, whose headings contradict one another";
     return result;
   }
-  // Where the residuals are larger than the sigmas promise, so is the uncertainty.
+  // Scales the covariance up if the residuals exceed the sigmas.
   const double excess = equations.chi2 / std::max(1, equations.rows - 6);
   Mat6 scaled = covariance * std::max(1., excess);
   if (!options.six_dof) scaled.block<2, 2>(3, 3) = covariance.block<2, 2>(3, 3);

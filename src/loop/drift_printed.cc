@@ -17,7 +17,7 @@ std::optional<Pose> SolveDriftAsPrinted(const std::vector<DriftPair>& pairs) {
       // Eq. 18
       const auto r =
           (T_drift.inverse() * (pair.T_world_local.inverse() * pair.T_world_global)).Log();
-      // T_drift Exp(d) puts Exp(-d) in front: dr/dd = -J_l^-1(r).
+      // T_drift Exp(d) multiplies by Exp(-d) on the left: dr/dd = -J_l^-1(r).
       const Mat6 J = -Pose::LeftJacobianInverse(r);
       H += J.transpose() * J;
       b += J.transpose() * r;

@@ -26,7 +26,7 @@ double Cost(const Problem& problem, const State& state) {
   return cost;
 }
 
-/// The shift that goes with a yaw: the median over the matches, which a few wrong ones do not move.
+/// The shift for a yaw: the median over the matches, which is robust against a few wrong ones.
 State WithYaw(double yaw, const Problem& problem) {
   State state{Rotation::RotZ(yaw), Vec3(Vec3::Zero())};
   for (int axis = 0; axis < 3; ++axis) {
@@ -38,8 +38,8 @@ State WithYaw(double yaw, const Problem& problem) {
   return state;
 }
 
-/// Weighted Procrustes about the vertical: the argument of the sum is the yaw, its modulus how
-/// sharply the positions fix it (the concentration of a von Mises distribution, about 1/sigma^2).
+/// Weighted Procrustes about the vertical: the argument of the sum is the yaw, and its modulus is
+/// the concentration of the corresponding von Mises distribution, about 1/sigma^2.
 std::complex<double> Procrustes(const Problem& problem) {
   Vec3 middle = Vec3::Zero();
   double weights = 0;

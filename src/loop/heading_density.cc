@@ -6,10 +6,10 @@
 namespace sslcd {
 
 double HeadingDensity(double difference_rad, Symmetry symmetry) {
-  // Set by hand; no search over them is recorded.
+  // Set by hand without a recorded search.
   constexpr double kSharpness = 16.;  // of the von Mises density: a sigma of about 15 degrees
-  constexpr double kFlipped = 0.05;   // share of headings off by half a turn
-  constexpr double kAny = 0.1;        // share of headings that mean nothing
+  constexpr double kFlipped = 0.05;   // share of headings with an error of half a turn
+  constexpr double kAny = 0.1;        // share of random headings
   const double peak = std::sqrt(kSharpness / (2 * M_PI));
   const double forward = peak * std::exp(kSharpness * (std::cos(difference_rad) - 1));
   const double reverse = peak * std::exp(kSharpness * (-std::cos(difference_rad) - 1));

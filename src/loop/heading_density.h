@@ -8,7 +8,7 @@
 namespace sslcd {
 
 /// Density of the difference of two detected headings of one object [1/rad]: a von Mises density
-/// around 0, with shares of headings taken for their reverse and of headings that mean nothing.
+/// around 0, with shares of reversed and of random headings.
 double HeadingDensity(double difference_rad, Symmetry symmetry);
 
 /// HeadingDensity at 0, 1, ... 359 degrees.

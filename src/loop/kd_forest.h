@@ -12,10 +12,10 @@
 
 namespace sslcd {
 
-/// Points with three coordinates that come and go, each with a value, in FLANN k-d trees. FLANN can
-/// only rebuild a tree as a whole. So there are several, each at least twice as large as the next,
-/// and behind them a short list without a tree: a point is built into a tree O(log n) times (the
-/// logarithmic method of Bentley and Saxe, 1980).
+/// A dynamic set of 3D points with values in FLANN k-d trees. FLANN can only rebuild a complete
+/// tree. So there are several trees, each at least twice as large as the next one, and a short list
+/// without a tree. A point is built into a tree O(log n) times (the logarithmic method of Bentley
+/// and Saxe, 1980).
 template <class Scalar, class Value>
 class KdForest {
  public:
@@ -35,13 +35,13 @@ class KdForest {
     if (trees_.back()->values.size() >= kLinear) MergeTail(false);
   }
 
-  /// For many at once: one tree of them all. Before anything else is added.
+  /// Builds one tree of many points. Must be called before other additions.
   void Build(const std::vector<std::pair<Point, Value>>& all) {
     for (const auto& [point, value] : all) trees_.back()->Add(point.data(), value);
     MergeTail(true);
   }
 
-  /// Takes out one point with this value at this place. False: there is none.
+  /// Removes one point with this value at this position. False: there is none.
   bool Remove(const Point& point, const Value& value) {
     Finder finder{value};
     for (const auto& tree : trees_) {
@@ -58,24 +58,25 @@ class KdForest {
   }
 
   /// Calls visitor.Visit(squared distance, value, row) for points nearer than visitor.Reach2(),
-  /// which may shrink on the way; in no particular but always the same order. Values stay where
-  /// they are until something is added or removed.
+  /// which may decrease during the search. The order is unspecified but deterministic. Values keep
+  /// their addresses until the next addition or removal.
   template <class Visitor>
   void Search(const Point& point, Visitor& visitor) const {
     for (const auto& tree : trees_) tree->Search(point.data(), visitor);
   }
 
  private:
-  static constexpr std::size_t kLinear = 32;  // so few points are searched faster without a tree
+  static constexpr std::size_t kLinear =
+      32;  // up to this number of points a linear search is faster
   using Index = flann::KDTreeSingleIndex<flann::L2_3D<Scalar>>;
 
-  // Points in rows that stay where they are; a removed one leaves a dead row.
+  // Points in fixed rows; a removed one leaves an unused row.
   struct Tree {
-    std::vector<Scalar> coordinates;  // x y z of each row
+    std::vector<Scalar> coordinates;  // x y z per row
     std::vector<Value> values;
     std::vector<bool> alive;
     std::size_t dead = 0;
-    std::unique_ptr<Index> index;  // over `coordinates`; none while rows are still being added
+    std::unique_ptr<Index> index;  // over `coordinates`; none while rows are added
 
     void Add(const Scalar* point, const Value& value) {
       coordinates.insert(coordinates.end(), point, point + 3);
@@ -88,8 +89,7 @@ class KdForest {
       index->buildIndex();
     }
 
-    // FLANN's tree refers to the coordinates, so the copy needs one of its own; it comes out the
-    // same.
+    // FLANN's tree refers to the coordinates, so a copy builds its own, equal tree.
     std::unique_ptr<Tree> Copy() const {
       auto copy = std::make_unique<Tree>();
       copy->coordinates = coordinates;
@@ -134,7 +134,7 @@ class KdForest {
     }
   };
 
-  // Turns the list, and the trees before it that are less than twice as large, into one tree.
+  // Merges the list and the preceding trees that are less than twice as large into one tree.
   void MergeTail(bool all) {
     auto merged = std::make_unique<Tree>();
     while (!trees_.empty() && (all || trees_.back()->values.size() <
@@ -151,7 +151,7 @@ class KdForest {
     trees_.push_back(std::make_unique<Tree>());
   }
 
-  std::vector<std::unique_ptr<Tree>> trees_;  // by falling size; the last is the list
+  std::vector<std::unique_ptr<Tree>> trees_;  // by decreasing size; the last one is the list
 };
 
 }  // namespace sslcd

@@ -9,11 +9,11 @@
 namespace sslcd {
 
 /// w of the paper's IV-B: the weights of the K edges of a vertex, sorted (ascending) and normalised
-/// so that they sum to one. None where there is no such vector: the vertex has fewer than K
-/// neighbours, or all of them lie on its own spot.
+/// so that they sum to one. None: the vertex has fewer than K neighbours, or all of them are at its
+/// own position.
 std::optional<Eigen::VectorXd> LayoutVector(const ObjectGraph& graph, int id, int k);
 
-/// Eq. 10: d_f = |w_L - w_G|, both of the same length. In [0, sqrt(2)).
+/// Eq. 10: d_f = |w_L - w_G| of vectors of the same length. In [0, sqrt(2)).
 double LayoutDifference(const Eigen::VectorXd& local, const Eigen::VectorXd& global);
 
 }  // namespace sslcd

@@ -13,7 +13,7 @@
 namespace sslcd {
 namespace {
 
-// What the mirror image of the local map reaches. Coarse poses tell nearly all of it: a few are
+// Evidence of the mirror image of the local map. Coarse poses give most of it, so only a few are
 // refined.
 double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
                       const LayoutMatchOptions& options) {

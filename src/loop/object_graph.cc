@@ -14,13 +14,13 @@
 namespace sslcd {
 namespace {
 
-/// The k best in the order (distance, id), where FLANN's own result sets leave equal distances in
-/// the order of the search.
+/// The k best in the order (distance, id). FLANN's own result sets leave equal distances in the
+/// order of the search.
 class BestK {
  public:
   explicit BestK(std::size_t k) : k_(k) {}
 
-  // A hair above the worst, so that the search does not pass by points that are equally far.
+  // Slightly above the worst distance, so that the search finds points of equal distance.
   double Reach2() const {
     return best_.size() == k_ ? best_.back().distance_m * (1 + 1e-12) + 1e-300
                               : std::numeric_limits<double>::max();
@@ -42,7 +42,7 @@ class BestK {
 
  private:
   std::size_t k_;
-  std::vector<GraphEdge> best_;  // squared distances until taken
+  std::vector<GraphEdge> best_;  // with squared distances until the end
 };
 
 }  // namespace
@@ -84,7 +84,7 @@ std::vector<GraphEdge> ObjectGraph::Neighbours(int id, int k) const {
   const auto known = vertices_->places.find(id);
   if (known == vertices_->places.end() || k <= 0) return {};
   std::vector<GraphEdge> edges = Nearest(Vec3(known->second.data()), k + 1);
-  // The vertex itself is among them, unless more than k others lie on the same spot.
+  // The vertex itself is among them, unless more than k others are at the same place.
   const auto self = std::find_if(edges.begin(), edges.end(),
                                  [id](const GraphEdge& edge) { return edge.id == id; });
   if (self != edges.end())

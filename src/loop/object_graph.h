@@ -15,13 +15,11 @@ struct GraphEdge {
   double distance_m = 0;
 };
 
-/// The graph G = (V, E) of the paper's IV-A, kept up to date as objects come, move and leave: a
-/// vertex per object, an edge to each of its K nearest neighbours. The edges are not stored but
-/// looked up, since one new object may change those of many others.
-///
-/// Neighbours are exact (FLANN k-d trees). Adding costs O(log^2 n) on average and a look-up about
-/// as much, right after an addition too. Answers depend on which vertices there are, not on the
-/// order they came in. Not thread-safe.
+/// The graph G = (V, E) of the paper's IV-A with incremental updates: a vertex per object, and an
+/// edge to each of its K nearest neighbours. Edges are searched on demand, since one new object may
+/// change those of many others.
+/// Neighbours are exact (FLANN k-d trees). Additions and searches cost O(log^2 n) on average.
+/// Answers depend on the set of vertices, not on the order of their addition. Not thread-safe.
 class ObjectGraph {
  public:
   ObjectGraph();
@@ -29,8 +27,8 @@ class ObjectGraph {
   ObjectGraph(ObjectGraph&&) noexcept;
   ObjectGraph& operator=(ObjectGraph&&) noexcept;
 
-  /// Adds vertex `id`, or moves it. Any id is fine. Throws Error (kBadInput) if the position is not
-  /// finite.
+  /// Adds or moves vertex `id`, which may be any number. Throws Error (kBadInput) if the position
+  /// is not finite.
   void Put(int id, const Vec3& position);
 
   /// Does nothing if there is no such vertex.
@@ -40,7 +38,7 @@ class ObjectGraph {
   /// if the graph has fewer; none for an unknown vertex or k <= 0.
   std::vector<GraphEdge> Neighbours(int id, int k) const;
 
-  /// The same from any finite point; a vertex that lies there counts too.
+  /// The same for any finite point. A vertex at the point also counts.
   std::vector<GraphEdge> Nearest(const Vec3& point, int k) const;
 
   bool Contains(int id) const;

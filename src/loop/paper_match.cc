@@ -11,7 +11,7 @@ namespace {
 /// w of every object (IV-A, IV-B).
 std::vector<std::optional<Eigen::VectorXd>> LayoutVectors(const std::vector<LayoutObject>& objects,
                                                           int k) {
-  ObjectGraph graph;  // by index: ids of landmarks may repeat in a list that was put together
+  ObjectGraph graph;  // by index, since ids may repeat in a combined list
   for (std::size_t i = 0; i < objects.size(); ++i)
     if (objects[i].position.allFinite()) graph.Put(static_cast<int>(i), objects[i].position);
   std::vector<std::optional<Eigen::VectorXd>> vectors;

@@ -12,11 +12,11 @@
 
 namespace sslcd {
 
-/// Where could the local map lie in the global one, without any prior? Two objects fix a pose (yaw
-/// and shift), so every pair of local objects is laid on every pair of global objects of the same
-/// labels and distance; each pose found is scored by how many other objects fall on one another
-/// (one look into a grid each), and the best ones are refined and weighed by `LayoutLikelihood`. In
-/// large maps, triangles of neighbours take the place of the pairs (`LayoutIndex`).
+/// Options of the search for poses of the local map in the global one without a prior. Two objects
+/// determine a pose (yaw and shift), so every pair of local objects is aligned with every pair of
+/// global objects of the same labels and distance. The score of a coarse pose is the number of
+/// other objects that coincide, with one grid lookup each. `LayoutLikelihood` refines and scores
+/// the best ones. Large maps use triangles of neighbours instead of pairs (`LayoutIndex`).
 ///
 /// Distinct poses of `likelihood.local()` in `likelihood.index()`, best first. O(pairs of equal
 /// distance), in large maps O(triangles of equal sides).

@@ -8,9 +8,9 @@
 
 namespace sslcd {
 
-/// Poses that triangles of the local map propose, laid on those of equal sides in the global one,
-/// without a score: if there are many, those that most triangles agree on. `points` are the local
-/// ones, their centre in the origin. The number of poses is bounded whatever the map's size.
+/// Poses from aligning triangles of the local map with equal ones of the global map, without a
+/// score. If there are many, returns those with most votes. `points` are the local ones with the
+/// centre at the origin. The number of poses is bounded for any size of the map.
 std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
                                       const LayoutIndex& index);
 

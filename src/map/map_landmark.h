@@ -12,7 +12,7 @@
 
 namespace sslcd {
 
-/// One detection that was matched to a landmark: what bundle adjustment needs of it.
+/// One detection that was matched to a landmark, reduced to the data of bundle adjustment.
 struct Sighting {
   int frame = 0;
   double stamp = 0;  ///< [s]
@@ -22,8 +22,8 @@ struct Sighting {
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
 };
 
-/// A landmark while the map is being built: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with
-/// its life cycle.
+/// A landmark of the map under construction: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with
+/// its state.
 struct MapLandmark {
   LandmarkId id;
   std::string label;
@@ -33,18 +33,19 @@ struct MapLandmark {
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
   MotionTest motion;
   PerCue<Gallery> appearance;       ///< H_k, E_k
-  std::vector<Sighting> sightings;  ///< in frame order, at most one a frame
+  std::vector<Sighting> sightings;  ///< in frame order, at most one per frame
   double last_seen = 0;             ///< [s]
-  double last_seen_at = 0;          ///< path travelled by then [m]
+  double last_seen_at = 0;          ///< path length at that time [m]
 };
 
-/// Fused size: the weighted median of the sightings' dimensions followed by one robust mean around
-/// it. Weights fall with range, as the detections' precision does. At least one sighting.
+/// Fuses the sizes of the sightings: the weighted median of each dimension, followed by one robust
+/// mean around it. Weights decrease with range, like the precision of detections. Needs at least
+/// one sighting.
 Vec3 FuseDims(const std::vector<Sighting>& sightings);
 
-/// Decides which way round the object stands by a vote of its sightings (a detector that takes
-/// front for back is wrong by half a turn, and bundle adjustment does not listen to that half
-/// turn). `yaws` are the sightings' yaws in the world. Returns `yaw` or `yaw + pi`, wrapped.
+/// Resolves front and back of an object by a vote of its sightings, since a detector may confuse
+/// them and bundle adjustment ignores half turns. `yaws` are the sightings' yaws in the world.
+/// Returns `yaw` or `yaw + pi`, wrapped.
 double VoteHeading(double yaw, const std::vector<double>& yaws);
 
 }  // namespace sslcd

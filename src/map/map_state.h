@@ -6,7 +6,7 @@
 
 namespace sslcd {
 
-/// What a run knows: its frames, and the map of objects that they have seen. Copyable.
+/// The state of a run: its frames and the map of objects. Copyable.
 struct MapState {
   ObjectMap map;
   FrameStore frames;

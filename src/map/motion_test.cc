@@ -11,7 +11,7 @@ namespace {
 using Matrix2 = Eigen::Matrix2d;
 using Matrix4 = Eigen::Matrix4d;
 
-// Constant velocity over dt, driven by white acceleration.
+// Constant velocity over dt with white noise of the acceleration.
 Matrix4 Transition(double dt) {
   Matrix4 F = Matrix4::Identity();
   F.topRightCorner<2, 2>() = dt * Matrix2::Identity();
@@ -28,7 +28,8 @@ Matrix4 ProcessNoise(double dt, double acceleration) {
   return Q;
 }
 
-// Cap of a squared Mahalanobis distance, four sigmas: one outlier decides nothing. Set by hand.
+// Limit of a squared Mahalanobis distance (four sigmas), so that one outlier decides nothing. Set
+// by hand.
 constexpr double kMaxDistance2 = 16.;
 
 // Gaussian log density up to a constant.
@@ -86,7 +87,7 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
   }
   stamp_ = stamp;
   if (state_.tail<2>().norm() > options.min_speed_mps) standing_since_ = stamp;
-  // A journey begins where the object last stood.
+  // A trip starts at the last position at rest.
   if (stamp_ - standing_since_ >= options.settle_s) {
     start_ = parked_;
     start_covariance_ = parked_covariance_;

@@ -10,12 +10,12 @@ namespace sslcd {
 
 enum class Motion { kUndecided, kParked, kDriving };
 
-/// Parked or driving? Two models explain an object's horizontal positions in the world: one that
-/// stands still and one that drives at nearly constant velocity. The log Bayes factor between them
-/// is the stationarity test: the driving model can follow anything, and pays for that with a wide
-/// prediction whenever standing still would have done. A detector's bias turns with the viewing
-/// ray, so a parked object seems to creep as the camera drives by. Driving therefore also takes a
-/// real distance at a real speed.
+/// Decides whether an object is parked or driving. Two models explain its horizontal positions in
+/// the world: a parked object, and an object with nearly constant velocity. The test statistic is
+/// the log Bayes factor between them: the driving model fits any motion, but its wide predictions
+/// cost likelihood for a parked object. A detector's bias rotates with the viewing ray, so a parked
+/// object seems to move slowly while the camera passes. Driving therefore also requires a minimum
+/// distance and speed.
 class MotionTest {
  public:
   using Point = Vec2;
@@ -25,7 +25,7 @@ class MotionTest {
     Covariance covariance;
   };
 
-  /// Horizontal position [m] with its covariance at `stamp` [s].
+  /// Adds a horizontal position [m] with its covariance [m^2] at `stamp` [s].
   void Add(const Point& position, const Covariance& covariance, double stamp,
            const MotionTestOptions& options);
 
@@ -34,14 +34,14 @@ class MotionTest {
 
   Motion Verdict(const MotionTestOptions& options) const;
 
-  /// Since when the object has been standing, by the driving model's own speed. [s]
+  /// Time since when the object is at rest, according to the driving model. [s]
   double StandingSince() const { return standing_since_; }
   double Stamp() const { return stamp_; }
 
-  /// Forgets that it ever drove.
+  /// Forgets the motion so far.
   void Restart();
 
-  /// > 0: driving explains the positions better.
+  /// Positive if driving explains the positions better. [nats]
   double log_bayes_factor() const { return log_bayes_factor_; }
   int count() const { return count_; }
   Point velocity() const { return state_.tail<2>(); }  ///< of the driving model [m/s]

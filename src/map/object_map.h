@@ -13,28 +13,28 @@
 
 namespace sslcd {
 
-/// Gates and the motion test use larger sigmas than those learnt. Factor on the learnt ones: a
-/// detector's errors drift with range and viewpoint, so successive ones are not independent. And a
-/// scale that is added in quadrature: a good detector's errors have long tails. Both were set by
-/// hand; no search over them is recorded.
+/// Gates and the motion test use larger sigmas than the learnt ones. kNoiseCaution is a factor on
+/// them: errors vary with range and viewpoint, so successive errors correlate. kLongTailScale is
+/// added in quadrature: errors of good detectors have long tails. Both were set by hand without a
+/// recorded search.
 inline constexpr double kNoiseCaution = 1.5, kLongTailScale = 3.;
 
-/// The objects known so far, and the bookkeeping that associates detections with them. All state of
-/// the mapping stage.
+/// The landmarks of a run and the association of detections with them; the state of the mapping
+/// stage.
 class ObjectMap {
  public:
   ObjectMap(const GravityFrame& gravity, const LabelTable& labels, const DetectionNoise& noise,
             const AssociationOptions& association, const MapOptions& options);
 
-  /// Associates the detections of a frame seen from T_world_cam, and updates, creates and retires
-  /// landmarks. `camera` may be null: the box cue then drops out. `frame` and `stamp` [s] must
-  /// increase from call to call; `travelled_m` is the path so far.
+  /// Associates the detections of a frame with pose T_world_cam and updates, creates and drops
+  /// landmarks. `camera` may be null; then association does not use 2D boxes. `frame` and `stamp`
+  /// [s] must increase from call to call; `travelled_m` is the path length so far.
   MapUpdate AddFrame(int frame, double stamp, const Pose& T_world_cam,
                      const std::vector<Detection>& detections, const Camera* camera,
                      double travelled_m = 0);
 
-  /// Association alone, against the confirmed landmarks as they stand: the landmark of each
-  /// detection (-1: none). `may`: which landmarks come into question; empty: all.
+  /// Associates detections with the current confirmed landmarks without changing them. Returns the
+  /// landmark of each detection (-1: none). `may` selects the allowed landmarks; empty: all.
   std::vector<LandmarkId> Match(double stamp, const Pose& T_world_cam,
                                 const std::vector<Detection>& detections, const Camera* camera,
                                 const std::function<bool(const MapLandmark&)>& may = {}) const;
@@ -44,32 +44,31 @@ class ObjectMap {
   const GravityFrame& gravity() const { return gravity_; }
   const NoiseScale& noise_scale() const { return noise_scale_; }
 
-  /// Counts how often sightings were replaced or landmarks fused from outside: what was computed
-  /// from landmarks by their ids before that is out of date.
+  /// Counts replaced sightings and fused landmarks. A change invalidates data that was computed
+  /// from landmarks by id.
   int rewrites() const { return rewrites_; }
 
-  /// Puts back what an optimisation has found.
+  /// Sets the result of an optimisation.
   void SetPose(LandmarkId id, const UprightPose& pose);
   void SetState(LandmarkId id, LandmarkState state);
   void SetNoiseScale(const NoiseScale& scale) { noise_scale_ = scale; }
 
-  /// `drop` becomes part of `keep`: sightings and galleries merge, where both were seen in one
-  /// frame `keep`'s stays.
+  /// Merges `drop` into `keep` with its sightings and galleries. If both were seen in the same
+  /// frame, `keep`'s sighting stays.
   void Fuse(LandmarkId keep, LandmarkId drop);
 
-  /// Replaces a landmark's sightings, e.g. after they were associated anew; an empty list removes
-  /// the landmark.
+  /// Replaces a landmark's sightings, e.g. after a new association. An empty list removes the
+  /// landmark.
   void SetSightings(LandmarkId id, std::vector<Sighting> sightings);
 
-  /// Adds landmarks that somebody else has mapped (a loaded map, a benchmark's ballast). Returns
-  /// the new id.
+  /// Adds an existing landmark, e.g. of a loaded map. Returns its new id.
   LandmarkId Insert(MapLandmark landmark);
 
   /// Ids of landmarks within a horizontal distance of a point, ascending.
   std::vector<LandmarkId> Near(const Vec3& point_world, double radius_m) const;
 
  private:
-  struct View;  // what is the same for all detections of a frame
+  struct View;  // data common to all detections of a frame
   AssociationQuery QueryOf(const Detection& detection, const View& view) const;
   AssociationCandidate CandidateOf(const MapLandmark& landmark, const View& view) const;
   std::vector<int> CandidateIds(const std::vector<AssociationQuery>& queries) const;
@@ -95,7 +94,7 @@ class ObjectMap {
   MapOptions options_;
   NoiseScale noise_scale_;
   std::map<int, MapLandmark> landmarks_;
-  std::vector<int> open_;  ///< tentative and driving ones: the only ones that can grow stale
+  std::vector<int> open_;  ///< tentative and driving landmarks: the only ones that can become stale
   SpatialIndex index_;
   int next_id_ = 1;
   int rewrites_ = 0;

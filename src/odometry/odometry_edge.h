@@ -7,7 +7,7 @@
 
 namespace sslcd {
 
-/// What the odometry says of two frames, as an edge of a pose graph.
+/// The odometry between two frames, as an edge of a pose graph.
 struct OdometryEdge {
   Pose T_from_to;  ///< metric
   Eigen::Matrix<double, 6, 6> information;
@@ -15,8 +15,8 @@ struct OdometryEdge {
   RelativePose Measurement() const { return {T_from_to, information.inverse()}; }
 };
 
-/// `from`, `to`: indices of frames. `up`: unit vector against gravity in the world. `scale`: metres
-/// per odometry metre.
+/// Makes the edge between two frames, given by index. `up` is the unit vector against gravity in
+/// the world, `scale` is metres per odometry metre.
 OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryNoise& noise,
                              const Vec3& up, double scale);
 

@@ -14,7 +14,7 @@ namespace {
 
 // K-means stops after this number of rounds. Set by hand: assignments hardly change after ten.
 constexpr int kKMeansRounds = 10;
-constexpr std::uint64_t kKMeansSeed = 1;  // any number does; it is fixed so that runs repeat
+constexpr std::uint64_t kKMeansSeed = 1;  // any number; fixed for repeatable runs
 
 void CheckColourImage(const ImageView& image) {
   CheckImage(image, "colour image");
@@ -72,7 +72,7 @@ const std::vector<Vec3>& Palette() {
       points.emplace_back(0, 0, level);
       for (int ring = 1; ring <= 3; ++ring) {
         const double radius = ring / 3.;
-        if (radius > level + 0.3) continue;  // dark colours are hardly saturated
+        if (radius > level + 0.3) continue;  // dark colours have little saturation
         const int hues = 1 + 5 * ring;
         for (int i = 0; i < hues; ++i) {
           const double hue = 2 * M_PI * i / hues;
@@ -92,7 +92,7 @@ std::vector<float> SoftAssignment(const ColourSignature& signature, double softn
     Eigen::VectorXd distances(palette.size());
     for (std::size_t i = 0; i < palette.size(); ++i)
       distances[i] = (cluster.centre - palette[i]).squaredNorm();
-    // Relative to the nearest entry, so that a small softness cannot make them all zero.
+    // Relative to the nearest entry, so that a small softness does not make all of them zero.
     const Eigen::VectorXd likeness =
         (-0.5 / (softness * softness) * (distances.array() - distances.minCoeff())).exp().matrix();
     sum += cluster.weight / likeness.sum() * likeness;
@@ -109,7 +109,7 @@ Vec3 ConeColour(double red, double green, double blue) {
   static const double kLogRange = std::log(1 + 1 / kDark);
   const double value = std::max({red, green, blue});
   const double chroma = value - std::min({red, green, blue});
-  // The direction of the hue on the colour wheel without any trigonometry.
+  // The direction of the hue on the colour wheel without trigonometry.
   const double a = red - 0.5 * (green + blue);
   const double b = 0.5 * std::sqrt(3.) * (green - blue);
   const double length = std::hypot(a, b);

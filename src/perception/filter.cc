@@ -18,7 +18,7 @@ bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
   return (dims.array() >= options.min_size_m).all() && (dims.array() <= options.max_size_m).all();
 }
 
-/// The counter that this detection belongs to.
+/// The counter of this detection.
 int& Classify(const Detection& detection, const DetectionFilterOptions& options,
               FilterReport& report) {
   if (!IsFinite(detection)) return report.not_finite;

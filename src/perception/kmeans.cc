@@ -35,7 +35,7 @@ Eigen::Matrix3Xf Seed(const Eigen::Matrix3Xf& points, const KMeansOptions& optio
   Distances nearest = SquaredDistances(points, centres.col(0));
   for (Eigen::Index k = 1; k < centres.cols(); ++k) {
     const double total = nearest.cast<double>().sum();
-    if (!(total > 0)) return centres.leftCols(k);  // every point is a centre already
+    if (!(total > 0)) return centres.leftCols(k);  // every point is a centre
     Distances best;
     for (int draw = 0; draw < kDraws; ++draw) {
       const Eigen::Vector3f candidate = points.col(Draw(nearest, total, engine));
@@ -62,7 +62,7 @@ bool Assign(const Eigen::Matrix3Xf& points, const Eigen::Matrix3Xf& centres,
   return changed;
 }
 
-/// Means of the clusters; those that ran empty are left out.
+/// Means of the clusters without empty ones.
 void Update(const Eigen::Matrix3Xf& points, const std::vector<int>& cluster_of,
             KMeansResult& result) {
   const Eigen::Index count = result.centres.cols();

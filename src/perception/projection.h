@@ -8,17 +8,18 @@
 namespace sslcd {
 
 /// The smallest box around the image of a cuboid (paper Eq. 1).
-/// `T_cam_object` is in the reference camera's frame (Camera::offset leads on to this camera);
-/// `dims` = length, width, height [m]. What is nearer than `near_m` is cut off exactly, so the box
-/// is right for cuboids that reach behind the camera or contain it. Clipped to the image where its
-/// size is known. None: wholly behind the camera or outside the image, no volume, or not finite.
+/// `T_cam_object` is in the reference camera's frame (see Camera::offset); `dims` is length, width,
+/// height [m]. The cuboid is clipped exactly at the depth `near_m`, so the box is correct for
+/// cuboids that extend behind the camera or contain it. Clips the box to the image if its size is
+/// known. None: the cuboid is behind the camera or outside the image, has no volume or is not
+/// finite.
 std::optional<Box2d> ProjectCuboid(const Pose& T_cam_object, const Vec3& dims, const Camera& camera,
                                    double near_m = 0.1);
 
-/// Eq. 1 to the letter: minimum and maximum over the eight projected corners, whatever their depth,
-/// not clipped. Meaningless for cuboids that reach behind the camera; for `mode: paper` and for
-/// comparison. (As printed, the formula also leaves out T_cam_world * T_world_obj; callers hand in
-/// their product.)
+/// Eq. 1 as printed: minimum and maximum over the eight projected corners of any depth, not
+/// clipped. Meaningless for cuboids that extend behind the camera; for `mode: paper` and
+/// comparisons. (The printed formula also omits T_cam_world * T_world_obj; callers pass their
+/// product.)
 Box2d ProjectCuboidUnclipped(const Pose& T_cam_object, const Vec3& dims, const Camera& camera);
 
 }  // namespace sslcd

@@ -8,35 +8,34 @@
 
 namespace sslcd {
 
-/// A graph whose chains of trusted edges have become one edge each: what is left are the vertices
-/// that loops touch, fixed vertices and crossings, so a solve costs by the number of loops and not
-/// by the length of the path.
-///
-/// An edge for a chain has the composed measurement and the propagated covariance; to first order a
-/// solve gives the kept vertices the same poses as the whole graph would. Loop edges are all kept,
-/// in order, and come first.
+/// A condensed graph with one edge per chain of trusted edges. It keeps the vertices of loops,
+/// fixed vertices and junctions, so the cost of a solve depends on the number of loops instead of
+/// the length of the path.
+/// The edge of a chain has the composed measurement and the propagated covariance; to first order a
+/// solve gives the kept vertices the same poses as the full graph. All loop edges are kept in order
+/// and come first.
 class CondensedGraph {
  public:
-  /// `ends` as of IndexPoseGraph(graph), which must have found nothing wrong. Chains start and end
-  /// at kept vertices; each part of the graph that has none of these keeps its first vertex.
+  /// `ends` comes from IndexPoseGraph(graph), which must have found no problem. Chains start and
+  /// end at kept vertices. Each component without one keeps its first vertex.
   CondensedGraph(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends);
 
   PoseGraph& graph() { return condensed_; }
 
-  /// Sets all vertices of `full` (the graph given before): kept ones as they are in graph(), those
-  /// of a chain in between by sharing the chain's misfit by covariance, dangling ones rigidly with
-  /// what they hang on.
+  /// Sets all vertices of `full` (the original graph): kept ones from graph(), those of a chain by
+  /// distributing the chain's error by covariance, dangling ones rigidly with the vertex they are
+  /// attached to.
   void Expand(PoseGraph& full) const;
 
  private:
   struct Link {
-    int vertex = 0;                          ///< in the full graph; where the link leads
+    int vertex = 0;                          ///< end of the link in the full graph
     Pose T_before_here;                      ///< measured
-    Eigen::Matrix<double, 6, 6> covariance;  ///< of the measurement, tangent space on the right
+    Eigen::Matrix<double, 6, 6> covariance;  ///< covariance of the measurement, right perturbation
   };
   struct Chain {
     int start = 0;            ///< vertex of the full graph
-    std::vector<Link> links;  ///< the last one leads to a kept vertex, or to a dangling end
+    std::vector<Link> links;  ///< the last one ends at a kept vertex or is dangling
     bool dangling = false;
   };
   // per vertex: trusted edge, other end
@@ -46,7 +45,7 @@ class CondensedGraph {
                const std::vector<std::pair<int, int>>& ends, const Neighbours& neighbours,
                std::vector<bool>& used) const;
 
-  std::vector<int> kept_;  // vertex of the full graph -> of the condensed one, or -1
+  std::vector<int> kept_;  // condensed vertex of each vertex of the full graph, or -1
   std::vector<Chain> chains_;
   PoseGraph condensed_;
 };

@@ -84,7 +84,7 @@ std::optional<std::vector<Pose>> ChordalStart(const PoseGraph& graph, const Ends
   const auto weight = [&](std::size_t e, int block) {
     return weights[e] * graph.edges[e].information.diagonal().segment<3>(3 * block).mean();
   };
-  // R_j = R_i R_ij, transposed so that the unknowns stand on the right: R_j^T = R_ij^T R_i^T.
+  // R_j = R_i R_ij, transposed to have the unknowns on the right: R_j^T = R_ij^T R_i^T.
   std::vector<Eigen::Matrix3d> rotations;
   for (const auto& vertex : graph.vertices)
     rotations.push_back(vertex.T_world_vertex.so3().matrix().transpose());

@@ -9,16 +9,16 @@
 
 namespace sslcd {
 
-/// An edge as vertices of that freedom can meet it. What they cannot change (roll, pitch; height
-/// when planar) is taken from the poses of its ends and certain; of the measurement remain yaw and
-/// translation. kFull: the edge itself.
+/// Restricts an edge to the degrees of freedom of its vertices. The fixed components (roll, pitch,
+/// and height if planar) come from the poses of its ends with a high information; the measurement
+/// keeps yaw and translation. kFull: the edge itself.
 PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& edge,
                            const Pose& T_world_from, const Pose& T_world_to);
 
 /// One edge: r = sqrt(weight) L^T Log(T_from_to^-1 T_world_from^-1 T_world_to) with information = L
 /// L^T, so that |r|^2 = weight e^T I e. Both parameter blocks are poses [qx qy qz qw tx ty tz];
-/// derivatives in closed form, so that their product with PoseManifold's PlusJacobian is the
-/// derivative in its tangent space.
+/// with analytic derivatives, whose product with PoseManifold's PlusJacobian is the derivative in
+/// its tangent space.
 class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
  public:
   /// `weight` is read at each evaluation and must outlive the cost.
@@ -31,7 +31,7 @@ class EdgeCost final : public ceres::SizedCostFunction<6, 7, 7> {
   const double* weight_;
 };
 
-/// Poses whose roll and pitch are known. Tangent [translation in the world, yaw about up]: three
+/// Poses with fixed roll and pitch. Tangent [translation in the world, yaw about up]: three
 /// translations, or two (horizontal) when planar.
 class UprightManifold final : public ceres::Manifold {
  public:

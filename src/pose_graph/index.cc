@@ -63,7 +63,7 @@ std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (!use.empty() && !use[i]) continue;
     const int a = find(ends[i].first), b = find(ends[i].second);
-    root[std::max(a, b)] = std::min(a, b);  // the root is the part's first vertex
+    root[std::max(a, b)] = std::min(a, b);  // the root is the first vertex of the component
   }
   std::vector<int> component(vertices);
   for (int i = 0, count = 0; i < vertices; ++i)

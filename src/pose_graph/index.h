@@ -12,15 +12,15 @@ namespace sslcd {
 /// A graph's edges by position of their vertices in `graph.vertices`.
 struct PoseGraphIndex {
   std::vector<std::pair<int, int>> ends;  ///< from, to; one per edge
-  std::string trouble;                    ///< why the graph cannot be used; empty: it can
+  std::string trouble;                    ///< the problem of the graph; empty: the graph is valid
 };
 
-/// Looks the vertices up and checks the graph: ids unique and there, numbers finite, information
-/// positive definite.
+/// Finds the vertices of each edge and checks the graph: ids are unique and exist, numbers are
+/// finite, information is positive definite.
 PoseGraphIndex IndexPoseGraph(const PoseGraph& graph);
 
-/// Number of each vertex's connected part, counted from 0 in vertex order. Edges with use[i] false
-/// do not connect; an empty `use` means all.
+/// Number of each vertex's connected component, counted from 0 in vertex order. Edges with use[i]
+/// == false do not connect; an empty `use` means all.
 std::vector<int> Components(int vertices, const std::vector<std::pair<int, int>>& ends,
                             const std::vector<bool>& use = {});
 

@@ -49,7 +49,7 @@ bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) co
 bool PoseManifold::MinusJacobian(const double* x, double* jacobian) const {
   Eigen::Map<Jacobian67> J(jacobian);
   J.setZero();
-  // The columns of the quaternion's Jacobian are orthogonal and of length 1/2: its left inverse is
+  // The columns of the quaternion's Jacobian are orthogonal with length 1/2, so its left inverse is
   // 4 J^T.
   J.block<3, 4>(3, 0) = 4. * QuaternionPlusJacobian(x).transpose();
   const lie::SE3<double> T = lie::SE3Map<const double>(x);

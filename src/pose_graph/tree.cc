@@ -44,7 +44,7 @@ TrustedTree::TrustedTree(const PoseGraph& graph, const std::vector<std::pair<int
         parent_[next] = at;
         depth_[next] = depth_[at] + 1;
         poses_[next] = poses_[at] * (forward ? edge.T_from_to : edge.T_from_to.inverse());
-        // The measurement's error is felt at its `to`: T Exp(a) = Exp(Adj(T) a) T.
+        // The measurement's error acts at its `to`: T Exp(a) = Exp(Adj(T) a) T.
         const Matrix6 adjoint = poses_[ends[e].second].Adj();
         covariance_[next] = covariance_[at] + adjoint * Covariance(edge) * adjoint.transpose();
         queue.push(next);
@@ -54,7 +54,7 @@ TrustedTree::TrustedTree(const PoseGraph& graph, const std::vector<std::pair<int
 }
 
 double TrustedTree::Disagreement(const PoseGraph::Edge& edge, int from, int to) const {
-  int a = from, b = to;  // both upwards until they meet
+  int a = from, b = to;  // walk up from both until they meet
   while (a != b && a >= 0 && b >= 0)
     (depth_[a] >= depth_[b] ? a : b) = parent_[depth_[a] >= depth_[b] ? a : b];
   if (a != b) return 0;

@@ -13,12 +13,12 @@ struct AssociationOptions {
   };
   Method method = Method::kRobust;
   double lambda = 0.5;           ///< Eq. 3: balance between box overlap, colour and embedding
-  double min_score = 0.1;        ///< pairs below this are never matched
-  double geometry_weight = 0.6;  ///< robust: share of the 3D distance in the score
-  double gate_sigmas = 3.5;      ///< robust: horizontal Mahalanobis distance allowed
-  /// robust: horizontal distance allowed, whatever the covariance says
+  double min_score = 0.1;        ///< smallest score of a match
+  double geometry_weight = 0.6;  ///< robust: weight of the 3D distance in the score
+  double gate_sigmas = 3.5;      ///< robust: largest horizontal Mahalanobis distance of a match
+  /// robust: largest horizontal distance of a match for any covariance
   double gate_m = 4.;
-  double gate_vertical_m = 2.;  ///< robust: vertical distance allowed
+  double gate_vertical_m = 2.;  ///< robust: largest vertical distance of a match
 };
 void DescribeFields(FieldVisitor& visitor, AssociationOptions& options);
 

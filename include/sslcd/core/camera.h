@@ -14,28 +14,29 @@ struct Camera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
   /// K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
   Vec3 offset{0, 0, 0};
-  int width = 0, height = 0;  ///< [px]; 0 = unknown (then the image border clips nothing)
+  int width = 0, height = 0;  ///< [px]; 0: unknown (then boxes are not clipped to the image)
 };
 
-/// A rectified pair. The right camera differs from the left one in its place, `baseline_m` to the
-/// right, and perhaps in the column of its principal point: u_left - u_right = fx baseline_m / z +
+/// A rectified pair. The right camera is `baseline_m` to the right of the left one and may have
+/// another column of the principal point: u_left - u_right = fx baseline_m / z +
 /// disparity_at_infinity.
 struct StereoCamera {
   Camera left;
   double baseline_m = 0;
-  /// [px] cx of the left one less cx of the right one
+  /// cx of the left camera minus cx of the right one [px]
   double disparity_at_infinity = 0;
-  static constexpr double kMostAtInfinity = 3;  ///< [px] more than that is another rectification
+  static constexpr double kMostAtInfinity = 3;  ///< [px] a larger value means another rectification
 };
 
-/// The right one of a pair.
+/// The right camera of a pair.
 Camera RightOf(const StereoCamera& stereo);
 
-/// Throws Error(kBadInput) unless both have the same focal lengths and principal point, but for
-/// kMostAtInfinity between its columns, and the second stands to the right of the first.
+/// Makes a pair from two cameras. Throws Error(kBadInput) unless both have the same focal lengths
+/// and principal point (up to kMostAtInfinity between its columns) and the second is to the right
+/// of the first.
 StereoCamera MakeStereoCamera(const Camera& left, const Camera& right);
 
-/// Throws Error(kBadInput) where the camera knows the size of its images, and that is another one.
+/// Throws Error(kBadInput) if the camera has an image size and the image has another one.
 void CheckSize(const ImageView& image, const Camera& camera);
 
 /// Axis-aligned box in the image. [px]
@@ -46,7 +47,7 @@ struct Box2d {
   }
 };
 
-/// What a 2D detector says about one object in one image.
+/// A 2D detection of one object in one image.
 struct ImageDetection {
   std::string label;
   double score = 1;  ///< probability that this is an object, in [0, 1]

@@ -12,25 +12,25 @@
 namespace sslcd {
 
 /// One detected object in one frame: the paper's d_i = {l, b, h, e, T_co} (III-B) and its cuboid.
-/// The object frame sits in the cuboid's centre: x along its length, y to its left, z up.
+/// The origin of the object frame is the cuboid's centre: x along its length, y to its left, z up.
 struct Detection {
-  /// 0-based row in the detections file(s); the name that map.json uses
+  /// 0-based row in the detections file(s), used as its id in map.json
   int row = -1;
-  std::string label;  ///< semantic class, as the detector wrote it ("Car")
+  std::string label;  ///< semantic class of the detector, e.g. "Car"
   double score = 1.;  ///< probability that this is an object, in [0, 1]
   /// pose in the camera frame (KITTI axes: x right, y down, z forward)
   Pose T_cam_object;
   Vec3 dims{0, 0, 0};        ///< length, width, height [m], all > 0
-  std::optional<Box2d> box;  ///< 2D box; none: the cue drops out of the association score
+  std::optional<Box2d> box;  ///< 2D box [px]; none: association does not use this cue
   /// the vector of each cue, of unit length (that of a colour may have unit sum); empty: none
   PerCue<std::vector<float>> appearance;
 };
 
-/// One frame as it enters the system.
+/// One input frame.
 struct Frame {
   int index = 0;     ///< number of the frame in its dataset
   double stamp = 0;  ///< [s]
-  Pose T_odom_cam;   ///< odometry: drifting, metrically slightly wrong
+  Pose T_odom_cam;   ///< odometry, with drift and an error of the scale
   std::vector<Detection> detections;
   std::string image_left, image_right;  ///< paths of the images; empty: none
 };

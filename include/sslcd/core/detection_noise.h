@@ -6,17 +6,17 @@
 
 namespace sslcd {
 
-/// How far a 3D detector is off, as a function of range: sigma = (base + slope * range) * scale.
-/// The shape holds for detectors as different as LiDAR and stereo ones, whose errors differ by a
-/// factor of 3 to 10; that factor is the NoiseScale below, which is learnt during the run from the
-/// detections' own scatter about the landmarks.
+/// The noise of a 3D detector as a function of range: sigma = (base + slope * range) * scale. The
+/// shape fits LiDAR and stereo detectors, whose errors differ by a factor of 3 to 10. That factor
+/// is the NoiseScale below, which a run learns from the scatter of the detections around the
+/// landmarks.
 struct DetectionNoise {
-  double radial_m = 0.06, radial_per_m = 0.003;     ///< along the viewing ray
-  double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< across the ray, horizontal
+  double radial_m = 0.06, radial_per_m = 0.003;     ///< standard deviation along the viewing ray
+  double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< horizontal, across the ray
   double vertical_m = 0.05, vertical_per_m = 0.0005;
   double yaw_rad = 0.02, yaw_per_m = 0.0005;
-  double size_relative = 0.05;  ///< no key, the simulator reads it: of each dimension, share
-  double initial_scale = 2.;    ///< of every component, before anything has been learnt
+  double size_relative = 0.05;  ///< no key, for the simulator: share of each dimension
+  double initial_scale = 2.;    ///< factor on all components before the run has learnt its own
 };
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise);
 
@@ -32,11 +32,13 @@ struct DetectionSigmas {
   double radial = 0, lateral = 0, vertical = 0, yaw = 0;
 };
 
+/// The standard deviations at a range.
+/// The standard deviations at a range.
 DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale);
 
-/// Rows: unit vectors along the viewing ray, across it (horizontal in the camera), and up the
-/// image, for a point in the camera frame. Turns camera-frame errors into [radial, lateral,
-/// vertical].
+/// The rotation from the camera frame to [radial, lateral, vertical] for a point in the camera
+/// frame. Rows: unit vectors along the viewing ray, across it (horizontal in the camera), and up in
+/// the image.
 Eigen::Matrix3d RayFrame(const Vec3& point_cam);
 
 /// Covariance of a detection's position in the camera frame. [m^2]

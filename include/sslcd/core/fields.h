@@ -9,15 +9,15 @@
 
 namespace sslcd {
 
-/// One options struct = one function `void DescribeFields(FieldVisitor&, XOptions&)` that names
-/// every field once. Loading from YAML, `--set`, dumping, range checks and docs/configuration.md
-/// are all visitors over that one table.
+/// Visits the fields of an options struct. Each struct has a function `void
+/// DescribeFields(FieldVisitor&, XOptions&)` that lists every field once. Loading from YAML,
+/// `--set`, dumping, range checks and docs/configuration.md are visitors of this table.
 class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  /// Marks the field that is visited next as one that users turn every day. `effect`: what they
-  /// see when they turn it. Use as `visitor.Everyday("...").Real(...)`.
+  /// Marks the next field as an everyday one. `effect` describes the effect of changing it. Use as
+  /// `visitor.Everyday("...").Real(...)`.
   FieldVisitor& Everyday(const char* effect) {
     effect_ = effect;
     return *this;
@@ -34,11 +34,11 @@ class FieldVisitor {
   virtual void Choice(const char* key, int& value, const std::vector<const char*>& names,
                       const char* meaning) = 0;
 
-  /// A list of numbers, each in [low, high]. Visitors that have no use for lists leave them alone.
+  /// A list of numbers, each in [low, high]. The default does nothing.
   virtual void Numbers(const char* /*key*/, std::vector<double>& /*values*/, double /*low*/,
                        double /*high*/, const char* /*meaning*/) {}
 
-  /// Names by number >= 0, e.g. `{2: Car, 7: Truck}`. Likewise.
+  /// Names by number >= 0, e.g. `{2: Car, 7: Truck}`. The default does nothing.
   virtual void Names(const char* /*key*/, std::map<int, std::string>& /*names*/,
                      const char* /*meaning*/) {}
 
@@ -54,31 +54,31 @@ class FieldVisitor {
     value = static_cast<E>(index);
   }
 
-  /// A nested options struct that has a DescribeFields of its own.
+  /// A nested options struct with its own DescribeFields.
   template <class Options>
   void Nested(const char* key, Options& options, const char* meaning) {
     Section(key, meaning, [&options](FieldVisitor& visitor) { DescribeFields(visitor, options); });
   }
 
  protected:
-  /// The effect given to Everyday for the field that is visited now; null where it is not one of
-  /// these. To be asked once per field.
+  /// Returns the effect given to Everyday for the current field; null if it is not an everyday
+  /// field. Call it once per field.
   const char* TakeEffect() { return std::exchange(effect_, nullptr); }
 
  private:
   const char* effect_ = nullptr;
 };
 
-/// What is wrong with one option, or with several that do not fit together.
+/// A problem of one option, or of several that do not fit together.
 struct FieldProblem {
-  std::vector<std::string> keys;  ///< with their sections, e.g. `loop.layout.local_m`; at least one
-  std::string message;            ///< what is wrong and what would be right
+  std::vector<std::string> keys;  ///< keys with sections, e.g. `loop.layout.local_m`; at least one
+  std::string message;            ///< the problem and a remedy
 };
 
-/// Numbers that are outside of their fields' ranges; NaN is outside of any.
+/// Finds numbers outside of their field's range; NaN is outside of every range.
 std::vector<FieldProblem> CheckRanges(const std::function<void(FieldVisitor&)>& describe);
 
-/// One problem a line, for people.
+/// One problem per line, for people.
 std::string ToString(const std::vector<FieldProblem>& problems);
 
 }  // namespace sslcd

@@ -6,7 +6,7 @@
 
 namespace sslcd {
 
-/// Somebody else's 8-bit image, rows from the top. Nothing is copied or freed.
+/// A view of an 8-bit image, rows from the top. It does not own the pixels.
 struct ImageView {
   const unsigned char* data = nullptr;
   int width = 0, height = 0;  ///< [px]
@@ -14,7 +14,7 @@ struct ImageView {
   int channels = 3;           ///< 3: interleaved B G R; 1: grey
 };
 
-/// An image of our own, rows without gaps. No pixels: there is none.
+/// An image that owns its pixels, rows without gaps. Without pixels it is empty.
 struct Image {
   std::vector<unsigned char> pixels;
   int width = 0, height = 0, channels = 3;
@@ -26,16 +26,16 @@ struct Image {
   }
 };
 
-/// Two images of one moment, rectified: a point lies in the same row of both.
+/// A rectified stereo pair: a point has the same row in both images.
 struct StereoView {
   ImageView left, right;
 };
 
-/// Throws Error(kBadInput), with `what` in front, unless the image has pixels, one or three
-/// channels and a stride that holds a row.
+/// Throws Error(kBadInput) with the prefix `what` unless the image has pixels, one or three
+/// channels and a stride of at least a row.
 void CheckImage(const ImageView& image, const char* what);
 
-/// CheckImage on both, and both have the same size.
+/// CheckImage for both images. Also throws Error(kBadInput) if their sizes differ.
 void CheckImages(const StereoView& images);
 
 }  // namespace sslcd

@@ -7,11 +7,11 @@
 
 namespace sslcd {
 
-/// Which turns about the vertical leave an object looking the same.
+/// The rotational symmetry of an object about the vertical.
 enum class Symmetry {
   kNone,  ///< front and back differ (car)
-  kPi,    ///< front and back are not told apart
-  kFull,  ///< no yaw at all (pole, tree)
+  kPi,    ///< front and back are equal or not distinguished
+  kFull,  ///< no yaw (pole, tree)
 };
 
 /// "none", "pi" or "full".
@@ -21,12 +21,12 @@ std::optional<Symmetry> ParseSymmetry(const std::string& text);
 /// Period of the yaw in rad: 2 pi, pi, or 0 for "no yaw".
 double YawPeriod(Symmetry symmetry);
 
-/// What is known about a class of objects.
+/// Properties of a class of objects.
 struct LabelInfo {
   Symmetry symmetry = Symmetry::kNone;
 };
 
-/// Label -> what is known. Labels that are not listed behave like a default LabelInfo.
+/// Properties by label. Other labels have a default LabelInfo.
 class LabelTable {
  public:
   const LabelInfo& operator[](const std::string& label) const;

@@ -8,7 +8,7 @@
 
 namespace sslcd {
 
-/// Strong type for landmark ids: never reused, survives fusion.
+/// Strong type of landmark ids. Ids are never reused; a fused landmark keeps one of its two ids.
 struct LandmarkId {
   int value = -1;
   friend bool operator==(LandmarkId a, LandmarkId b) { return a.value == b.value; }
@@ -16,12 +16,12 @@ struct LandmarkId {
   friend bool operator<(LandmarkId a, LandmarkId b) { return a.value < b.value; }
 };
 
-/// Life cycle of a landmark.
+/// The state of a landmark.
 enum class LandmarkState {
-  kTentative,  ///< seen, not yet confirmed
+  kTentative,  ///< not confirmed yet
   kConfirmed,  ///< part of the map
-  kDynamic,    ///< moves in the world: tracked, never part of the map
-  kStale,      ///< tentative and not seen again: given up
+  kDynamic,    ///< moving: tracked, but not part of the map
+  kStale,      ///< tentative, not seen again and dropped
 };
 
 /// "tentative", "confirmed", "dynamic", "stale".
@@ -33,8 +33,8 @@ struct Observation {
   int detection_row = 0;
 };
 
-/// One object of the finished map, as it is written to map.json. The object frame is upright: roll
-/// and pitch are zero with respect to the map's up axis.
+/// One object of the map in map.json. The object frame is upright: roll and pitch relative to the
+/// map's up axis are zero.
 struct MapObject {
   LandmarkId id;
   std::string label;

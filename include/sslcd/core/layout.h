@@ -9,18 +9,18 @@
 
 namespace sslcd {
 
-/// What an object has looked like from one direction.
+/// The mean appearance of an object from one direction.
 struct AppearanceView {
-  double viewpoint_rad = 0;   ///< bearing of the camera in the object frame, 0 = from the front
-  int count = 1;              ///< sightings behind it
-  std::vector<float> vector;  ///< mean of the unit vectors of its sightings
+  double viewpoint_rad = 0;   ///< bearing of the camera in the object frame; 0: from the front
+  int count = 1;              ///< number of sightings
+  std::vector<float> vector;  ///< mean of the unit vectors of the sightings
 };
 
-/// An object as graph matching sees it: a vertex of the paper's G = (V, E) (IV-A). Coordinates are
+/// An object of a layout: a vertex of the paper's G = (V, E) (IV-A). Coordinates are
 /// gravity-aligned: x forward, y left, z up (the axes of GravityFrame), origin anywhere.
 struct LayoutObject {
   int id = -1;    ///< landmark id
-  int label = 0;  ///< the label's number; equal labels, equal numbers
+  int label = 0;  ///< number of the label
   Symmetry symmetry = Symmetry::kNone;
   Vec3 position{0, 0, 0};  ///< centre [m]
   double yaw = 0;          ///< about z; NaN: unknown [rad]
@@ -29,8 +29,7 @@ struct LayoutObject {
   PerCue<std::vector<AppearanceView>> appearance;
 };
 
-/// A turn about the vertical and a shift: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad,
-/// m]
+/// A 4-DoF transform: p_to = Rz(yaw) p_from + t, in gravity-aligned axes. [rad, m]
 struct YawShift {
   double yaw = 0;
   Vec3 t{0, 0, 0};

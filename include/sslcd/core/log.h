@@ -8,16 +8,15 @@ namespace sslcd {
 
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
-/// Where messages go. ImageFrontend with more than one thread may call it from several at a time,
-/// if a model's runtime has something to say. The library is silent until a host installs a sink;
-/// it never prints by itself.
+/// Receives messages. ImageFrontend with several threads may call it from several of them at the
+/// same time. The library never prints; it is silent until a host installs a sink.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-/// Installs the sink (empty: silent) and returns the one before. Not to be called while the library
-/// runs in another thread.
+/// Installs the sink (empty: silent) and returns the previous one. Must not be called while the
+/// library runs in another thread.
 LogSink SetLogSink(LogSink sink);
 
-/// Hands one line to the sink.
+/// Passes one line to the sink.
 void Log(LogLevel level, const std::string& message);
 
 }  // namespace sslcd

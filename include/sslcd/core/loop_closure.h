@@ -11,39 +11,39 @@
 namespace sslcd {
 
 enum class LoopDecision {
-  kNone,       ///< nothing found that could not be chance
-  kAmbiguous,  ///< something fits, but something else fits nearly as well
+  kNone,       ///< no pose fits better than chance
+  kAmbiguous,  ///< a pose fits, but another one fits almost as well
   kAccepted,
 };
 
 /// "none", "ambiguous", "accepted".
 const char* ToString(LoopDecision decision);
 
-/// What is decided about a loop, and why.
+/// The decision about a loop with its reason.
 struct LoopVerdict {
   LoopDecision decision = LoopDecision::kNone;
-  std::string reason;       ///< why it was refused, or what speaks for it; for people
+  std::string reason;       ///< why it was refused or accepted, for people
   double score = 0;         ///< log odds that the best pose is the right one [nats]
-  double second_score = 0;  ///< the same of the second best
+  double second_score = 0;  ///< the same for the second best pose
 };
 
-/// One attempt to close a loop, successful or not: a row of loops.csv.
+/// One attempt to close a loop, accepted or refused: a row of loops.csv.
 struct LoopClosure {
-  int newest_frame = 0;  ///< where it was looked for; the query frame may be an earlier one
+  int newest_frame = 0;  ///< newest frame of the attempt; the query frame may be earlier
   int query_frame = 0, match_frame = 0;
   LoopDecision decision = LoopDecision::kNone;
-  std::string reason;  ///< why it was refused, or what settled it
+  std::string reason;  ///< why it was refused or accepted
   double score = 0, second_score = 0;
-  Pose T_match_query;  ///< where the query camera stands in the match camera's frame
-  /// Of the right perturbation T_match_query Exp(d), d = [translation, rotation].
+  Pose T_match_query;  ///< pose of the query camera in the match camera's frame
+  /// covariance of the right perturbation T_match_query Exp(d), d = [translation, rotation]
   Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
-  bool by_views = false;  ///< measured along a tie between aligned images, not by its objects
+  bool by_views = false;  ///< measured by aligned images instead of objects
   double viewpoint_change_rad = 0;
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global
 };
 
-/// Two cameras whose relative pose was measured, by the indices of their frames.
+/// A measured relative pose of two frames, given by index.
 struct ViewTie {
   int from = 0, to = 0;
   RelativePose pose;  ///< T_from_to

@@ -21,9 +21,9 @@ double WrapAngle(double angle_rad);
 /// Angle wrapped to (-period/2, period/2]; period > 0. [rad]
 double WrapAngle(double angle_rad, double period_rad);
 
-/// A gravity-aligned frame: which way is up, and the two horizontal axes that yaw is measured in.
-/// Yaw is the angle about `up`, counter-clockwise seen from above, from `forward` towards `left`
-/// (`left` = up x forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
+/// A gravity-aligned frame: the up direction and the two horizontal axes of the yaw. Yaw is the
+/// angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up
+/// x forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
 struct GravityFrame {
   Vec3 up{0, -1, 0};
   Vec3 forward{1, 0, 0};
@@ -33,21 +33,21 @@ struct GravityFrame {
   /// `up`, `forward` is another axis of the world: x for up = -y or +z.
   static GravityFrame FromUp(const Vec3& up);
 
-  /// Columns [forward left up]: turns components in this frame into world components.
+  /// Columns [forward left up]: rotates vectors from this frame to the world.
   Eigen::Matrix3d Basis() const;
 
-  /// Object-frame axes (x along its length, z up) in the world for a yaw. [rad]
+  /// R_world_object of an upright object (x along its length, z up) with a yaw [rad].
   lie::SO3<double> Upright(double yaw_rad) const;
 
   /// Yaw of a rotation: direction of its x axis projected to the horizontal. [rad]
   double YawOf(const lie::SO3<double>& R_world_object) const;
 };
 
-/// Pose of a gravity-aligned object: where its centre is and which way it faces. Roll and pitch are
-/// zero (paper III-A.1).
+/// The pose of a gravity-aligned object: its centre and heading. Roll and pitch are zero (paper
+/// III-A.1).
 struct UprightPose {
   Vec3 position{0, 0, 0};  ///< centre in the world [m]
-  double yaw = 0;          ///< about the world's up, see GravityFrame [rad]
+  double yaw = 0;          ///< heading about the world's up, see GravityFrame [rad]
 };
 
 /// T_world_object.
@@ -55,24 +55,24 @@ Pose ToPose(const UprightPose& upright, const GravityFrame& gravity);
 /// Drops roll and pitch.
 UprightPose ToUpright(const Pose& T_world_object, const GravityFrame& gravity);
 
-/// Where one camera stands in another one's frame, as measured.
+/// A measured pose of one camera in another one's frame.
 struct RelativePose {
   Pose T_a_b;
-  /// Of the right perturbation T_a_b Exp(d), d = [translation, rotation].
+  /// covariance of the right perturbation T_a_b Exp(d), d = [translation, rotation]
   Pose::Matrix6 covariance = Pose::Matrix6::Identity();
 };
 
-/// T_a_c from T_a_b and T_b_c, whose errors are independent.
+/// T_a_c from T_a_b and T_b_c with independent errors.
 inline RelativePose Compose(const RelativePose& ab, const RelativePose& bc) {
   // T_a_b Exp(d) T_b_c = T_a_b T_b_c Exp(Adj(T_b_c^-1) d)
   const Pose::Matrix6 adjoint = bc.T_a_b.inverse().Adj();
   return {ab.T_a_b * bc.T_a_b, adjoint * ab.covariance * adjoint.transpose() + bc.covariance};
 }
 
-/// Whether `T_a_b` lies within the measurement's confidence region of that probability.
+/// Whether `T_a_b` lies within the measurement's confidence region of the given probability.
 bool Agrees(const RelativePose& measured, const Pose& T_a_b, double probability);
 
-/// Stamped poses, in time order. `poses[i]` is T_world_cam at `stamps[i]` [s]; both of the same
+/// Stamped poses in order of time. `poses[i]` is T_world_cam at `stamps[i]` [s]; both have the same
 /// length.
 struct Trajectory {
   std::vector<double> stamps;

@@ -20,7 +20,7 @@ struct PoseGraph {
     /// Information of Log(T_from_to^-1 T_world_from^-1 T_world_to), order [translation, rotation].
     Eigen::Matrix<double, 6, 6, Eigen::DontAlign> information =
         Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
-    /// a loop candidate, which a robust solve may refuse; all other edges are trusted
+    /// a loop candidate that a robust solve may refuse; all other edges are trusted
     bool loop = false;
   };
   std::vector<Vertex> vertices;

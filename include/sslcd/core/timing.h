@@ -15,7 +15,7 @@ struct StageTimes {
   double mean = 0, p50 = 0, p95 = 0, max = 0;
 };
 
-/// Collects how long each stage took, call by call. Not thread-safe.
+/// Collects the times of the calls of each stage. Not thread-safe.
 class TimingTable {
  public:
   void Add(const std::string& stage, double milliseconds) {
@@ -24,7 +24,7 @@ class TimingTable {
 
   void Append(const TimingTable& other);
 
-  /// One entry a stage, by name. Percentiles are those of the nearest rank.
+  /// One entry per stage, by name. Percentiles use the nearest rank.
   std::map<std::string, StageTimes> Summary() const;
 
  private:

@@ -14,35 +14,35 @@ class LayoutIndex;
 
 /// How well a local layout agrees with the global one under a pose.
 struct LayoutFit {
-  /// local index, global index: one to one, in order of the local index
+  /// pairs of local and global index, one to one, sorted by local index
   std::vector<std::pair<int, int>> matches;
   /// log likelihood ratio of the layout under the pose [nats]
   double score = 0;
-  double evidence = 0;  ///< the same when the pose is not given but has to be found in this map:
-                        ///< below 0, chance does it
-  /// how well matched objects agree, horizontally (standard deviation per axis) [m]
+  /// the same for a pose that was found by a search in this map: chance reaches 0
+  double evidence = 0;
+  /// horizontal standard deviation per axis of the matched objects [m]
   double sigma = 0;
-  int should_see = 0;  ///< objects of the map among the local ones' surroundings, matched or not
+  int should_see = 0;  ///< number of map objects in the area of the local ones, matched or not
 };
 
 /// A pose that the local layout may have in the global one.
 struct PoseHypothesis {
   YawShift pose;  ///< local to global
-  LayoutFit fit;  ///< how well the layouts agree under it
+  LayoutFit fit;  ///< fit of the layouts under the pose
 };
 
-/// Where the local map lies in the global one, or why that cannot be told.
+/// The pose of the local map in the global one, or the reason of the refusal.
 struct LayoutAnswer : LoopVerdict {
   /// Distinct poses, best first; may be empty. The answer is the first. Matches are indices into
   /// the objects as given.
   std::vector<PoseHypothesis> hypotheses;
 };
 
-/// Searches all poses of the local map in the global one and decides whether the best of them can
-/// be trusted. Labels, positions and whatever else the objects know take part; there is no prior
-/// pose. Objects whose position is not finite take no part. Before a pose is accepted, the mirror
-/// image of the local map is searched as well: no camera ever sees it, so what it reaches is
-/// chance. Deterministic; never throws for odd layouts, but says so in the verdict.
+/// Searches the pose of the local map in the global one without a prior and decides whether to
+/// accept it. Uses labels, positions and all known properties of the objects. Ignores objects whose
+/// position is not finite. Before it accepts a pose, it also searches the mirror image of the local
+/// map: no camera sees mirror images, so their score is that of chance. Deterministic. Never
+/// throws; the verdict has the reason of a failure.
 LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local,
                           const std::vector<LayoutObject>& global,
                           const LayoutMatchOptions& options = {},

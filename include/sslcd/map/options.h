@@ -13,30 +13,29 @@ struct MotionTestOptions {
   double decide_at = 6.;       ///< log Bayes factor at which an object is called driving [nats]
   double min_travel_m = 2.;    ///< an object that has moved less is not called driving
   double min_speed_mps = 0.7;  ///< an object that is slower is not called driving
-  double settle_s = 1.5;  ///< a driving object that has stopped for this time is a new parked one
+  double settle_s = 1.5;  ///< a driving object that stops for this time becomes a new parked one
 
-  // No keys: properties of road users and of the models, set by hand; no search over them is
-  // recorded.
+  // No keys: properties of road users and of the models, set by hand without a recorded search.
   double speed_prior_mps = 8.;    ///< standard deviation of an unknown object's speed, per axis
   double acceleration_mps2 = 2.;  ///< standard deviation of a driving object's acceleration
   /// random walk of a parked object's position that camera drift causes
   double wander_m_per_sqrt_s = 0.02;
-  double max_parked_speed_mps = 2.;  ///< a parked object's speed is below this, with one standard
-                                     ///< deviation to spare
-  /// limit of the log Bayes factor: the evidence that a change of state has to overcome [nats]
+  /// largest speed of a parked object, including one standard deviation
+  double max_parked_speed_mps = 2.;
+  /// limit of the absolute log Bayes factor, which a change of state has to overcome [nats]
   double memory = 10.;
-  double forget_after_s = 5.;  ///< the test of an object unseen for longer starts again
+  double forget_after_s = 5.;  ///< the test restarts after an object was unseen for longer
 };
 void DescribeFields(FieldVisitor& visitor, MotionTestOptions& options);
 
-/// Life cycle of landmarks.
+/// Options of the life cycle of landmarks.
 struct MapOptions {
-  int confirm_sightings = 3;     ///< sightings that turn tentative into confirmed
+  int confirm_sightings = 3;     ///< sightings that confirm a tentative landmark
   double birth_score = 0.5;      ///< a detection with a lower score makes no new landmark
   double stale_after_s = 2.;     ///< a tentative or driving object unseen for longer is dropped
-  double search_radius_m = 12.;  ///< a detection's landmark is searched for within this distance
-  /// after this length of path out of sight, only loop closure finds a landmark again: by then the
-  /// odometry may have drifted on to its neighbour
+  double search_radius_m = 12.;  ///< radius of the search for a detection's landmark
+  /// a landmark that was out of sight for this length of path is only found by loop closure, since
+  /// the drift may exceed the distance to its neighbour
   double memory_m = 60.;
   /// learn the detector's noise scale from the scatter of its detections
   bool learn_noise = true;
@@ -44,7 +43,7 @@ struct MapOptions {
 };
 void DescribeFields(FieldVisitor& visitor, MapOptions& options);
 
-/// What one frame did to the map.
+/// The changes of the map by one frame.
 struct MapUpdate {
   std::vector<LandmarkId> matched;  ///< landmark of each detection; value -1: none
   int born = 0, confirmed = 0, turned_dynamic = 0;

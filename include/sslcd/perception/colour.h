@@ -18,10 +18,9 @@ struct ColourOptions {
   Method method = Method::kRobust;
   int clusters = 6;       ///< no key: K dominant colours; set by hand
   int max_pixels = 1000;  ///< no key: size of the regular grid that samples the box; set by hand
-  /// central part of the box that is sampled, per side; the rest is mostly background
+  /// share of each side of the box that is sampled, in its centre; the rest is mostly background
   double box_share = 0.7;
-  /// no key: robust: distance in colour space [ConeColour] at which two colours are still alike;
-  /// set by hand
+  /// no key: robust: largest distance of similar colours in colour space [ConeColour]; set by hand
   double softness = 0.25;
 };
 void DescribeFields(FieldVisitor& visitor, ColourOptions& options);
@@ -33,27 +32,27 @@ struct ColourCluster {
 };
 using ColourSignature = std::vector<ColourCluster>;  ///< largest share first; the shares sum to one
 
-/// Hue-safe colour space: the HSV cone [C cos(hue), C sin(hue), L], whose value axis is compressed
-/// like the eye's, so that a change of brightness moves a colour little, except near black. L =
-/// log(1 + v/e) / log(1 + 1/e) and C = saturation * v (1 + e) / (v + e), e = 0.1; both in [0, 1].
-/// Arguments in [0, 1].
+/// Hue-safe colour space: the HSV cone [C cos(hue), C sin(hue), L], with a compressed value axis,
+/// similar to human perception, so that a change of brightness changes a colour little, except near
+/// black. L = log(1 + v/e) / log(1 + 1/e) and C = saturation * v (1 + e) / (v + e), e = 0.1; both
+/// in [0, 1]. Arguments in [0, 1].
 Vec3 ConeColour(double red, double green, double blue);
 
 /// HSV in OpenCV's 8-bit scale: hue [0, 180), saturation and value [0, 255]. Arguments in [0, 1].
 Vec3 HsvColour(double red, double green, double blue);
 
-/// Clusters of the pixels in `box`. Empty when the box has no pixel in the image.
-/// Throws Error(kBadInput) unless the image has three channels, data and a stride that holds a row.
+/// Clusters the colours of the pixels in `box`. Empty if the box has no pixel in the image. Throws
+/// Error(kBadInput) unless the image has three channels, data and a stride that holds a row.
 ColourSignature ExtractColour(const ImageView& image, const Box2d& box,
                               const ColourOptions& options);
 
 /// The vector h for Detection::colour; empty for an empty signature.
-/// Robust: soft assignment to a palette that is the same for all objects, L2-normalised with
-/// entries >= 0, so that the dot product of two is their cosine in [0, 1]. Paper: the K shares
-/// (zeros at the end where there are fewer clusters), sum one.
+/// Robust: soft assignment to a palette common to all objects, L2-normalised with entries >= 0, so
+/// that the dot product of two is their cosine in [0, 1]. Paper: the K shares (with zeros at the
+/// end if there are fewer clusters), which sum to one.
 std::vector<float> ColourVector(const ColourSignature& signature, const ColourOptions& options);
 
-/// Both steps.
+/// ExtractColour followed by ColourVector.
 std::vector<float> ColourVector(const ImageView& image, const Box2d& box,
                                 const ColourOptions& options);
 

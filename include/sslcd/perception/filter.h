@@ -8,17 +8,16 @@
 
 namespace sslcd {
 
-/// Which detections are worth using (paper III-A.1: "excessively large or distant" ones are
-/// dropped).
+/// The filter of detections (paper III-A.1: "excessively large or distant" ones are dropped).
 struct DetectionFilterOptions {
   double min_score = 0.5;
   double max_range_m = 70.;  ///< distance from the camera to the cuboid's centre
-  /// Length, width and height of an object all lie between these.
+  /// bounds of length, width and height of an object
   double min_size_m = 0.1, max_size_m = 30.;
 };
 void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options);
 
-/// What became of the detections; each one is counted once, under the first reason that holds.
+/// Counts of filtered detections. Each detection counts once, for the first reason that applies.
 struct FilterReport {
   int kept = 0;
   int not_finite = 0;  ///< NaN or infinity in pose, size or score
@@ -30,7 +29,7 @@ struct FilterReport {
   FilterReport& operator+=(const FilterReport& other);
 };
 
-/// Drops what fails; the order of the others stays.
+/// Removes the detections that fail and keeps the order of the others.
 FilterReport FilterDetections(std::vector<Detection>& detections,
                               const DetectionFilterOptions& options);
 

@@ -7,13 +7,12 @@
 
 namespace sslcd {
 
-/// For hosts with OpenCV. Nothing is copied: a view lives no longer than its matrix, and the other
-/// way round.
+/// Conversions for hosts with OpenCV. They copy nothing: the source must outlive the result.
 inline ImageView ViewOf(const cv::Mat& image) {
   return {image.data, image.cols, image.rows, image.step, image.channels()};
 }
 
-/// Not to be written to.
+/// The result must not be written to.
 inline cv::Mat MatOf(const ImageView& image) {
   return {image.height, image.width, CV_8UC(image.channels), const_cast<unsigned char*>(image.data),
           image.stride};

@@ -57,11 +57,11 @@ int DegreesOfFreedom(PoseFreedom freedom);
 
 /// What SolvePoseGraph did.
 struct PoseGraphSummary {
-  bool usable = false;  ///< false: the graph is left as it was
+  bool usable = false;  ///< false: the graph is unchanged
   bool converged = false;
-  bool chordal = false;  ///< the chordal start was taken
+  bool chordal = false;  ///< the chordal start was used
   int iterations = 0;
-  /// connected parts; each keeps its first vertex where none is fixed
+  /// number of connected components; a component without a fixed vertex keeps its first one
   int components = 0;
   double initial_chi2 = 0, final_chi2 = 0;  ///< of the given and of the returned poses
   std::string message;                      ///< one line
@@ -72,33 +72,33 @@ struct PoseGraphSummary {
 Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose& T_world_to);
 
 /// chi2 = sum w e^T I e over all edges; `weights` one per edge, none given: all 1.
-/// Throws Error(kBadInput) where an edge names a vertex that is not there.
+/// Throws Error(kBadInput) if an edge has an unknown vertex.
 double Chi2(const PoseGraph& graph, const std::vector<double>& weights = {});
 
-/// Moves the vertices to the minimum of Chi2(graph, weights). Vertices that are `fixed` stay; a
-/// connected part without one keeps its first vertex. Levenberg-Marquardt on a sparse Cholesky
-/// factorisation, one thread, the same bytes every time. Never throws on bad graphs: a summary that
-/// is not usable says why.
+/// Moves the vertices to the minimum of Chi2(graph, weights). `fixed` vertices stay; a connected
+/// component without one keeps its first vertex. Levenberg-Marquardt with sparse Cholesky
+/// factorisation on one thread, deterministic to the byte. Never throws: for a malformed graph the
+/// summary is not usable and has the reason.
 PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
                                 const std::vector<double>& weights = {});
 
 /// What SolveRobust did.
 struct RobustPoseGraphSummary {
-  /// chi2, of the given and of the returned poses, counts the kept loops only
+  /// summary of the graph with the kept loops
   PoseGraphSummary graph;
-  std::vector<double> edge_weight;  ///< per edge: 1 trusted or kept, 0 loop refused
+  std::vector<double> edge_weight;  ///< per edge: 1 if trusted or kept, 0 for a refused loop
   int loops_kept = 0, loops_refused = 0;
-  int rounds = 0;         ///< weight updates; 0 where all loops agreed at once
-  double chi2_limit = 0;  ///< a loop is kept if its chi2 is at most this
+  int rounds = 0;         ///< weight updates; 0 if all loops agreed in the first solve
+  double chi2_limit = 0;  ///< largest chi2 of a kept loop
 };
 
-/// Decides which loops to believe and moves the vertices to the minimum with those. Hand in all
-/// loops ever proposed each time; a loop kept before may be refused once others contradict it, and
-/// come back. `kept_before`: per edge, 1 for loops that a former solve has kept and for new ones, 0
-/// for those it has refused; the vertices are where that solve has left them. If next to nothing
-/// changes from there, that is the answer, and a cheap one. Otherwise, or if it is empty, the start
-/// is the trusted edges' own geometry, which false loops cannot spoil. Never throws, as
-/// SolvePoseGraph.
+/// Selects the consistent loops and moves the vertices to the minimum with these. Pass all loops
+/// ever proposed each time: a kept loop may be refused later if others contradict it, and may
+/// return. `kept_before` has, per edge, 1 for loops that the previous solve has kept and for new
+/// ones, and 0 for those it has refused; the vertices must have the poses of that solve. If hardly
+/// anything changes from there, that solution is returned quickly. Otherwise, or if `kept_before`
+/// is empty, the start is the geometry of the trusted edges, which does not depend on false loops.
+/// Never throws, like SolvePoseGraph.
 RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOptions& options,
                                    const std::vector<double>& kept_before = {});
 
