@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # sslcd_room(NAME LINK <lower modules>...)
-#   what a module sees and shows: <build>/rooms/NAME has symbolic links to include/sslcd/NAME and to
+#   the headers of a module: <build>/rooms/NAME has symbolic links to include/sslcd/NAME and to
 #   src/NAME, and is the include path of `sslcd_NAME_headers`, which hands on those of the modules
 #   linked. A header of any other module is not found, so an include that goes up does not compile.
 #   The LINK list has to be what the includes name, no less and no more: tests/include_graph.
@@ -70,8 +70,8 @@ function(sslcd_library target)
     EXPORT_NAME ${export_name})
 endfunction()
 
-# Each case that a gtest filter names is a ctest entry; or all of them together are one. They run in
-# the build folder: where sources are compiled by relative names, these are relative to it.
+# Adds the cases of a gtest filter to ctest, as one entry each or together. They run in the build
+# folder, which relative source names refer to.
 function(sslcd_test_cases name filter label)
   gtest_discover_tests(sslcd_${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
     TEST_FILTER "${filter}" WORKING_DIRECTORY ${PROJECT_BINARY_DIR}

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what `sslcd_run bench` has left in a folder: precision-recall curves, recall over the change of viewpoint, and
+"""Draws the results of `sslcd_run bench` in a folder: precision-recall curves, recall over the change of viewpoint, and
 the errors of all loops over it (the paper's figures of the same kind).
 
 usage: draw_bench.py FOLDER OUT_FOLDER      standard library only; writes pr.svg, viewpoint.svg, viewpoint_images.svg
-                                            and loops.svg, as far as their tables are there
+                                            and loops.svg, as far as their tables exist
 """
 import csv
 import os

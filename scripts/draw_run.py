@@ -54,7 +54,7 @@ def read_poses(path, plane):
 
 
 def aligned(points, onto):
-    """`points` moved rigidly so that their squared distances to `onto` are least."""
+    """Moves `points` rigidly to minimise their squared distances to `onto`."""
     count = min(len(points), len(onto))
     a, b = points[:count], onto[:count]
     ca, cb = ([sum(p[i] for p in ps) / count for i in (0, 1)] for ps in (a, b))
@@ -138,7 +138,7 @@ class Page:
 
 
 def draw_camera(page, pose, colour):
-    """A camera and what it looks at."""
+    """A camera and its viewing direction."""
     (x, y), (ahead_x, ahead_y) = pose
     heading = math.atan2(ahead_y, ahead_x)
     arc = [(x + VIEW_M * math.cos(heading + HALF_ANGLE * k / 8),

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""2D boxes of a rendered sequence from its instance images: what a perfect detector would say, or with --sigma-px one
-whose sides scatter. For `sslcd_sim halv --render --render-truth` folders (docs/halv_sim.md, docs/formats.md).
+"""Writes the 2D boxes of a rendered sequence from its instance images: those of a perfect detector,
+or with --sigma-px with noise on the sides. For `sslcd_sim halv --render --render-truth` folders (docs/halv_sim.md, docs/formats.md).
 
 instance_boxes.py SEQUENCE OUT.txt [--labels Car,Van,Truck] [--min-height 20] [--min-pixels 400] [--sigma-px 0] [--seed 1]
                   [--every 1]
@@ -16,7 +16,7 @@ import numpy as np
 
 
 def labels_of(sequence):
-    """Identity -> the label that most detections of it bear: a few are wrong."""
+    """The most frequent label of each identity, since a few detections have a wrong one."""
     votes = collections.defaultdict(collections.Counter)
     rows = (sequence / "detections.txt").read_text().splitlines()
     for row, identity in zip(rows, (sequence / "landmark_ids.txt").read_text().split()):
@@ -25,8 +25,8 @@ def labels_of(sequence):
 
 
 def boxes_of(instances, min_height, min_pixels):
-    """(identity, left, top, right, bottom) of what is visible of each object: the outer edges of its pixels, whose
-    centres lie at whole numbers."""
+    """(identity, left, top, right, bottom) of the visible part of each object: the outer edges of
+    its pixels, whose centres lie at whole numbers."""
     where = np.flatnonzero(instances)
     values = instances.ravel()[where]
     order = np.argsort(values, kind="stable")
@@ -36,7 +36,7 @@ def boxes_of(instances, min_height, min_pixels):
             continue
         value = instances.ravel()[pixels[0]]
         rows, columns = np.divmod(pixels, instances.shape[1])
-        # A wing mirror beyond a pole is no part of the box: the outermost half per cent on each side is left out.
+        # Leaves out the outermost half per cent on each side, e.g. a wing mirror beyond a pole.
         left, right = np.percentile(columns, [0.25, 99.75])
         top, bottom = np.percentile(rows, [0.25, 99.75])
         if bottom - top + 1 >= min_height and len(rows) >= min_pixels:

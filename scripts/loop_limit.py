@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What loops can do at best: the ATE of an odometry, and what is left of it where all noise is known exactly.
+"""Lower bound of the ATE with loops: the ATE of an odometry, and of the optimal estimate with exactly
+known noise.
 
-Reads graph.g2o of a run. Edges between successive frames are odometry, the others are measurements. Draws their errors
-from their covariances many times and takes the most likely trajectory each time (linearised; least squares), which no
-estimator beats on average. Prints the ATE after SE(3) alignment of both, and how often theirs is at most half.
-No ground truth is needed: only how far off odometry and measurements are. `--step-mm`, `--step-mrad` say that of one
-step of the odometry along its own x, y, z where that is known better; `--exact` takes the measurements for exact.
+Reads graph.g2o of a run. Edges between successive frames are odometry, the others are measurements.
+Draws their errors from their covariances many times and computes the most likely trajectory each time
+(linearised least squares), which no estimator beats on average. Prints the ATE of both after SE(3)
+alignment, and how often the estimate has at most half of it. Needs no ground truth, only the
+covariances. `--step-mm` and `--step-mrad` replace the standard deviations of one odometry step along
+its own x, y, z; `--exact` assumes exact measurements.
 """
 import argparse
 
@@ -42,7 +44,8 @@ def read_graph(path):
 
 
 def drift(position, R, roots):
-    """Errors of all frames (position, rotation; in the world's axes) by the steps' noise, which has unit variance."""
+    """Jacobian of the errors of all frames (position, rotation; in world axes) by the steps' noise of unit
+    variance."""
     n = len(position)
     by_noise = np.zeros((6 * n, 6 * (n - 1)))
     for i in range(n - 1):
@@ -55,7 +58,7 @@ def drift(position, R, roots):
 
 
 def seen_by(a, b, position, R, by_noise):
-    """The error of T_a_b in b's axes, by the noise of the steps."""
+    """Jacobian of the error of T_a_b in b's axes by the noise of the steps."""
     e_a, e_b = by_noise[6 * a : 6 * a + 6], by_noise[6 * b : 6 * b + 6]
     shift = e_b[:3] - e_a[:3] + hat(position[b] - position[a]) @ e_a[3:]
     return np.vstack([R[b].T @ shift, R[b].T @ (e_b[3:] - e_a[3:])])

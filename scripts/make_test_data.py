@@ -4,7 +4,7 @@
 
     scripts/make_test_data.py [tests/data]
 
-Nothing in there is measured; tests/data/README.md says what is in which file. Same Python, same bytes.
+All data is synthetic; tests/data/README.md describes the files. The same Python gives the same bytes.
 """
 import math
 import random
@@ -40,8 +40,8 @@ def street(rng):
 
 
 def seen_from(objects, pose, rng):
-    """What one pass through a world finds, in a frame at pose = (yaw, x, y, z) in the world's: nine
-    objects of ten, 0.25 m off, and one of ten that is none. Rows (identity, label, x, y, z)."""
+    """The objects that one pass detects, in a frame at pose = (yaw, x, y, z) in the world: 90 % of the
+    objects with errors of 0.25 m, and 10 % false ones. Rows (identity, label, x, y, z)."""
     yaw, tx, ty, tz = pose
     centre = rng.choice(objects)
     rows = []

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes tests/data/models: for each layout of docs/models.md a tiny ONNX model, and what it finds in one image.
+"""Writes tests/data/models: a tiny ONNX model per layout of docs/models.md, and its detections in one image.
 
     pip install numpy onnx;  scripts/make_test_models.py [tests/data/models]
 
 Each model returns fixed numbers + GAIN * (weighted mean of its input's channels), so that its output depends on how the
-image is prepared. What it finds (NAME.txt) is computed here with NumPy, from the layouts' definitions and independently
+image is prepared. The detections (NAME.txt) are computed here with NumPy from the layouts' definitions, independently
 of the C++ code; the descriptions (NAME.yaml) are written by hand. Rows of 2D detectors: label score, left top right
 bottom; of 3D detectors: label score, centre x y z, length width height, KITTI's rotation_y, left top right bottom; of
 embeddings: the vector of one box. tests/detectors/golden_test.cc runs the models and compares.
@@ -65,7 +65,7 @@ def write_model(name, inputs, outputs, size_input=None):
 
 
 def shift_of(bgr_shares, scale=1 / 255, mean=(0, 0, 0), std=(1, 1, 1), rgb=True):
-    """GAIN times what the model makes of an input of which a share has each colour: [(share, bgr), ...]."""
+    """GAIN times the output of the model for an input with these shares of colours: [(share, bgr), ...]."""
     total = 0
     for share, bgr in bgr_shares:
         pixel = np.array(bgr[::-1] if rgb else bgr)
@@ -92,7 +92,7 @@ def found(score, number, box, *more):
 
 
 def best(candidates, minimum, overlap=1.0):
-    """Wanted and good enough, best first, without doubles of one label."""
+    """Detections with a wanted label and a sufficient score, best first, without duplicates of a label."""
     kept = []
     for c in sorted(candidates, key=lambda c: -c["score"]):
         if c["label"] and c["score"] >= minimum and all(
@@ -113,7 +113,8 @@ def write_boxes(name, kept, scale=(1, 1), offset=(0, 0)):
     write_rows(name, [[k["label"], k["score"], *k["more"], *to_image(k["box"])] for k in kept])
 
 
-# Two that overlap, an unwanted one, a weak one, one that reaches out of the image: cx cy w h, scores of three classes.
+# Two overlapping boxes, an unwanted one, a weak one, one across the image border: cx cy w h, scores
+# of three classes.
 CENTRED = np.array([[20, 30, 16, 12], [22, 31, 16, 12], [44, 30, 10, 10], [50, 40, 8, 6], [4, 22, 20, 10.]])
 CLASSES = np.array([[.9, .1, .2], [.7, .3, .1], [.2, .8, .3], [.1, .05, .2], [.3, .2, .85]])
 
@@ -186,7 +187,7 @@ def embedding():  # two boxes, of one colour each; one half outside the image
 
 
 def cuboid(centre, z, alpha, whl):
-    """centre: its image, in pixels of the image. -> x y z, l w h, rotation_y."""
+    """centre: image of the cuboid's centre [px]. Returns x y z, l w h, rotation_y."""
     left = np.array([(centre[0] - CX) * z / FX, (centre[1] - CY) * z / FY, z])
     x, y, z = left - OFFSET  # in the reference camera's frame
     turn = alpha + np.arctan2(x, z)
@@ -285,7 +286,7 @@ def monoflex(name, bins):  # 64 x 48 to 32 x 24, cells of 4
 
 
 def project(state):
-    """Box around the image of a cuboid."""
+    """The box around the image of a cuboid."""
     x, y, z, l, w, h, turn = state
     corner = np.array([[a * l / 2, b * h / 2, c * w / 2] for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
     turned = np.stack([np.cos(turn) * corner[:, 0] + np.sin(turn) * corner[:, 2], corner[:, 1],
@@ -304,7 +305,7 @@ def monoflex_4():
 
 
 def bad_models():
-    """What tests/inference refuse: an operator set of the future, half precision, NaN."""
+    """Models that tests/inference expects to fail: an unknown operator set, half precision, NaN."""
     def save(name, opset, kind, dtype):
         given, result = (helper.make_tensor_value_info(key, dtype, [1, 2]) for key in ("x", "y"))
         graph = helper.make_graph([helper.make_node(kind, ["x"], ["y"])], name, [given], [result])

@@ -3,11 +3,10 @@
 # Measures the figures of README.md and docs/results.md and writes them into docs/figures.json.
 # scripts/figures_to_docs.sh then puts them into the documents, and tests hold runs to them.
 #   scripts/measure.sh [--only loops,kitti,pairs,halv,bench] [--force] [--list]
-# A set whose code and inputs have not changed since it was measured is not measured again. `halv`
-# (one minute) and `bench` (a quarter of an hour) are measured only where they are named.
-# SSLCD_BUILD_DIR: where sslcd_run was built (default build/release). SSLCD_DATA_DIR: real data
-# (default ../shared/data); a set whose data is not there is named and skipped. Needs python3; new
-# pairs of layouts need NumPy.
+# Skips a set if its code and inputs have not changed since its measurement. Measures `halv` (one
+# minute) and `bench` (a quarter of an hour) only if they are named. SSLCD_BUILD_DIR: where
+# sslcd_run was built (default build/release). SSLCD_DATA_DIR: real data (default ../shared/data);
+# reports and skips sets without data. Needs python3; new pairs of layouts need NumPy.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 exec python3 -B scripts/measure/measure.py --build "${SSLCD_BUILD_DIR:-build/release}" \

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The part `bench`: the paper's tables, as `sslcd_run bench` writes them, and the one of rendered
-images, which needs them in SSLCD_BENCH_IMAGES (docs/halv_sim.md says how to make them)."""
+"""The part `bench`: the paper's tables from `sslcd_run bench`, and the table of rendered images,
+which must be in SSLCD_BENCH_IMAGES (docs/halv_sim.md describes how to make them)."""
 import csv
 import os
 
@@ -23,7 +23,7 @@ def read_table(folder, key):
 
 
 class Bench:
-    """One run of `sslcd_run bench` and the tables that it leaves."""
+    """One run of `sslcd_run bench` and its tables."""
 
     def __init__(self, name, tables, arguments, inputs):
         self.name, self.role, self.tables, self.inputs = name, 'development', tables, inputs

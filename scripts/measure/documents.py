@@ -14,8 +14,8 @@ MARK = re.compile(r'(<!-- figures (\w+) -->\n)(.*?)(<!-- /figures -->)', re.DOTA
 
 
 def with_tables(text, sets):
-    """`text` with the tables between its marks as `sets` give them. A mark without a table, or
-    without an end, is a ValueError."""
+    """Replaces the tables between the marks of `text` by those of `sets`. Raises ValueError for a mark
+    without a table or without an end."""
     def replaced(found):
         begin, name, _, end = found.groups()
         if name not in TABLES:

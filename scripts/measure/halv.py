@@ -51,7 +51,7 @@ def viewpoint_figures(trials, bounds):
 
 
 def summarise(trials):
-    """`trials`: {(case, seed): what the benchmark has written of one run}."""
+    """`trials`: {(case, seed): result file of one run}."""
     figures = {}
     for case in CASES:
         of_case = [trial for (number, _), trial in trials.items() if number == case]
@@ -78,7 +78,7 @@ class Halv:
         return fingerprint([], *self.arguments, *self.seeds)
 
     def measure(self, program):
-        # one folder a commit: the benchmark refuses results of another one
+        # one folder per commit, since the benchmark refuses results of another one
         folder = os.path.join(FOLDER, program.built)
         program.run(['bench', *self.arguments, '--out', folder, '--quiet'])
         trials = {}

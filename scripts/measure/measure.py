@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures what docs/figures.json holds. Called by scripts/measure.sh, in the repository's root."""
+"""Measures the figures of docs/figures.json. Called by scripts/measure.sh in the repository's root."""
 import argparse
 import datetime
 import os
@@ -18,7 +18,7 @@ USUAL = ['loops', 'kitti', 'pairs']  # what takes seconds a set
 
 
 def measure_set(one, program, store, code, force):
-    """'measured', 'kept' or why it was skipped."""
+    """Returns 'measured', 'kept' or the reason for skipping."""
     if one.missing:
         return f'skipped: no {one.missing}'
     inputs = one.fingerprint()

@@ -18,8 +18,8 @@ HELD_OUT_SEEDS = [101, 102]  # no threshold was chosen on them
 
 
 def read_truth(path):
-    """By number of the pair: its scene, whether its place is absent from the map, the true pose,
-    and the points of the local map."""
+    """The scene, the absence of the place from the map, the true pose and the points of the local map,
+    by number of the pair."""
     pairs = {}
     with open(path, encoding='utf-8') as file:
         for line in file:

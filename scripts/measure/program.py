@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs sslcd_run and says what the run took."""
+"""Runs sslcd_run and measures its time and memory."""
 import os
 import re
 import subprocess
@@ -13,7 +13,7 @@ def rounded(value):
 
 
 class Program:
-    """sslcd_run as built in a folder."""
+    """sslcd_run of a build folder."""
 
     def __init__(self, build):
         self.path = os.path.join(build, 'apps', 'sslcd_run')
@@ -25,7 +25,7 @@ class Program:
             self.built = found.group(1) if found else 'unknown'
 
     def run(self, arguments):
-        """Standard output, and {wall_s, cpu_s, memory_mib}. A run that fails ends it all."""
+        """Standard output, and {wall_s, cpu_s, memory_mib}. Raises if the run fails."""
         with tempfile.TemporaryFile('w+') as out:
             start = time.monotonic()
             child = subprocess.Popen([self.path, *arguments], stdout=out)
@@ -41,7 +41,7 @@ class Program:
 
 
 def processor():
-    """The name of the CPU and how many of it there are."""
+    """The name and the number of the CPUs."""
     name = 'unknown'
     if os.path.exists('/proc/cpuinfo'):
         with open('/proc/cpuinfo', encoding='utf-8') as file:

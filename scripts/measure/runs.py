@@ -7,8 +7,8 @@ import tempfile
 from program import rounded
 from store import fingerprint
 
-# Folder under the data, ground truth, and role: thresholds of the product were chosen on the set
-# ("development"), or nothing was chosen on it ("held-out").
+# Data folder, ground truth and role of a set: "development" if thresholds of the product were
+# chosen on it, otherwise "held-out".
 LOOPS = [
     ('victoria-park', 'reference.txt', 'development'),
     ('kitti-odometry-poles/00', 'groundtruth.txt', 'development'),
@@ -17,14 +17,14 @@ LOOPS = [
     ('forest-evo-fwd', 'groundtruth.txt', 'held-out'),
     ('forest-venman3-fwd', 'groundtruth.txt', 'held-out'),
 ]
-# 0011 has no true poses to judge a map by.
+# 0011 has no true poses, so its map cannot be judged.
 KITTI = {'det_pointrcnn_car': ['0001', '0005', '0007', '0009'],
          'det_stereo_grade_car': ['0007', '0009']}
 ODOMETRY, TRUTH = 'orbslam3_poses', 'oxts_cam0_poses'
 
 
 class Run:
-    """A set of which one run makes the figures."""
+    """A set whose figures come from one run."""
 
     def __init__(self, name, role, arguments, inputs):
         self.name, self.role, self.inputs = name, role, inputs

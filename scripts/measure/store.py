@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/figures.json: what was measured, on which code and from which inputs."""
+"""docs/figures.json: the measured figures with their code and inputs."""
 import hashlib
 import json
 import os
 import subprocess
 
-# What a figure depends on: a commit that touches none of these leaves it valid.
+# The files that a figure depends on: a commit that changes none of these keeps it valid.
 CODE = ['CMakeLists.txt', 'apps', 'cmake', 'config', 'include', 'src', 'third_party']
 
 
@@ -29,7 +29,7 @@ class Store:
 
 
 def git(*arguments):
-    """The output of git, or None where it fails."""
+    """The output of git, or None on failure."""
     done = subprocess.run(['git', *arguments], capture_output=True, text=True, check=False)
     return done.stdout.strip() if done.returncode == 0 else None
 
@@ -47,14 +47,14 @@ def last_code_commit(built):
 
 
 def same_code(first, second):
-    """Whether two commits hold the same code; not known of changes that are in no commit."""
+    """Whether two commits have the same code. Unknown for uncommitted changes."""
     if 'dirty' in first + second or 'unknown' in first + second:
         return False
     return first == second or git('diff', '--quiet', first, second, '--', *CODE) is not None
 
 
 def fingerprint(paths, *words):
-    """Of the contents of files, folders with all their files, and further words."""
+    """Hash of the contents of files, of folders with all their files, and of further words."""
     digest = hashlib.sha256()
     for path in sorted(paths):
         files = [path]

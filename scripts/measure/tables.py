@@ -39,7 +39,7 @@ def mean(values):
 
 
 def note(entries, command='scripts/measure.sh'):
-    """On which code and when the figures of a table were measured."""
+    """The commit and date of the figures of a table."""
     commits = sorted({f'{entry["commit"]}, {entry["date"]}' for entry in entries})
     return '\nCommit ' + '; '.join(commits) + f': `{command}`.\n'
 
@@ -118,7 +118,7 @@ def kitti_map(sets):
 
 
 def kitti_scale(sets):
-    """What one scale factor, which only the ground truth knows, would do for the odometry."""
+    """The odometry after correction by the true scale, which only the ground truth gives."""
     figures = [e['figures'] for t, _, e in of_kitti(sets)
                if t.startswith('LiDAR') and 'ate_se3_rmse_m' in e['figures']]
 
@@ -193,7 +193,7 @@ def sum_loops(figures):
 
 
 def summary(sets):
-    """The five figures of the README: on data that options were chosen on, and on held-out data."""
+    """The five figures of the README, on development data and on held-out data."""
     def halv(name):
         f = sets[name]['figures']
         cases = [f[f'case {case}'] for case in CASES]
@@ -231,7 +231,7 @@ def summary(sets):
 
 
 def bench(set_name, key, sets):
-    """A table as `sslcd_run bench` has written it."""
+    """A table of `sslcd_run bench`."""
     entry = sets[set_name]
     written = entry['figures'][key]
     rows = [[cell or '-' for cell in row] for row in written['rows']]
