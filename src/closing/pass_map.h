@@ -27,7 +27,7 @@ struct PassObject {
   int anchor = -1;
   /// pose of the object on this pass, which moves with the anchor
   Pose T_anchor_object;
-  double height_m = 0;         ///< over the camera that saw it from nearest
+  double height_m = 0;         ///< height over the camera nearest to it
   PerCue<Gallery> appearance;  ///< what it looked like on this pass
 };
 

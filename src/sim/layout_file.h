@@ -26,7 +26,8 @@ LayoutFile ReadLayout(const std::string& path);
 /// would leave the lot.
 struct PlacedLayout {
   std::vector<Slot> slots;
-  int in_the_way = 0;  ///< removed vehicles on the path vehicles on the path vehicles on the path
+  /// removed vehicles on the path vehicles on the path vehicles on the path vehicles on the path
+  int in_the_way = 0;
 };
 PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& course);
 

@@ -15,8 +15,9 @@ struct BaOptions {
   Residual residual = Residual::kRobust;
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 30;
-  double loss_scale = 3.;  ///< robust: a Cauchy loss on each sighting's whitened residual; 0: none
-  /// robust: factor on detection sigmas, because errors of successive frames are alike
+  /// robust: scale of the Cauchy loss on each sighting's whitened residual; 0: none
+  double loss_scale = 3.;
+  /// robust: factor on detection sigmas, because errors of successive frames correlate
   double correlation = 2.;
   OdometryNoise odometry;
 };
@@ -24,11 +25,11 @@ void DescribeFields(FieldVisitor& visitor, BaOptions& options);
 
 /// What a bundle adjustment did.
 struct BaSummary {
-  bool usable = false;  ///< false: the problem is left as it was
+  bool usable = false;  ///< false: the problem is unchanged
   bool converged = false;
   int iterations = 0;
-  double initial_cost = 0, final_cost = 0;
-  std::string message;  ///< one line
+  double initial_cost = 0, final_cost = 0;  ///< half the sum of squared, robust residuals
+  std::string message;                      ///< one line
 };
 
 }  // namespace sslcd

@@ -40,12 +40,12 @@ struct LoopViewOptions {
   /// Two cameras see the same ground if the points at this distance ahead of them (see
   /// AlignmentRange) are at most `apart_m` apart.
   double ahead_m = 7;
-  double apart_m = 6;
-  double gap_m = 30;  ///< smallest path between the two cameras
+  double apart_m = 6;  ///< largest distance of these points
+  double gap_m = 30;   ///< smallest path between the two cameras
   /// Largest path between the two cameras, with closed loops as shortcuts. The limit is larger if
   /// the odometry (LoopOptions::odometry) needs more path to drift by `guess_m`.
   double reach_m = 75;
-  double guess_m = 0.3;
+  double guess_m = 0.3;  ///< drift at which `reach_m` is enough
 };
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options);
 
@@ -63,7 +63,7 @@ struct LoopOptions {
   bool enabled = true;
   Finder finder = Finder::kTracks;
   LoopLayoutOptions layout;
-  LayoutMatchOptions match;
+  LayoutMatchOptions match;  ///< matching of the local with the global map
   PoseTrackOptions tracks;
   LoopPriorOptions prior;
   LoopAcceptanceOptions acceptance;
@@ -72,7 +72,7 @@ struct LoopOptions {
   double lag_m = 25.;
   /// Additional standard deviations per axis of every loop measured by objects.
   double sigma_m = 0.15;
-  double sigma_rad = 0.02;
+  double sigma_rad = 0.02;  ///< the same for rotations
   /// largest distance of matched landmarks after the correction that are fused
   double fuse_m = 3.;
   DriftOptions drift;

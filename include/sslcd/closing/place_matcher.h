@@ -27,8 +27,8 @@ struct PlaceQuery {
 /// 0).
 struct PlaceAnswer {
   std::vector<std::pair<int, int>> matches{};
-  int match_frame = -1;
-  Pose T_match_query{};
+  int match_frame = -1;   ///< number of the old frame; -1: the answer has `matches`
+  Pose T_match_query{};   ///< pose of the query camera in the match camera's frame
   double score = 0;       ///< higher is more certain
   bool accepted = false;  ///< the matcher's decision to close a loop
 };

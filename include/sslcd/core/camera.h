@@ -11,7 +11,7 @@ namespace sslcd {
 /// Rectified pinhole camera as a 3x4 projection P = K [I | t], the rows of KITTI's calib.txt. [px,
 /// m]
 struct Camera {
-  double fx = 0, fy = 0, cx = 0, cy = 0;
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< focal lengths and principal point [px]
   /// K^-1 * (fourth column): the reference camera's origin in this camera's frame [m]
   Vec3 offset{0, 0, 0};
   int width = 0, height = 0;  ///< [px]; 0: unknown (then boxes are not clipped to the image)
@@ -22,7 +22,7 @@ struct Camera {
 /// disparity_at_infinity.
 struct StereoCamera {
   Camera left;
-  double baseline_m = 0;
+  double baseline_m = 0;  ///< distance of the two cameras, > 0
   /// cx of the left camera minus cx of the right one [px]
   double disparity_at_infinity = 0;
   static constexpr double kMostAtInfinity = 3;  ///< [px] a larger value means another rectification

@@ -11,10 +11,10 @@ namespace sslcd {
 /// is the NoiseScale below, which a run learns from the scatter of the detections around the
 /// landmarks.
 struct DetectionNoise {
-  double radial_m = 0.06, radial_per_m = 0.003;     ///< standard deviation along the viewing ray
-  double lateral_m = 0.04, lateral_per_m = 0.0015;  ///< horizontal, across the ray
-  double vertical_m = 0.05, vertical_per_m = 0.0005;
-  double yaw_rad = 0.02, yaw_per_m = 0.0005;
+  double radial_m = 0.06, radial_per_m = 0.003;       ///< standard deviation along the viewing ray
+  double lateral_m = 0.04, lateral_per_m = 0.0015;    ///< horizontal, across the ray
+  double vertical_m = 0.05, vertical_per_m = 0.0005;  ///< across the ray, vertical
+  double yaw_rad = 0.02, yaw_per_m = 0.0005;          ///< heading [rad, rad/m]
   double size_relative = 0.05;  ///< no key, for the simulator: share of each dimension
   double initial_scale = 2.;    ///< factor on all components before the run has learnt its own
 };
@@ -32,6 +32,7 @@ struct DetectionSigmas {
   double radial = 0, lateral = 0, vertical = 0, yaw = 0;
 };
 
+/// The standard deviations at a range.
 /// The standard deviations at a range.
 /// The standard deviations at a range.
 DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale);

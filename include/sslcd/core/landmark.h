@@ -29,8 +29,8 @@ const char* ToString(LandmarkState state);
 
 /// Landmark `o_k` was matched with row `detection_row` of the detections in frame `frame`.
 struct Observation {
-  int frame = 0;
-  int detection_row = 0;
+  int frame = 0;          ///< frame number in the dataset
+  int detection_row = 0;  ///< Detection::row
 };
 
 /// One object of the map in map.json. The object frame is upright: roll and pitch relative to the
@@ -39,8 +39,8 @@ struct MapObject {
   LandmarkId id;
   std::string label;
   LandmarkState state = LandmarkState::kTentative;
-  Pose T_world_object;
-  Vec3 dims{0, 0, 0};  ///< length, width, height [m]
+  Pose T_world_object;  ///< at the cuboid's centre: x along its length, y to its left, z up
+  Vec3 dims{0, 0, 0};   ///< length, width, height [m]
   std::vector<Observation> observations;
   Eigen::Matrix<double, 4, 4, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 4, 4,

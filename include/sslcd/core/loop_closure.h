@@ -30,16 +30,16 @@ struct LoopVerdict {
 /// One attempt to close a loop, accepted or refused: a row of loops.csv.
 struct LoopClosure {
   int newest_frame = 0;  ///< newest frame of the attempt; the query frame may be earlier
-  int query_frame = 0, match_frame = 0;
+  int query_frame = 0, match_frame = 0;  ///< frame numbers of the two cameras
   LoopDecision decision = LoopDecision::kNone;
-  std::string reason;  ///< why it was refused or accepted
-  double score = 0, second_score = 0;
-  Pose T_match_query;  ///< pose of the query camera in the match camera's frame
+  std::string reason;                  ///< why it was refused or accepted
+  double score = 0, second_score = 0;  ///< log odds of the best and the second best pose [nats]
+  Pose T_match_query;                  ///< pose of the query camera in the match camera's frame
   /// covariance of the right perturbation T_match_query Exp(d), d = [translation, rotation]
   Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
-  bool by_views = false;  ///< measured by aligned images instead of objects
-  double viewpoint_change_rad = 0;
+  bool by_views = false;            ///< measured by aligned images instead of objects
+  double viewpoint_change_rad = 0;  ///< angle between the two headings, in [0, pi]
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global
 };
 

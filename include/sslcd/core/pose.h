@@ -25,7 +25,7 @@ double WrapAngle(double angle_rad, double period_rad);
 /// angle about `up`, counter-clockwise seen from above, from `forward` towards `left` (`left` = up
 /// x forward). KITTI camera axes: up = -y; VINS worlds: up = +z.
 struct GravityFrame {
-  Vec3 up{0, -1, 0};
+  Vec3 up{0, -1, 0};  ///< unit vectors in the world
   Vec3 forward{1, 0, 0};
   Vec3 left{0, 0, 1};
 

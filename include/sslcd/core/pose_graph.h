@@ -11,12 +11,12 @@ namespace sslcd {
 struct PoseGraph {
   struct Vertex {
     int id = 0;
-    Pose T_world_vertex;
-    bool fixed = false;
+    Pose T_world_vertex;  ///< initial value, later the estimate
+    bool fixed = false;   ///< keeps its pose
   };
   struct Edge {
     int from = 0, to = 0;  ///< vertex ids
-    Pose T_from_to;
+    Pose T_from_to;        ///< measurement
     /// Information of Log(T_from_to^-1 T_world_from^-1 T_world_to), order [translation, rotation].
     Eigen::Matrix<double, 6, 6, Eigen::DontAlign> information =
         Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();

@@ -22,6 +22,7 @@ class TimingTable {
     samples_[stage].push_back(milliseconds);
   }
 
+  /// Adds all samples of another table.
   void Append(const TimingTable& other);
 
   /// One entry per stage, by name. Percentiles use the nearest rank.

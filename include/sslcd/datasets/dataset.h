@@ -33,12 +33,12 @@ enum class PartPolicy {
 /// to `path`, otherwise to the current folder. A folder that contains SEQUENCE.txt stands for that
 /// file.
 struct DatasetRequest {
-  std::string path;
+  std::string path;             ///< folder of the dataset
   std::string format = "auto";  ///< one of DatasetFormatNames()
   std::string sequence;         ///< e.g. "0007"; may be empty if there is only one
   std::string detections;       ///< required for KITTI tracking, whose folders have none
   std::string odometry;         ///< required for KITTI tracking
-  std::string groundtruth;
+  std::string groundtruth;      ///< T_world_cam, for evaluation only
   DetectionReadOptions detection_options;
   int max_frames = 0;  ///< load only the first frames; 0: all
   PartPolicy odometry_policy = PartPolicy::kNeeded, detections_policy = PartPolicy::kNeeded;

@@ -23,8 +23,8 @@ Alignment ParseAlignment(const std::string& text);
 
 /// The similarity transform x_ref = scale * R * x_est + t.
 struct Similarity {
-  double scale = 1;
-  Pose T_ref_est;
+  double scale = 1;  ///< > 0; 1 for all alignments except Sim(3)
+  Pose T_ref_est;    ///< R and t
 
   Vec3 operator*(const Vec3& p) const {
     return scale * (T_ref_est.so3() * p) + T_ref_est.translation();
@@ -40,6 +40,7 @@ struct ErrorStats {
   double rmse = 0, mean = 0, median = 0, std = 0, max = 0;
   int count = 0;  ///< 0: all statistics are 0
 };
+/// Computes the statistics of a list of errors.
 ErrorStats Summarise(std::vector<double> errors);
 
 /// Associated poses of two trajectories: `est[i]` and `ref[i]` have the same time.
@@ -67,7 +68,7 @@ Similarity Align(const std::vector<Pose>& est, const std::vector<Pose>& ref, Ali
 struct AteResult {
   ErrorStats error;
   Alignment alignment = Alignment::kNone;
-  Similarity S_ref_est;
+  Similarity S_ref_est;  ///< the alignment
   /// false: the positions do not determine the alignment, see Align()
   bool unique = true;
   std::vector<double> errors;  ///< per pose

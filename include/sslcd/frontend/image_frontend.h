@@ -50,13 +50,13 @@ struct GroundReport {
 
 /// Statistics of a processed sequence.
 struct FrontendReport {
-  int frames = 0;
+  int frames = 0;                  ///< frames read
   int images_failed = 0;           ///< frames with a missing or unreadable image
   int lost = 0;                    ///< frames with a guessed pose, including those without images
   std::map<LiftStatus, int> lift;  ///< number of boxes by result
   std::set<std::string> unknown;   ///< labels of boxes without known sizes
   GroundReport ground;
-  int detections = 0;
+  int detections = 0;  ///< detections of all frames
   TimingTable timing;
 };
 

@@ -26,6 +26,7 @@ struct StereoFiles {
   /// returns true to stop reading; empty: never stops
   std::function<bool()> stop;
 
+  /// Whether the host asks to stop.
   bool stopped() const { return stop && stop(); }
   /// Whether any frame has both images.
   bool HasPairs() const;

@@ -24,6 +24,7 @@ struct GroundPlane {
   Vec3 up{0, -1, 0};    ///< unit vector
   double height_m = 0;  ///< height of the camera above the plane
   double support = 0;   ///< share of the examined pixels on the plane; 0: only the prior
+  /// Height of a point in the left camera's frame over the plane. [m]
   double HeightOf(const Vec3& point_cam) const { return up.dot(point_cam) + height_m; }
 };
 

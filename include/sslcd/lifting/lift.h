@@ -16,8 +16,8 @@ namespace sslcd {
 
 /// Usual size and outline of the objects of a class: means and standard deviations.
 struct ClassPrior {
-  double length_m = 4.3, width_m = 1.8, height_m = 1.55;
-  double length_sigma_m = 0.4, width_sigma_m = 0.1, height_sigma_m = 0.12;
+  double length_m = 4.3, width_m = 1.8, height_m = 1.55;                    ///< mean size
+  double length_sigma_m = 0.4, width_sigma_m = 0.1, height_sigma_m = 0.12;  ///< its scatter
   /// distance of the axles from either end, share of the length
   double overhang = 0.18;
   double roof = 0.5;  ///< length of the part that has the full height, share of the length

@@ -20,13 +20,13 @@ void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
 /// What LayoutLikelihood expects of detector and map.
 struct LayoutLikelihoodOptions {
   double wrong_label = 0.03;  ///< share of objects whose class the detector confuses
-  /// local objects outside of the area that the map has seen, as on a pass that crosses an older
-  /// one, do not count as unmapped
+  /// local objects outside of the mapped area do not count as unmapped, e.g. on a pass that crosses
+  /// an older one
   bool leave_map = true;
   double wrong_height = 0.1;  ///< share of objects whose height is not comparable, e.g. on slopes
-  /// no key: Beta priors, in numbers of objects: local objects that the map has and has not, and
-  /// mapped objects in sight that are seen again and are not. Set by hand; no search
-  /// over them is recorded.
+  /// no key: Beta priors in numbers of objects: local objects with and without a map object, and
+  /// visible map objects that are seen again and that are missed. Set by hand without a recorded
+  /// search.
   double mapped_prior = 10., unmapped_prior = 2.;
   double seen_prior = 3., unseen_prior = 1.5;
   AppearanceOptions appearance;
@@ -35,57 +35,58 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);
 
 /// How poses of one layout in another one are searched.
 struct PoseSearchOptions {
-  int refine = 100;     ///< coarse poses that are refined, the best ones
-  int min_matches = 4;  ///< objects that have to fit; three fit somewhere in any map
-  /// no key: two poses are the same if they take the local map's centre to within `distinct_m` of
-  /// each other and differ in yaw by less than `distinct_rad`. Set by hand, about the accuracy of a
-  /// coarse pose.
+  int refine = 100;     ///< number of the best coarse poses that are refined
+  int min_matches = 4;  ///< smallest number of matched objects; three match somewhere in any map
+  /// no key: two poses are equal if they map the local map's centre to points closer than
+  /// `distinct_m` and their yaws differ by less than `distinct_rad`. Set by hand to the accuracy of
+  /// a coarse pose.
   double distinct_m = 2.;
-  double distinct_rad = 0.1;
+  double distinct_rad = 0.1;  ///< see `distinct_m`
 };
 void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options);
 
-/// How layouts are searched and scored.
+/// Options of the search and the scoring of poses.
 struct LayoutMatchOptions {
-  double max_pair_m = 50.;  ///< objects that are farther apart do not propose a pose together
-  double reach_m = 2.;  ///< a local object is compared with the map's objects within this distance
+  double max_pair_m = 50.;  ///< largest distance of two objects that propose a pose
+  double reach_m = 2.;  ///< largest distance of a map object that a local object is compared with
   PoseSearchOptions search;
   LayoutLikelihoodOptions likelihood;
 };
 void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
 
-/// How hypotheses are followed from one attempt to the next.
+/// Options of tracking hypotheses from one attempt to the next.
 struct PoseTrackOptions {
-  double agree_m = 100.;  ///< attempts farther back on the path do not count
-  /// no key: a hypothesis that moves by more than `step_m` or turns by more than `step_rad` from
-  /// one attempt to the next is another one. Set by hand.
+  double agree_m = 100.;  ///< largest path from an attempt that counts
+  /// no key: largest translation and rotation of a hypothesis from one attempt to the next. Set by
+  /// hand.
   double step_m = 3.;
-  double step_rad = 0.15;
-  int max_tracks = 20;  ///< no key: hypotheses that are followed, the best ones; set by hand
+  double step_rad = 0.15;  ///< see `step_m`
+  int max_tracks = 20;     ///< no key: largest number of tracks; set by hand
 };
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options);
 
-/// When the best pose of a single look is accepted. The likelihoods are calibrated: if the place is
-/// in the map at all, the log odds are about those of being right. Where it need not be in the map,
-/// ask for more: a score of 5 still refuses what only looks alike 9 times of 10, of 10 99 times of
-/// 100. Chosen on object-pairs of seeds other than 7 (docs/results.md).
+/// Acceptance of the best pose of one pair of maps. The likelihoods are calibrated: if the place is
+/// in the map, the log odds are approximately those of a correct pose. If the place may be absent,
+/// require more: a score of 5 refuses 9 of 10 similar places, a score of 10 refuses 99 of 100.
+/// Chosen on object-pairs of seeds other than 7 (docs/results.md).
 struct SingleLookOptions {
-  double min_margin = 0.75;    ///< log odds of the best pose against all others found [nats]
-  double min_evidence = -10.;  ///< evidence that chance reaches: competes with the poses [nats]
-  double mirror_gain = 5.;     ///< a mirror image that fits better by this refutes the fit [nats]
+  double min_margin = 0.75;  ///< smallest log odds of the best pose against all others [nats]
+  /// evidence that chance reaches, which competes with the poses [nats]
+  double min_evidence = -10.;
+  double mirror_gain = 5.;  ///< a mirror image that fits better by this refutes the fit [nats]
 };
 void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options);
 
-/// When the loop of a track is accepted, and when an accepted one is withdrawn. Chosen on HALV-sim
-/// (seeds 1 to 10), Victoria Park and the pole sequences; the same for all.
+/// Acceptance of the loop of a track, and withdrawal of accepted loops. Chosen on HALV-sim (seeds 1
+/// to 10), Victoria Park and the pole sequences, with the same values for all.
 struct LoopAcceptanceOptions {
-  /// log odds of its track against all others and against "nowhere" [nats]
+  /// smallest log odds of the track against all others and against "nowhere" [nats]
   double min_margin = 13.;
-  double max_heading_sigma_rad = 0.042;  ///< standard deviation of the measured heading, at most
-  double max_apart_m = 30.;              ///< distance between the two cameras, at most
-  /// withdrawn where the refined trajectory differs by this or more ...
+  double max_heading_sigma_rad = 0.042;  ///< largest standard deviation of the measured heading
+  double max_apart_m = 30.;              ///< largest distance between the two cameras
+  /// a loop is withdrawn if the refined trajectory differs by at least this distance
   double withdraw_m = 2.;
-  double withdraw_rad = 0.06;  ///< ... or turns by this or more
+  double withdraw_rad = 0.06;  ///< or by at least this angle
 };
 void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options);
 
@@ -95,14 +96,14 @@ struct DriftOptions {
   double tilt_sigma_rad = 0.03;  ///< standard deviation of the local map's vertical
   /// scale of the Cauchy loss on each pair's position and heading, in sigmas; 0: none
   double loss_scale = 2.;
-  int max_iterations = 30;  ///< of Gauss-Newton, at most; no key: a test raises it
+  int max_iterations = 30;  ///< of Gauss-Newton; no key: only a test changes it
 };
 void DescribeFields(FieldVisitor& visitor, DriftOptions& options);
 
-/// The paper's two-stage graph matching. It prints none of these values; K and delta are those of
-/// the layout test that its authors published, mu weighs both kinds of properties alike, and tau
-/// lets an object pass that is half a metre off in size and one metre in position, with vectors of
-/// cosine 0.75.
+/// Options of the paper's two-stage graph matching. The paper prints none of these values. K and
+/// delta are from the layout test that its authors published. mu weights both kinds of properties
+/// equally. tau accepts an object with errors of half a metre in size and one metre in position,
+/// and vectors of cosine 0.75.
 struct PaperMatchOptions {
   int neighbours = 2;              ///< K of IV-A
   double layout_difference = 0.2;  ///< delta of IV-B: candidates have d_f below it

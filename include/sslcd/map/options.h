@@ -46,6 +46,7 @@ void DescribeFields(FieldVisitor& visitor, MapOptions& options);
 /// The changes of the map by one frame.
 struct MapUpdate {
   std::vector<LandmarkId> matched;  ///< landmark of each detection; value -1: none
+  /// numbers of new landmarks, and of landmarks that became confirmed or driving
   int born = 0, confirmed = 0, turned_dynamic = 0;
 };
 

@@ -28,7 +28,7 @@ void DescribeFields(FieldVisitor& visitor, ColourOptions& options);
 /// A dominant colour and its share of the pixels.
 struct ColourCluster {
   Vec3 centre{0, 0, 0};  ///< robust: see ConeColour; paper: HSV
-  double weight = 0;
+  double weight = 0;     ///< share of the pixels, in [0, 1]
 };
 using ColourSignature = std::vector<ColourCluster>;  ///< largest share first; the shares sum to one
 

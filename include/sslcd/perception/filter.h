@@ -10,7 +10,7 @@ namespace sslcd {
 
 /// The filter of detections (paper III-A.1: "excessively large or distant" ones are dropped).
 struct DetectionFilterOptions {
-  double min_score = 0.5;
+  double min_score = 0.5;    ///< smallest score, a probability
   double max_range_m = 70.;  ///< distance from the camera to the cuboid's centre
   /// bounds of length, width and height of an object
   double min_size_m = 0.1, max_size_m = 30.;

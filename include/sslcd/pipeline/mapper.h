@@ -26,7 +26,7 @@ struct Options;
 
 /// The world and the sensor of a mapper, known before the first frame.
 struct MapperContext {
-  GravityFrame gravity;
+  GravityFrame gravity;  ///< of the odometry's world
   LabelTable labels;
   std::optional<Camera> camera;  ///< none: association does not use 2D boxes
   PlaceMatcher place_matcher{};  ///< none: sslcd's own
@@ -35,11 +35,11 @@ struct MapperContext {
 
 /// The result of one frame.
 struct FrameReport {
-  Pose T_world_cam;
-  FilterReport filter;  ///< counts of its kept and dropped detections
-  MapUpdate map;
-  bool keyframe = false;
-  BaSummary window;  ///< sliding-window adjustment; not usable if none ran
+  Pose T_world_cam;       ///< current estimate
+  FilterReport filter;    ///< counts of its kept and dropped detections
+  MapUpdate map;          ///< changes of the map
+  bool keyframe = false;  ///< it is a keyframe of the sliding window
+  BaSummary window;       ///< sliding-window adjustment; not usable if none ran
 };
 
 /// The streaming interface: takes frames and builds a map of objects and a corrected trajectory

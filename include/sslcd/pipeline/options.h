@@ -48,6 +48,7 @@ std::vector<FieldProblem> Check(const Options& options);
 /// Presets of all options: the equations as printed in the paper (kPaper), or the recommended
 /// system (kRobust, the same as `Options()`). A preset only sets values of options.
 enum class Mode { kRobust, kPaper };
+/// The options of a preset.
 Options DefaultOptions(Mode mode);
 
 }  // namespace sslcd

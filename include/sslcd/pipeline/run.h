@@ -44,11 +44,11 @@ struct RunResult {
   int views_tied = 0;
   double scale = 1;        ///< metres per odometry metre
   NoiseScale noise_scale;  ///< learnt factors on the detector's noise
-  FilterReport filter;
-  BaSummary refinement;
+  FilterReport filter;     ///< sums over all frames
+  BaSummary refinement;    ///< full-map optimisation at the end
   TimingTable timing;
-  int images_failed = 0;
-  bool stopped = false;  ///< the stop hook ended the run early
+  int images_failed = 0;  ///< images that `with_image` could not load
+  bool stopped = false;   ///< the stop hook ended the run early
 };
 
 /// Runs a whole sequence through a Mapper and refines the map at the end (also after a stop).

@@ -9,19 +9,21 @@
 
 namespace sslcd {
 
-/// What a vertex may do.
+/// The degrees of freedom of a vertex.
 enum class PoseFreedom {
-  kFull,     ///< 6 DoF
-  kUpright,  ///< 4 DoF: translation and yaw about `up`. Roll and pitch are known (gravity) and stay
-             ///< as they are; of a measured rotation only the yaw counts
-  kPlanar,   ///< 3 DoF: as kUpright, and the height stays as it is
+  kFull,  ///< 6 DoF
+  /// 4 DoF: translation and yaw about `up`. Roll and pitch are known (gravity) and fixed; only the
+  /// yaw of a measured rotation counts
+  kUpright,
+  kPlanar,  ///< 3 DoF: like kUpright with fixed height
 };
 
-/// Where the optimisation starts.
+/// The initial values of the optimisation.
 enum class PoseGraphStart {
-  kAuto,     ///< from the given poses; or chordal, where these are far from the measurements and
-             ///< chordal is nearer
-  kGiven,    ///< from the given poses
+  /// the given poses, or chordal ones if the given ones contradict the measurements and chordal
+  /// ones fit better
+  kAuto,
+  kGiven,    ///< the given poses
   kChordal,  ///< rotations from the chordal relaxation (Carlone et al., ICRA 2015), then linear
              ///< translations
 };
@@ -29,11 +31,12 @@ enum class PoseGraphStart {
 /// Pose graph optimisation, paper IV-D Eqs. 20, 21.
 struct PoseGraphOptions {
   PoseFreedom freedom = PoseFreedom::kFull;
-  PoseGraphStart start = PoseGraphStart::kAuto;  ///< no key: callers that know better set it
-  int max_iterations = 100;                      ///< no key: of one solve
-  /// no key: the solver stops when an iteration lowers chi2 by a smaller fraction
+  /// no key: set by callers with good initial values
+  PoseGraphStart start = PoseGraphStart::kAuto;
+  int max_iterations = 100;  ///< no key: limit of one solve
+  /// no key: the solver stops if an iteration reduces chi2 by a smaller share
   double tolerance = 1e-6;
-  GravityFrame gravity;  ///< which way is up; for kUpright and kPlanar
+  GravityFrame gravity;  ///< vertical of the world for kUpright and kPlanar
 };
 void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options);
 
@@ -41,17 +44,18 @@ void DescribeFields(FieldVisitor& visitor, PoseGraphOptions& options);
 /// loop edges. Edges that are no loops are always trusted.
 struct RobustPoseGraphOptions {
   PoseGraphOptions graph;
-  /// a true loop is kept with this probability: sets the chi2 limit
+  /// probability of keeping a true loop; determines the chi2 limit
   double inlier_probability = 0.99;
-  /// a loop that would need odometry errors this many times larger than expected is refused at
-  /// first; it comes back only if the other loops lead to it
+  /// a loop that requires odometry errors this many times larger than expected is refused at first;
+  /// it is kept only if the solution of the other loops agrees with it
   double drift_factor = 3.;
-  /// no key: factor from one weight update to the next, by which the cost turns from convex to
-  /// truncated. Yang et al. 2020 use 1.4, too.
+  /// no key: factor from one weight update to the next, by which the cost changes from convex to
+  /// truncated; 1.4 as in Yang et al. 2020
   double mu_factor = 1.4;
 };
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
 
+/// 6, 4 or 3.
 /// 6, 4 or 3.
 int DegreesOfFreedom(PoseFreedom freedom);
 

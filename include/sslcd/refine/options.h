@@ -16,9 +16,9 @@ struct RefineOptions {
   /// A frame is a keyframe of the optimisation after `keyframe_m` of path or a rotation of
   /// `keyframe_rad`. All other frames follow their neighbours.
   double keyframe_m = 1.;
-  double keyframe_rad = 0.1;
-  int min_sightings = 2;    ///< objects with fewer sightings do not enter the final map
-  double duplicate_m = 1.;  ///< landmarks of one label closer than this become one object
+  double keyframe_rad = 0.1;  ///< see `keyframe_m`
+  int min_sightings = 2;      ///< objects with fewer sightings do not enter the final map
+  double duplicate_m = 1.;    ///< landmarks of one label closer than this become one object
   /// a landmark whose late sightings are farther than this from its early ones has moved
   double moved_m = 1.5;
   /// a movable object that was seen in a smaller share of the frames in which it was visible counts
