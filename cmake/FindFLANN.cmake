@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# FLANN ships no CMake package, and its .pc file drags in HDF5 and MPI: the C++ header alone needs
-# just liblz4.
+# FLANN has no CMake package, and its .pc file requires HDF5 and MPI. The C++ header alone only
+# needs liblz4.
 find_path(FLANN_INCLUDE_DIR flann/flann.hpp)
 find_library(FLANN_LZ4_LIBRARY lz4)
 include(FindPackageHandleStandardArgs)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# ONNX Runtime's C header, as the target OnnxRuntime::headers. Only the header: the library is
-# loaded when the first model is (src/inference/runtime.cc), so a build with it runs where the
-# library is not installed.
+# ONNX Runtime's C header, as the target OnnxRuntime::headers. The library is loaded with the first
+# model (src/inference/runtime.cc), so the build also runs without it.
 find_path(SSLCD_ONNXRUNTIME_INCLUDE_DIR onnxruntime_c_api.h
   PATH_SUFFIXES onnxruntime onnxruntime/core/session)
 mark_as_advanced(SSLCD_ONNXRUNTIME_INCLUDE_DIR)

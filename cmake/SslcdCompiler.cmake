@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Warnings, sanitizers and ccache: for our own targets only, never part of what an installed target
-# hands on.
+# Warnings, sanitizers and ccache, for sslcd's own targets only. Installed targets do not export
+# them.
 add_library(sslcd_compiler INTERFACE)
 target_compile_options(sslcd_compiler INTERFACE -Wall -Wextra -Wshadow -Wno-unused-parameter)
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # false alarms from inside Eigen, with GCC 12 to 14
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # false positives in Eigen with GCC 12 to 14
   target_compile_options(sslcd_compiler INTERFACE -Wno-maybe-uninitialized)
 endif()
 if(SSLCD_WARNINGS_AS_ERRORS)
@@ -13,8 +13,8 @@ if(SSLCD_SANITIZE)
   add_compile_options(-fsanitize=${SSLCD_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${SSLCD_SANITIZE})
-  # Under AddressSanitizer Eigen allocates in a way of its own; matrices that Ceres' library made
-  # could then not be freed here.
+  # Under AddressSanitizer Eigen uses another allocator, which cannot free matrices that Ceres has
+  # allocated.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 find_program(SSLCD_CCACHE ccache)

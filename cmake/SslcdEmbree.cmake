@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Embree 3 or 4 as the target sslcd_embree, where it is installed. Found by its header and library:
-# Embree's own package file asks for a TBB that a host may not have, and names no target that both
-# versions share.
+# Embree 3 or 4 as the target sslcd_embree, if it is installed. Searches header and library, because
+# Embree's package file requires a TBB that a host may lack, and its versions have different target
+# names.
 find_path(SSLCD_EMBREE_INCLUDE_DIR NAMES embree4/rtcore.h embree3/rtcore.h)
 find_library(SSLCD_EMBREE_LIBRARY NAMES embree4 embree3)
 mark_as_advanced(SSLCD_EMBREE_INCLUDE_DIR SSLCD_EMBREE_LIBRARY)

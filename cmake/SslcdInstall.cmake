@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `find_package(sslcd)` gives sslcd::sslcd, and with COMPONENTS vision sslcd::vision too, from the
-# static and from the shared build alike; tests/consumer holds it.
+# `find_package(sslcd)` defines sslcd::sslcd, and with COMPONENTS vision also sslcd::vision, for
+# static and shared builds. tests/consumer checks it.
 include(CMakePackageConfigHelpers)
 set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
@@ -27,7 +27,7 @@ if(TARGET sslcd_vision)
     FILES_MATCHING PATTERN *.yaml)
   install(FILES config/classes.yaml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd)
 endif()
-if(TARGET sslcd_run)  # finds a shared sslcd wherever the installed tree is moved to
+if(TARGET sslcd_run)  # finds a shared sslcd even if the installed tree moves
   set_target_properties(sslcd_run PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 endif()
 

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# From a fresh machine to closed loops: installs what is missing, builds the tools, writes
-# HALV-sim's first case (round a car park, and back past the same cars the other way) as a sequence
-# folder and runs it through the same reader as real data.
-#   scripts/demo.sh [OUT]      OUT: where the sequence and the results go (default runs/demo)
+# Shows closed loops on a fresh machine: installs missing packages, builds the tools, writes
+# HALV-sim's first case (around a car park, and back past the same cars in the opposite direction)
+# as a sequence folder and runs it with the same reader as real data.
+#   scripts/demo.sh [OUT]      OUT: folder of the sequence and the results (default runs/demo)
 # SSLCD_BUILD_DIR: where to build (default build/release).
 set -euo pipefail
 cd "$(dirname "$0")/.."

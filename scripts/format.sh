@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Formats every C++ file with clang-format 14, or with --check only names the ones that differ (exit
-# code 1; 77 where clang-format-14 is absent).
+# Formats every C++ file with clang-format 14. With --check it only lists the files that differ
+# (exit code 1; 77 without clang-format-14).
 set -eu
 cd "$(dirname "$0")/.."
 if ! command -v clang-format-14 >/dev/null; then

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Asks apt for nothing
-# where all is there.
+# Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Does not run apt if
+# nothing is missing.
 #   scripts/install_deps.sh [build|vision|test|dev]
 #     build   the library and the tools; enough for scripts/demo.sh
 #     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that

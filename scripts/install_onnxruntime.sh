@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs ONNX Runtime, library and headers, as root; scripts/install_deps.sh calls it. The package
-# libonnxruntime-dev where the release has one (Debian 13). On Debian 12 the library from its Python
-# wheel, to /usr/local/lib, and the headers from Debian 13's package, to
+# Installs ONNX Runtime, library and headers, as root; scripts/install_deps.sh calls it. Installs
+# the package libonnxruntime-dev if the release has it (Debian 13). On Debian 12 installs the
+# library of the Python wheel to /usr/local/lib and the headers of Debian 13's package to
 # /usr/local/include/onnxruntime.
 #   scripts/install_onnxruntime.sh [--is-there]
 set -euo pipefail

@@ -1,14 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Checks that a change of structure changes no result: runs the reference sequences with sslcd_run
-# as it was at COMMIT and as it is built now, and compares trajectory, map and loops byte by byte.
+# of COMMIT and of the current build, and compares trajectory, map and loops byte by byte.
 #   scripts/same_bytes.sh [COMMIT]     default: where this branch left main (git merge-base HEAD main)
-# SSLCD_BUILD_DIR: where sslcd_run was built (default build/release).
-# SSLCD_DATA_DIR: real data (default ../shared/data). Sequences that are not there are named and
-# skipped, but there must be one at least.
-# SSLCD_SAME_BYTES_DIR: the reference is built and run once per commit and kept there (default
-# build/same_bytes).
-# Exit code 1: something differs. Both runs are kept for a look.
+# SSLCD_BUILD_DIR: build folder of sslcd_run (default build/release). SSLCD_DATA_DIR: real data
+# (default ../shared/data). Sequences that are not there are named and skipped, but there must be
+# one at least. SSLCD_SAME_BYTES_DIR: the reference is built and run once per commit and kept there
+# (default build/same_bytes). Exit code 1: something differs. Both runs are kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=$(realpath "${SSLCD_BUILD_DIR:-build/release}")

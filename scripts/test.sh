@@ -1,11 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Everything from a fresh machine to the test report: installs what is missing, configures, builds,
-# tests.
+# Runs the tests on a fresh machine: installs missing packages, configures, builds, tests.
 #   scripts/test.sh [ctest arguments, e.g. -L unit]
-# SSLCD_BUILD_DIR: where to build (default build/release).
-# SSLCD_DATA_DIR: real data (see CONTRIBUTING.md).
-# SSLCD_CMAKE_ARGS: more arguments for configuring.
+# SSLCD_BUILD_DIR: build folder (default build/release). SSLCD_DATA_DIR: real data (see
+# CONTRIBUTING.md). SSLCD_CMAKE_ARGS: more arguments for configuring.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${SSLCD_BUILD_DIR:-build/release}

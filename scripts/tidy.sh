@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# clang-tidy 14 over the library and the tools (.clang-tidy says which checks), or over the files
-# named.
+# Runs clang-tidy 14 with the checks of .clang-tidy over the library and the tools, or over the
+# named files.
 #   scripts/tidy.sh [FILE...]
 set -euo pipefail
 cd "$(dirname "$0")/.."

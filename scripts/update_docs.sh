@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes config/default.yaml and docs/configuration.md from the program's own field tables; with
-# --check only tells whether they are up to date (exit code 1 if not).
+# Writes config/default.yaml and docs/configuration.md from the field tables of the program. With
+# --check it only compares them (exit code 1 if they are out of date).
 #   scripts/update_docs.sh SSLCD_RUN [--check]
 set -euo pipefail
 run=$(realpath "${1:?usage: scripts/update_docs.sh SSLCD_RUN [--check]}")
