@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/remeasure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "two_passes.h"
+
+namespace sslcd {
+namespace {
+
+constexpr int kMatch = 30, kQuery = TwoPasses::kSecond + 30;  // where a loop ties the two passes
+
+// An accepted loop that was measured `error` off the truth.
+LoopLedger LedgerOf(const TwoPasses& world, const Pose& error = {}, double sigma_m = 0.1) {
+  FoundLoop found;
+  found.loop.match = kMatch;
+  found.loop.query = kQuery;
+  found.loop.row.decision = LoopDecision::kAccepted;
+  found.loop.row.T_match_query = world.TrueLoop(kMatch, kQuery) * error;
+  // as it is: a metre and a radian per axis
+  found.sigma_m = sigma_m;
+  SearchWindow window;
+  window.here_m = world.state.frames[kQuery].travelled + 25;
+  window.local_m = 75;
+  LoopLedger ledger;
+  ledger.Add(found, window, world.state.frames.back().frame);
+  ledger.AcceptNewest(world.state.frames);
+  return ledger;
+}
+
+double Apart(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
+
+TEST(ReviewLoops, WithdrawsWhatTheTrajectoryContradicts) {
+  const TwoPasses world;
+  const LoopOptions options;
+  for (const double off : {0.9, 1.1}) {
+    LoopLedger ledger = LedgerOf(world, Pose::Trans(off * options.acceptance.withdraw_m, 0, 0));
+    ReviewLoops(world.state, world.passes, ledger, options);
+    EXPECT_EQ(ledger.attempts()[0].accepted(), off < 1) << off;
+    EXPECT_EQ(ledger.Rows()[0].reason == "the refined trajectory disagrees", off > 1) << off;
+  }
+}
+
+TEST(ReviewLoops, MeasuresTheOthersAgainByTheObjectsThatBothPassesShare) {
+  TwoPasses world;
+  MergedIds merged;
+  for (const auto& [early, late] : world.trees) {  // a loop closure has fused them
+    world.state.map.Fuse(early, late);
+    merged[late.value] = early;
+  }
+  for (int i = 0; i < world.state.frames.size(); ++i) {
+    std::vector<LandmarkId> matched = world.state.frames[i].matched;
+    for (LandmarkId& id : matched)
+      if (merged.count(id.value)) id = merged.at(id.value);
+    world.state.frames.SetMatched(i, matched);
+  }
+  world.passes.Rename(merged);
+  LoopLedger ledger = LedgerOf(world, Pose::Trans(0.4, 0, -0.3));
+  ReviewLoops(world.state, world.passes, ledger, LoopOptions());
+  ASSERT_TRUE(ledger.attempts()[0].remeasured);
+  EXPECT_LT(Apart(ledger.Rows()[0].T_match_query, world.TrueLoop(kMatch, kQuery)), 1e-3);
+  EXPECT_GT(Apart(ledger.attempts()[0].row().T_match_query, world.TrueLoop(kMatch, kQuery)), 0.4)
+      << "what decides about the loop stays as it was measured";
+}
+
+TEST(ReviewLoops, WithoutCommonObjectsTheFirstMeasurementStays) {
+  const TwoPasses world;  // each tree is another landmark on the second pass
+  LoopLedger ledger = LedgerOf(world, Pose::Trans(0.4, 0, 0));
+  ReviewLoops(world.state, world.passes, ledger, LoopOptions());
+  EXPECT_TRUE(ledger.attempts()[0].accepted());
+  EXPECT_FALSE(ledger.attempts()[0].remeasured);
+}
+
+class ByViews : public ::testing::Test {
+ protected:
+  // A tie between the frames `ahead` of match and query, with a standard deviation per axis.
+  LoopClosure Measure(int ahead, double sigma_m) {
+    LoopLedger ledger = LedgerOf(world_, Pose::Trans(0.4, 0, 0));
+    ViewTie tie{kMatch + ahead, kQuery + ahead, {}};
+    tie.pose.T_a_b = world_.TrueLoop(tie.from, tie.to);
+    tie.pose.covariance *= sigma_m * sigma_m;
+    MeasureByViews(world_.state, {tie}, 1., LongPathOdometryNoise(), ledger);
+    return ledger.Rows()[0];
+  }
+
+  const TwoPasses world_;
+};
+
+TEST_F(ByViews, ATieNearbyThatIsMoreCertainMeasuresTheLoop) {
+  const LoopClosure row = Measure(3, 0.01);
+  EXPECT_TRUE(row.by_views);
+  EXPECT_LT(Apart(row.T_match_query, world_.TrueLoop(kMatch, kQuery)), 1e-6);
+  EXPECT_GT(row.covariance.trace(), 6 * 1e-4) << "the way to the tie and back counts";
+  EXPECT_NEAR(row.viewpoint_change_rad, 0, 1e-6);
+}
+
+TEST_F(ByViews, AnUncertainTieDoesNot) {
+  EXPECT_TRUE(Measure(0, 0.95).by_views);
+  EXPECT_FALSE(Measure(0, 1.05).by_views) << "the objects' is a metre per axis";
+}
+
+TEST_F(ByViews, NorATieFarAlongThePath) {
+  EXPECT_TRUE(Measure(14, 0.01).by_views) << "14 m on each pass";
+  EXPECT_FALSE(Measure(16, 0.01).by_views);
+}
+
+TEST(LearnOdometry, LeavesTheOdometryAsItIsWhereItMustNotLearnOrCannot) {
+  const TwoPasses world;
+  LoopOptions options;
+  options.learn_odometry = false;
+  const OdometryFactors off =
+      LearnOdometry(world.state, LedgerOf(world, Pose::Trans(3, 0, 0)), 1, options);
+  EXPECT_EQ(off.horizontal, 1);
+  EXPECT_EQ(off.heading, 1);
+  options.learn_odometry = true;
+  const OdometryFactors none = LearnOdometry(world.state, LoopLedger(), 1, options);
+  EXPECT_EQ(none.horizontal, 1);
+  EXPECT_EQ(none.heading, 1);
+}
+
+}  // namespace
+}  // namespace sslcd
