@@ -188,8 +188,8 @@ RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configurat
   return outputs;
 }
 
-Metrics Judge(const RunArguments& a, const Dataset& dataset, std::vector<int> identities,
-              const Mapped& mapped, const RunOutputs& outputs) {
+Metrics EvaluateRun(const RunArguments& a, const Dataset& dataset, std::vector<int> identities,
+                    const Mapped& mapped, const RunOutputs& outputs) {
   if (mapped.result.frames.empty()) return {};
   EvaluationInput evaluation;
   evaluation.estimate = mapped.result.trajectory;
@@ -218,7 +218,7 @@ int Run(RunArguments& a, const Console& console) {
   const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
   const Mapped mapped = MapFrames(a, request, dataset, configuration, console);
   RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
-  outputs.metrics = Judge(a, dataset, std::move(identities), mapped, outputs);
+  outputs.metrics = EvaluateRun(a, dataset, std::move(identities), mapped, outputs);
   const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);

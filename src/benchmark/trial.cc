@@ -67,7 +67,7 @@ TrialResult RunTrial(const Trial& trial, const sim::HalvSequence& sequence) {
     };
     all.erase(std::remove_if(all.begin(), all.end(), out), all.end());
   }
-  result.loops = JudgeLoops(run.loops, truth);
+  result.loops = MeasureLoopErrors(run.loops, truth);
   result.times = run.timing.Summary();
   return result;
 }

@@ -58,8 +58,8 @@ std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
   return revisits;
 }
 
-std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
-                                    const std::vector<Pose>& reference) {
+std::vector<LoopOutcome> MeasureLoopErrors(const std::vector<LoopClosure>& loops,
+                                           const std::vector<Pose>& reference) {
   const std::vector<double> distance = DistanceAlong(reference);
   const int n = static_cast<int>(reference.size());
   std::vector<LoopOutcome> outcomes;

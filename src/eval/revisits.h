@@ -50,8 +50,8 @@ struct LoopOutcome {
 };
 /// Compares each loop with the reference poses T_world_cam by frame number. Throws Error (kUsage)
 /// if a frame has no reference pose.
-std::vector<LoopOutcome> JudgeLoops(const std::vector<LoopClosure>& loops,
-                                    const std::vector<Pose>& reference);
+std::vector<LoopOutcome> MeasureLoopErrors(const std::vector<LoopClosure>& loops,
+                                           const std::vector<Pose>& reference);
 
 /// Returns one answer per revisit, its best-scored correct loop (error below `true_m`) with the
 /// revisit's viewpoint, and one answer per wrong loop. Correct loops elsewhere do not count. Thus

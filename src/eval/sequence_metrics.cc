@@ -50,7 +50,7 @@ void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference,
                [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
   std::set<double> hit;
   std::vector<double> errors_m, errors_rad;
-  for (const LoopOutcome& loop : JudgeLoops(accepted, reference)) {
+  for (const LoopOutcome& loop : MeasureLoopErrors(accepted, reference)) {
     errors_m.push_back(loop.error_m);
     errors_rad.push_back(loop.error_rad);
     const bool height_right = loop.height_error_m < options.true_loop_height_m;

@@ -98,7 +98,8 @@ PairView InBothImages(const StereoView& images, const StereoCamera& camera,
     view.places.push_back(PlaceOnGround(camera, plane, p));
     p.x = static_cast<float>(ProjectStereo(camera, view.places.back()).right);
   }
-  const Followed right = Follow(pyramids.left, pyramids.right, left, guess, kFine, kGroundPatchPx);
+  const TrackedPoints right =
+      TrackPoints(pyramids.left, pyramids.right, left, guess, kFine, kGroundPatchPx);
   for (std::size_t i = 0; i < left.size(); ++i) {
     std::optional<cv::Point2f> at;
     if (right.found[i]) at = FindInRight(pyramids, camera, plane, left[i], right.at[i]);

@@ -30,7 +30,7 @@ StereoPyramids BuildPyramids(const StereoView& images, int patch_px) {
           cv::Size(images.left.width, images.left.height)};
 }
 
-ImagePyramid Evened(const ImagePyramid& image, int patch_px) {
+ImagePyramid NormaliseContrast(const ImagePyramid& image, int patch_px) {
   const cv::Size surroundings(3 * patch_px, 3 * patch_px);
   cv::Mat grey, mean, square, deviation, evened;
   image[0].convertTo(grey, CV_32F);
@@ -41,10 +41,10 @@ ImagePyramid Evened(const ImagePyramid& image, int patch_px) {
   return Build(evened, patch_px);
 }
 
-Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
-                const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
-                int levels, int patch_px) {
-  Followed result{guess, std::vector<bool>(points.size())};
+TrackedPoints TrackPoints(const ImagePyramid& from, const ImagePyramid& to,
+                          const std::vector<cv::Point2f>& points,
+                          const std::vector<cv::Point2f>& guess, int levels, int patch_px) {
+  TrackedPoints result{guess, std::vector<bool>(points.size())};
   if (points.empty()) return result;
   std::vector<unsigned char> status;
   const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, 0.01);
@@ -56,14 +56,14 @@ Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
   return result;
 }
 
-Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
-                            const std::vector<cv::Point2f>& points,
-                            const std::vector<cv::Point2f>& guess, int levels, int patch_px) {
-  Followed there = Follow(from, to, points, guess, levels, patch_px);
+TrackedPoints TrackForthAndBack(const ImagePyramid& from, const ImagePyramid& to,
+                                const std::vector<cv::Point2f>& points,
+                                const std::vector<cv::Point2f>& guess, int levels, int patch_px) {
+  TrackedPoints there = TrackPoints(from, to, points, guess, levels, patch_px);
   std::vector<cv::Point2f> begin = points;
   // Starts the way back beside the solution, or a patch that has not moved would always return.
   for (cv::Point2f& p : begin) p += cv::Point2f(1.5F, 1.5F);
-  const Followed back = Follow(to, from, there.at, begin, 0, patch_px);
+  const TrackedPoints back = TrackPoints(to, from, there.at, begin, 0, patch_px);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const cv::Point2f off = back.at[i] - points[i];
     there.found[i] = there.found[i] && back.found[i] && std::hypot(off.x, off.y) <= kReturnsWithin;

@@ -27,21 +27,21 @@ struct StereoPyramids {
 StereoPyramids BuildPyramids(const StereoView& images, int patch_px);
 
 /// Normalises brightness and contrast by the local mean and deviation, against changes of light.
-ImagePyramid Evened(const ImagePyramid& image, int patch_px);
+ImagePyramid NormaliseContrast(const ImagePyramid& image, int patch_px);
 
 /// Tracks points from one image to another. `guess` has the start positions. With `levels` pyramid
 /// levels a patch may move by about 2^levels * patch_px / 2 pixels.
-struct Followed {
+struct TrackedPoints {
   std::vector<cv::Point2f> at;
   std::vector<bool> found;
 };
-Followed Follow(const ImagePyramid& from, const ImagePyramid& to,
-                const std::vector<cv::Point2f>& points, const std::vector<cv::Point2f>& guess,
-                int levels, int patch_px);
+TrackedPoints TrackPoints(const ImagePyramid& from, const ImagePyramid& to,
+                          const std::vector<cv::Point2f>& points,
+                          const std::vector<cv::Point2f>& guess, int levels, int patch_px);
 
 /// Tracks forth and back. A point is found only if it returns to its start.
-Followed FollowThereAndBack(const ImagePyramid& from, const ImagePyramid& to,
-                            const std::vector<cv::Point2f>& points,
-                            const std::vector<cv::Point2f>& guess, int levels, int patch_px);
+TrackedPoints TrackForthAndBack(const ImagePyramid& from, const ImagePyramid& to,
+                                const std::vector<cv::Point2f>& points,
+                                const std::vector<cv::Point2f>& guess, int levels, int patch_px);
 
 }  // namespace sslcd

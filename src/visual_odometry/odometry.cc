@@ -176,15 +176,16 @@ class StereoOdometry::Impl {
     std::optional<StereoFrame> frame = Track(reference_images_.left, current.left, current);
     if (frame) return frame;
     // The brightness may have changed.
-    return Track(Evened(reference_images_.left, kPatchPx), Evened(current.left, kPatchPx), current);
+    return Track(NormaliseContrast(reference_images_.left, kPatchPx),
+                 NormaliseContrast(current.left, kPatchPx), current);
   }
 
   std::optional<StereoFrame> Track(const ImagePyramid& reference, const ImagePyramid& left,
                                    const StereoPyramids& current) {
-    const Following following{camera_, keyframes_.back(), points_};
+    const TrackedKeyframe tracked{camera_, keyframes_.back(), points_};
     const Pose T_expected = last_.T_odom_left * velocity_;
     const auto find = [&](const Pose& T_guess) {
-      return FindPose(following, reference, left, T_guess, reason_);
+      return FindPose(tracked, reference, left, T_guess, reason_);
     };
     std::optional<Pose> pose = find(T_expected);
     if (!pose) pose = find(last_.T_odom_left);
@@ -194,7 +195,7 @@ class StereoOdometry::Impl {
       if (!pose) pose = find(T_expected * Pose::RotY(-k * kTurnRad));
     }
     if (!pose) return std::nullopt;
-    StereoFrame frame = FindAll(following, reference, left, current, *pose);
+    StereoFrame frame = FindAll(tracked, reference, left, current, *pose);
     RefinePose(camera_, points_, kLossPx, frame);
     DropMisfits(frame);
     if (static_cast<int>(frame.sightings.size()) >= kMinTracked) return frame;
@@ -244,8 +245,8 @@ class StereoOdometry::Impl {
       taken.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
     const std::vector<cv::Point2f> corners =
         SpreadCorners(current, taken, options_.points, kPatchPx);
-    const Followed right =
-        FollowThereAndBack(current.left, current.right, corners, corners, kCoarse, kPatchPx);
+    const TrackedPoints right =
+        TrackForthAndBack(current.left, current.right, corners, corners, kCoarse, kPatchPx);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (!right.found[i]) continue;
       const std::optional<StereoPixel> pixel =

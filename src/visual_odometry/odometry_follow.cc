@@ -20,7 +20,7 @@ constexpr double kMinInliers = 0.3;  // smallest share of inliers among the trac
 const char* const kNoAgreement = "the points found again do not agree on a pose";
 
 /// Points of the reference keyframe and their predictions in another image.
-struct Expected {
+struct PredictedPixels {
   std::vector<int> points;
   std::vector<cv::Point2f> from, to;
   std::vector<double> disparities;
@@ -28,11 +28,12 @@ struct Expected {
 
 /// Predicts points of the reference keyframe from a camera pose: about `count` points inside the
 /// image.
-Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_left, int about) {
+PredictedPixels PredictPixels(const TrackedKeyframe& f, const cv::Size& size,
+                              const Pose& T_odom_left, int about) {
   const StereoFrame& reference = f.keyframe;
   const Pose T_left_odom = T_odom_left.inverse();
   const std::size_t each = std::max<std::size_t>(1, reference.sightings.size() / about);
-  Expected expected;
+  PredictedPixels predicted;
   for (std::size_t i = 0; i < reference.sightings.size(); i += each) {
     const StereoSighting& sighting = reference.sightings[i];
     const Vec3 point = T_left_odom * f.points.at(sighting.point);
@@ -40,27 +41,28 @@ Expected Expect(const Following& f, const cv::Size& size, const Pose& T_odom_lef
     const StereoPixel pixel = ProjectStereo(f.camera, point);
     if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size.width && pixel.row < size.height))
       continue;
-    expected.points.push_back(sighting.point);
-    expected.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
-    expected.to.push_back(ToCv(pixel.left, pixel.row));
-    expected.disparities.push_back(pixel.left - pixel.right);
+    predicted.points.push_back(sighting.point);
+    predicted.from.push_back(ToCv(sighting.pixel.left, sighting.pixel.row));
+    predicted.to.push_back(ToCv(pixel.left, pixel.row));
+    predicted.disparities.push_back(pixel.left - pixel.right);
   }
-  return expected;
+  return predicted;
 }
 
 }  // namespace
 
-std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
-                             const Pose& T_guess, const char*& reason) {
-  const Expected expected = Expect(f, to[0].size(), T_guess, kCoarsePoints);
-  const Followed followed = Follow(from, to, expected.from, expected.to, kCoarse, kPatchPx);
+std::optional<Pose> FindPose(const TrackedKeyframe& f, const ImagePyramid& from,
+                             const ImagePyramid& to, const Pose& T_guess, const char*& reason) {
+  const PredictedPixels predicted = PredictPixels(f, to[0].size(), T_guess, kCoarsePoints);
+  const TrackedPoints followed =
+      TrackPoints(from, to, predicted.from, predicted.to, kCoarse, kPatchPx);
   const StereoFrame& reference = f.keyframe;
   const Pose T_reference_odom = reference.T_odom_left.inverse();
   std::vector<cv::Point3d> places;
   std::vector<cv::Point2d> pixels;
-  for (std::size_t i = 0; i < expected.points.size(); ++i) {
+  for (std::size_t i = 0; i < predicted.points.size(); ++i) {
     if (!followed.found[i]) continue;
-    const Vec3 place = T_reference_odom * f.points.at(expected.points[i]);
+    const Vec3 place = T_reference_odom * f.points.at(predicted.points[i]);
     places.emplace_back(place.x(), place.y(), place.z());
     pixels.emplace_back(followed.at[i]);
   }
@@ -83,16 +85,17 @@ std::optional<Pose> FindPose(const Following& f, const ImagePyramid& from, const
   return reference.T_odom_left * T_left_reference.inverse();
 }
 
-StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyramid& to,
+StereoFrame FindAll(const TrackedKeyframe& f, const ImagePyramid& from, const ImagePyramid& to,
                     const StereoPyramids& current, const Pose& T_odom_left) {
-  const Expected expected = Expect(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
-  Followed left = FollowThereAndBack(from, to, expected.from, expected.to, kFine, kPatchPx);
+  const PredictedPixels predicted =
+      PredictPixels(f, to[0].size(), T_odom_left, std::numeric_limits<int>::max());
+  TrackedPoints left = TrackForthAndBack(from, to, predicted.from, predicted.to, kFine, kPatchPx);
   const Pose T_keyframe_odom = f.keyframe.T_odom_left.inverse();
   const Pose T_left_keyframe = T_odom_left.inverse() * f.keyframe.T_odom_left;
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
-    const Vec3 point = T_keyframe_odom * f.points.at(expected.points[i]);
-    const Patch patch{from[0], expected.from[i], point, kPatchPx / 2};
+    const Vec3 point = T_keyframe_odom * f.points.at(predicted.points[i]);
+    const Patch patch{from[0], predicted.from[i], point, kPatchPx / 2};
     const std::optional<cv::Point2f> at =
         FindPatch(patch, f.camera.left, T_left_keyframe, to[0], left.at[i]);
     left.found[i] = at.has_value();
@@ -100,15 +103,16 @@ StereoFrame FindAll(const Following& f, const ImagePyramid& from, const ImagePyr
   }
   std::vector<cv::Point2f> guess = left.at;
   for (std::size_t i = 0; i < guess.size(); ++i)
-    guess[i].x -= static_cast<float>(expected.disparities[i]);
-  const Followed right = Follow(current.left, current.right, left.at, guess, kFine, kPatchPx);
+    guess[i].x -= static_cast<float>(predicted.disparities[i]);
+  const TrackedPoints right =
+      TrackPoints(current.left, current.right, left.at, guess, kFine, kPatchPx);
   StereoFrame frame{T_odom_left, {}};
   for (std::size_t i = 0; i < left.at.size(); ++i) {
     if (!left.found[i]) continue;
     std::optional<StereoPixel> pair;
     if (right.found[i]) pair = MeasurePair(f.camera, current, left.at[i], right.at[i]);
     frame.sightings.push_back(
-        {expected.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
+        {predicted.points[i], pair.value_or(StereoPixel{left.at[i].x, left.at[i].y, NAN})});
   }
   return frame;
 }

@@ -20,7 +20,7 @@ inline constexpr double kFitsWithinPx = 2;
 inline constexpr const char* kTooFewFound = "too few points of the last keyframe were found again";
 
 /// The tracked points: those of a keyframe.
-struct Following {
+struct TrackedKeyframe {
   const StereoCamera& camera;
   const StereoFrame& keyframe;
   const OdometryPoints& points;
@@ -29,13 +29,13 @@ struct Following {
 /// Estimates the pose T_odom_left by RANSAC on the points tracked from `from` (left image of the
 /// keyframe) to `to` (current left image), with predictions from `T_guess`. None: `reason` has the
 /// cause.
-std::optional<Pose> FindPose(const Following& following, const ImagePyramid& from,
+std::optional<Pose> FindPose(const TrackedKeyframe& tracked, const ImagePyramid& from,
                              const ImagePyramid& to, const Pose& T_guess, const char*& reason);
 
 /// Makes a frame at that pose with all points that are found in its left image, and their columns
 /// in the right one. `from` and `to` as above; their brightness may differ from `current`.
-StereoFrame FindAll(const Following& following, const ImagePyramid& from, const ImagePyramid& to,
-                    const StereoPyramids& current, const Pose& T_odom_left);
+StereoFrame FindAll(const TrackedKeyframe& tracked, const ImagePyramid& from,
+                    const ImagePyramid& to, const StereoPyramids& current, const Pose& T_odom_left);
 
 /// Refines the right column of a point that is found in both images to a fraction of a pixel. None:
 /// it is another point, or its patch has too little texture.

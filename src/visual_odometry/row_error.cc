@@ -21,8 +21,8 @@ std::optional<double> RowError(const StereoCamera& camera, const std::vector<Ste
     CheckImages(pair);
     const StereoPyramids images = BuildPyramids(pair, kPatchPx);
     const std::vector<cv::Point2f> left = SpreadCorners(images, {}, options.points, kPatchPx);
-    const Followed right =
-        FollowThereAndBack(images.left, images.right, left, left, kCoarse, kPatchPx);
+    const TrackedPoints right =
+        TrackForthAndBack(images.left, images.right, left, left, kCoarse, kPatchPx);
     for (std::size_t i = 0; i < left.size(); ++i) {
       if (!right.found[i] || !IsPair(camera, left[i], right.at[i])) continue;
       const int column =

@@ -82,7 +82,8 @@ TEST(Revisits, FalseAlarmsAreNobody) {
 
 TEST(Revisits, OutcomeOfALoop) {
   const OutAndBack drive;
-  const std::vector<LoopOutcome> loops = JudgeLoops({drive.Loop(190, 12, 0.5, 7)}, drive.reference);
+  const std::vector<LoopOutcome> loops =
+      MeasureLoopErrors({drive.Loop(190, 12, 0.5, 7)}, drive.reference);
   ASSERT_EQ(loops.size(), 1u);
   EXPECT_TRUE(loops[0].accepted);
   EXPECT_EQ(loops[0].score, 7);
@@ -91,7 +92,7 @@ TEST(Revisits, OutcomeOfALoop) {
   EXPECT_NEAR(loops[0].viewpoint_rad, M_PI, 1e-9);
   LoopClosure outside = drive.Loop(190, 12, 0, 0);
   outside.query_frame = 999;
-  EXPECT_THROW(JudgeLoops({outside}, drive.reference), Error);
+  EXPECT_THROW(MeasureLoopErrors({outside}, drive.reference), Error);
 }
 
 TEST(Revisits, RightAnswersOnceAndWrongOnesEachTime) {
@@ -100,7 +101,7 @@ TEST(Revisits, RightAnswersOnceAndWrongOnesEachTime) {
   const std::vector<Revisit> two = {all[1], all[8]};  // 35 m apart
   const auto near = [&](int i, int shift) { return two[i].frame + shift; };
   const auto old = [&](int i) { return two[i].old_frame; };
-  const std::vector<LoopOutcome> loops = JudgeLoops(
+  const std::vector<LoopOutcome> loops = MeasureLoopErrors(
       {drive.Loop(near(0, 0), old(0), 0, 3),
        drive.Loop(near(0, 2), old(0), 1, 4),  // one place, right twice
        drive.Loop(near(1, 0), old(1), 6, 9), drive.Loop(near(1, 1), old(1), 7, 8),  // wrong twice
