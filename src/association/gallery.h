@@ -9,10 +9,10 @@
 namespace sslcd {
 
 /// The appearance of a landmark: the paper's H_k and E_k with bounded memory. Eqs. 5 and 6 average
-/// the dot product with every past vector: O(n), and dominated by the side seen most. The average
-/// of dot products is the dot product with the average, so `kMean` keeps just that (same value,
-/// O(1)); `kByViewpoint` keeps one average per viewing direction and compares with the bin nearest
-/// to the current one.
+/// the dot product with every past vector, which is O(n) and dominated by the most frequent side.
+/// The average of dot products equals the dot product with the average, so `kMean` keeps only the
+/// average (same value, O(1)). `kByViewpoint` keeps one average per viewing direction and compares
+/// with the bin nearest to the current one.
 class Gallery {
  public:
   enum class Mode { kMean, kByViewpoint };

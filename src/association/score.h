@@ -16,9 +16,9 @@ struct SimilarityCues {
 };
 
 /// Eq. 3: s_d = lambda iou + lambda (1 - lambda) his + (1 - lambda)^2 dis, lambda in [0, 1].
-/// The three weights sum to one. A missing cue drops out, a cue beyond the paper's (core/cue.h)
-/// joins in, and the weights are scaled so that they sum to one again. No cue at all (or only cues
-/// of weight zero): none.
+/// The three weights sum to one. A missing cue is ignored, a cue beyond the paper's (core/cue.h) is
+/// added, and the weights are scaled so that they sum to one. Returns none without any cue of
+/// positive weight.
 std::optional<double> AssociationScore(const SimilarityCues& cues, double lambda);
 
 }  // namespace sslcd

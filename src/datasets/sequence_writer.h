@@ -19,18 +19,17 @@ struct SequenceFiles {
   std::optional<StereoCamera> camera;
   Trajectory odometry;                             ///< T_odom_cam with stamps, one per frame
   std::optional<Trajectory> groundtruth;           ///< for evaluation only
-  std::vector<std::vector<Detection>> detections;  ///< of each frame
+  std::vector<std::vector<Detection>> detections;  ///< per frame
   Vec3 up_axis{0, -1, 0};
   LabelTable labels;
   std::string config_yaml;  ///< options for `sslcd_run run` on this sequence; empty: no file
 };
 
 /// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
-/// sequence.yaml, and where there are such things config.yaml, calib.txt, groundtruth.txt (TUM) and
-/// the files of cues (core/cue.h): embeddings.npy (a detection without one has a row of zeros) and
-/// colours.npy (every detection has one, or there is no file). All appear complete or none; then
-/// what an earlier run left of those that are missing (but config.yaml) is removed. Throws
-/// Error(kOutput).
+/// sequence.yaml, and, as far as the parts exist, config.yaml, calib.txt, groundtruth.txt (TUM) and
+/// the files of cues (core/cue.h): embeddings.npy (a row of zeros for a detection without one) and
+/// colours.npy (only if every detection has one). Writes all files or none. Then removes the files
+/// of an earlier run whose parts are missing, except config.yaml. Throws Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
 /// Creates the folder. Throws Error(kUsage) if it is not empty and `overwrite` is not set, and

@@ -8,7 +8,7 @@
 
 namespace sslcd {
 
-/// One annotated box of KITTI tracking: what is really there. For evaluation only.
+/// One annotated ground-truth box of KITTI tracking, for evaluation only.
 struct GroundTruthBox {
   int frame = 0;
   int track = -1;  ///< identity, the same in all frames

@@ -6,10 +6,10 @@
 
 namespace sslcd {
 
-/// Log likelihood ratio of "one object" to "two objects" by all cues, paper IV-C's properties as
-/// evidence and never as a gate. Zero where nothing can be compared. Bearings of
-/// views are compared as far as the symmetry of the objects allows. O(views of a * views of b *
-/// length).
+/// Log likelihood ratio of "the same object" against "different objects" by all cues: the
+/// properties of paper IV-C as evidence instead of a gate. Zero if nothing can be compared. Takes
+/// the symmetry of the objects into account when it compares the bearings of views. O(views of a *
+/// views of b * length).
 double AppearanceGain(const LayoutObject& a, const LayoutObject& b,
                       const AppearanceOptions& options);
 

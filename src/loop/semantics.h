@@ -23,9 +23,9 @@ struct PaperCues {
 /// Eqs. 5 and 6. Views of different lengths and vectors with NaN count as missing.
 PaperCues CompareAsPrinted(const LayoutObject& local, const LayoutObject& global);
 
-/// Eq. 12: s_l = mu (d_s + d_p) + (1 - mu) (d_c + d_e), mu in [0, 1]. In [0, 2]. A cue that is
-/// missing drops out, one beyond the paper's (core/cue.h) joins d_c and d_e, and the weights are
-/// scaled so that they sum to two again. None without any cue of positive weight.
+/// Eq. 12: s_l = mu (d_s + d_p) + (1 - mu) (d_c + d_e), mu in [0, 1]. In [0, 2]. A missing cue is
+/// ignored, one beyond the paper's (core/cue.h) is added to d_c and d_e, and the weights are scaled
+/// so that they sum to two. None without any cue of positive weight.
 std::optional<double> PaperSimilarity(const PaperCues& cues, double mu);
 
 /// Eq. 11: W_l, the similarity of two objects of the same label; zero for different labels or

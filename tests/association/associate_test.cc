@@ -84,10 +84,10 @@ TEST(Associate, TheGateClosesInMetresSigmasAndHeight) {
   scene.Know(0, 10);
   scene.See(0, 13);  // 3 m: far more than 3.5 sigma of 0.3 m
   EXPECT_EQ(Associate(scene.queries, scene.candidates, {}), std::vector<int>{-1});
-  scene.queries[0].place = At(0, 13, 2.);  // a detector that bad allows it ...
+  scene.queries[0].place = At(0, 13, 2.);  // a detector with this noise allows it
   EXPECT_EQ(Associate(scene.queries, scene.candidates, {}), std::vector<int>{0});
   AssociationOptions narrow;
-  narrow.gate_m = 2.;  // ... unless metres forbid it
+  narrow.gate_m = 2.;  // the gate in metres excludes it
   EXPECT_EQ(Associate(scene.queries, scene.candidates, narrow), std::vector<int>{-1});
   scene.queries[0].height = 5;
   EXPECT_EQ(Associate(scene.queries, scene.candidates, {}), std::vector<int>{-1});

@@ -88,7 +88,7 @@ class Wall : public testing::Test {
 };
 
 TEST_F(Wall, KnowsThePlaceAndMeasuresThePose) {
-  const auto answer = Ask(9, 4);  // stands at 1 m
+  const auto answer = Ask(9, 4);  // the camera is at 1 m
   ASSERT_TRUE(answer);
   EXPECT_TRUE(answer->accepted);
   EXPECT_GE(answer->score, 50);

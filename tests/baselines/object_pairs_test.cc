@@ -44,7 +44,7 @@ TEST(ObjectPairs, AsManyRightAsMeasured) {
   struct Case {
     std::string name;
     LayoutMatcher match;
-    int street, lot;  // at least so many of 180 right
+    int street, lot;  // smallest numbers of correct answers of 180
   };
   const std::vector<Case> cases{
       {"lin", [&](const auto& l, const auto& g) { return MatchLin(l, g, o.lin); }, 120, 20},

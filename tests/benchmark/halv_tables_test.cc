@@ -78,7 +78,7 @@ TEST(HalvTables, LoopsOneByOne) {
   EXPECT_EQ(table.rows[3][7], "6.000");
 }
 
-// By falling score: 9 right, 8 right, 5 wrong, 1 right (not believed, but an answer), of 4.
+// By decreasing score: 9 correct, 8 correct, 5 wrong, 1 correct (refused, but an answer), of 4.
 TEST(HalvTables, PrecisionAndRecallOfAllAnswers) {
   const Table table = PrecisionRecallTable({TwoRuns()});
   ASSERT_EQ(table.rows.size(), 1u);

@@ -188,7 +188,7 @@ TEST(SolveBa, TiesHoldWhatTheyMeasureAndWrongOnesLittle) {
   for (const bool wrong : {false, true}) {
     Truth truth;
     BaProblem problem = Street(40, 1., 1., truth);
-    // Odometry that turns away; objects that say nothing against it.
+    // The odometry rotates, and no object contradicts it.
     for (BaOdometry& edge : problem.odometry) edge.T_from_to = edge.T_from_to * Pose::RotY(2e-3);
     for (std::size_t i = 1; i < problem.cameras.size(); ++i)
       problem.cameras[i].T_world_cam =
@@ -210,7 +210,7 @@ TEST(SolveBa, ATieIsAsGoodInEachDirectionAsItsCovarianceSaysInTheSecondCamerasAx
   const Pose T_from_to = Pose::Trans(3, 0, 1) * Pose::RotY(M_PI / 2);
   BaProblem problem;
   problem.cameras = {{0, Pose()}, {1, T_from_to * Pose::Trans(0.05, 0, 0.05)}};
-  // One knows where it stands along its x, the other one along its z.
+  // One camera has a known x, the other one a known z.
   Pose::Matrix6 along_x = 1e-6 * Pose::Matrix6::Identity(), along_z = along_x;
   along_x(2, 2) = along_z(0, 0) = 1;
   problem.ties.push_back({0, 1, {T_from_to * Pose::Trans(0, 0, 0.2), along_x}});

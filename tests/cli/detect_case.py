@@ -31,7 +31,7 @@ class DetectCase(CliCase):
         return result
 
     def detected_with_models(self, *args, **kwargs):
-        """The result, or no test where there is no ONNX Runtime."""
+        """The result; skips the test without ONNX Runtime."""
         result = self.detect(*args, **kwargs)
         if 'which was not found' in result.stderr or 'this build cannot' in result.stderr:
             self.skipTest('skipped: no ONNX Runtime: ' + result.stderr)
@@ -58,6 +58,6 @@ class DetectCase(CliCase):
                 write_png(f'{self.data}/{folder}/{i:06d}.png', rows, channels=1)
 
     def turn_the_right_camera(self):
-        for i in range(FRAMES):  # a pixel further to the right and up than calibration says
+        for i in range(FRAMES):  # a pixel to the right and up of the calibration
             rows = [row[3:] + row[-3:] for row in look(BASELINE, i * STEP)]
             write_png(self.data + f'/image_3/{i:06d}.png', rows[:1] + rows[:-1])

@@ -33,7 +33,7 @@ class DetectTest(DetectCase):
             self.assertEqual((row[0], row[2], row[-1]), (str(i), 'Car', '0.900'))
             x, y, z = map(float, row[13:16])
             self.assertAlmostEqual(x, 0, delta=0.4)
-            self.assertAlmostEqual(y, 1.5, delta=0.1)  # it stands on the ground
+            self.assertAlmostEqual(y, 1.5, delta=0.1)  # it is on the ground
             self.assertAlmostEqual(z - 0.5 * float(row[12]), CAR - STEP * i, delta=0.4)
         for i, row in enumerate(read(self.out + '/odometry.txt').splitlines()):
             self.assertAlmostEqual(float(row.split()[3]), STEP * i, delta=0.02 + 0.01 * i)

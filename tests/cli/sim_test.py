@@ -52,7 +52,7 @@ class SimTest(CliCase):
         self.assertNotEqual(read(self.out + 'a/detections.txt'), read(self.out + 'c/detections.txt'))
 
     def test_render(self):
-        """Images in the ordinary folder where this build has Embree, else an error that says how to get it."""
+        """Renders images if this build has Embree, otherwise an error names the remedy."""
         args = ('--case', 4, '--size', 0.3, '--speed-mps', 20, '--render-scale', 0.1)
         result = sim('halv', *args, '--out', self.out, '--render', '--render-truth', '--threads', 2)
         if 'Embree' in result.stderr:

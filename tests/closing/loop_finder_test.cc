@@ -55,8 +55,7 @@ TEST(TrackFinder, WithoutARivalTheSecondScoreIsTheOddsAgainstTheOnlyTrack) {
   EXPECT_EQ(only->loop.row.second_score, -only->loop.row.score);
 }
 
-// Evidence is against poses anywhere on the map; given its track, an attempt needs much less of its
-// own.
+// Evidence is against poses anywhere in the map; with its track an attempt needs much less.
 TEST(TrackFinder, FewObjectsOfItsOwnAreEnoughWhereTheTrackExpectsThem) {
   const TwoPasses world(Pose(), false, 7);
   const auto found = Find(*MakeTrackFinder(LoopOptions()), world);

@@ -66,7 +66,7 @@ struct TwoVisits {
   }
   void Drive() { Drive(to_come.size()); }
 
-  // The second visit, as odometry that has drifted has it.
+  // The second visit with drifted odometry.
   void ShiftSecondVisit(const Vec3& by) {
     for (FrameRecord& record : to_come)
       if (record.frame >= 300) record.T_world_cam = Pose::Trans(by) * record.T_world_cam;
@@ -261,7 +261,7 @@ TEST(PassMap, AfterFusionBothPassesAreOnes) {
   EXPECT_EQ(world.passes.NearestPass(world.state.frames, late, 250), 250) << "has none";
 }
 
-// What a caller has who follows the changes.
+// The state of a caller that applies the changes.
 void Follow(const LayoutChanges& changes, std::map<int, LayoutObject>& objects) {
   if (changes.all) objects.clear();
   for (const LayoutObject& object : changes.objects) objects[object.id] = object;

@@ -53,7 +53,7 @@ struct TwoPasses {
   /// Path up to the last frame. [m]
   double end_m() const { return state.frames.back().travelled; }
 
-  /// T_match_query of two frames, as it is in truth.
+  /// The true T_match_query of two frames.
   Pose TrueLoop(int match, int query) const { return truth[match].inverse() * truth[query]; }
 
  private:

@@ -99,7 +99,7 @@ TEST(TieViews, AGoodOdometryNeedsNoLoop) {
   EXPECT_GT(TieViews(ThereAndBack(), {}, align, options).size(), 20u);
 }
 
-/// Aligns as the truth says, up to `off`; remembers which frames it was asked about.
+/// Aligns by the truth with the error `off` and records the requested frames.
 struct TruthAligner {
   const Drives& drives;
   Pose off;

@@ -35,7 +35,7 @@ class Verdict {
   std::string json_;
 };
 
-/// Ours against the judge's, which is rounded to 4 digits.
+/// Compares a value with the judge's, which is rounded to 4 digits.
 inline void ExpectSame(const Verdict& verdict, const std::string& key, std::optional<double> ours) {
   EXPECT_TRUE(verdict.Has(key)) << key;
   const std::optional<double> theirs = verdict[key];
@@ -66,9 +66,8 @@ inline std::string MapJson(const std::vector<MapObject>& objects) {
   return json.str();
 }
 
-/// A map as a simple mapper would make it, mistakes included: each detection goes to the nearest
-/// object of its frame's world that is within the gate, and an object is the mean of its
-/// detections.
+/// A simple map with errors: each detection joins the nearest object within the gate, and an object
+/// is the mean of its detections.
 inline std::vector<MapObject> ClusterDetections(const std::vector<Frame>& frames,
                                                 const std::vector<Pose>& T_world_cam,
                                                 double min_score, double gate_m) {

@@ -10,8 +10,8 @@
 namespace sslcd {
 namespace {
 
-/// Out along z for 100 m and straight back 3 m beside it, a metre a frame, looking where it goes. A
-/// tree at every third metre of the first 60 is seen from next to it, both times.
+/// Out along z for 100 m and straight back 3 m beside it, a metre a frame, looking ahead. A tree at
+/// every third metre of the first 60 is seen from next to it, both times.
 struct OutAndBack {
   std::vector<Pose> reference;
   std::vector<Frame> frames;

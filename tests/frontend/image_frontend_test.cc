@@ -23,7 +23,7 @@ constexpr int kWidth = 320, kHeight = 200;
 constexpr double kFocal = 200, kBaseline = 0.5, kWall = 12;
 
 // A wall with a random pattern that the camera comes nearer to by 0.2 m a frame; without its right
-// image there is nothing to tell how fast.
+// image its speed is unknown.
 Image Wall(int frame, bool right) {
   static const std::vector<unsigned char> pattern = [] {
     std::vector<unsigned char> dots(400 * 400);

@@ -114,7 +114,7 @@ TEST(AlignGround, OnlyAsSureAsAskedFor) {
   EXPECT_FALSE(views.Align(views.T_a_b, options));
 }
 
-// KITTI's reference camera stands beside the left one.
+// KITTI's reference camera is beside the left one.
 TEST(AlignGround, SpeaksOfTheReferenceCameras) {
   TwoViews views(90);
   views.a.Render();

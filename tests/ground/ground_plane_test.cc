@@ -34,7 +34,7 @@ TEST(EstimateGround, IsNotMovedByWhatStandsOnIt) {
   scene.Add(-2, 5, 0.3, {4, 1.8, 1.5});
   scene.Add(2.5, 7, 1.2, {4, 1.8, 1.5});
   scene.Render();
-  // nobody says where they are
+  // without their boxes
   const GroundPlane without = EstimateGround(scene.view(), scene.camera, {}, {});
   EXPECT_NEAR(without.height_m, 1.2, 0.03);
   EXPECT_NEAR(without.up.z(), 0, 4e-3);

@@ -29,7 +29,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Objects on a street, seen twice; the second time D^-1 too far off.
+/// Objects on a street seen twice, the second time displaced by D^-1.
 struct Scene {
   Vec3 up = kKittiUp;
   Vec3 middle{0, 0, 0};  // of the street, in the world

@@ -114,7 +114,7 @@ TEST_F(ObjectMapTest, LearnsHowGoodTheDetectorIs) {
     for (int k = 0; k < 3; ++k) {
       seen.push_back(See(frame, {3, 1, 120. + 10 * k}));
       Vec3& t = seen.back().T_cam_object.translation();
-      // radial error up to 5 %: far more than the model says
+      // radial error up to 5 %: much more than in the model
       t *= 1 + 0.05 * std::sin(1.7 * frame + k);
     }
     map.AddFrame(frame, 0.1 * frame, Camera(frame), seen, nullptr);

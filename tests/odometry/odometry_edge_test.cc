@@ -8,7 +8,7 @@
 namespace sslcd {
 namespace {
 
-// Two frames whose odometry and estimate stand in different frames.
+// Two frames whose odometry and estimate have different world frames.
 FrameStore TwoFrames() {
   FrameStore frames;
   for (int i = 0; i < 2; ++i) {

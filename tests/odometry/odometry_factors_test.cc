@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// The odometry's information says `horizontal` and `heading` times smaller errors than it has.
+// The odometry's errors are `horizontal` and `heading` times larger than its information claims.
 PoseGraphWorld Misjudged(unsigned seed, double horizontal, double heading) {
   PoseGraphWorldOptions options;
   options.seed = seed;
@@ -30,7 +30,7 @@ class LearnsFactors : public ::testing::TestWithParam<std::pair<double, double>>
 TEST_P(LearnsFactors, OfAnOdometryThatIsBetterOrWorseThanItSays) {
   const auto [horizontal, heading] = GetParam();
   constexpr int kWorlds = 10;
-  double horizontal_off = 0, heading_off = 0;  // a single world has 14 cycles to tell by
+  double horizontal_off = 0, heading_off = 0;  // a single world has only 14 cycles
   for (int seed = 1; seed <= kWorlds; ++seed) {
     const OdometryFactors factors = LearnOdometryFactors(
         Misjudged(static_cast<unsigned>(seed), horizontal, heading).graph, Vec3::UnitZ());

@@ -150,7 +150,7 @@ TEST(ExtractColour, LooksAtTheCentreOfTheBoxOnly) {
 }
 
 TEST(ExtractColour, SamplesNoMoreThanAskedFor) {
-  // With one pixel allowed there is one cluster, whatever the picture.
+  // With one pixel there is one cluster for any image.
   ColourOptions options;
   options.max_pixels = 1;
   const Picture car = Car(kRed, 1);

@@ -6,7 +6,7 @@
 // - The number of wrong loops is exactly the figure.
 // - A share that ought to be 1 may miss it by 15 % more than the figure does, or by a least step:
 //   one of the few things that it counts, or two in a thousand.
-// - The map's 3D IoU keeps 85 % of what it gains over that of the detections.
+// - The map's 3D IoU keeps 85 % of its gain over the IoU of the detections.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -117,7 +117,7 @@ TEST(LoopCases, LoopsGoOnAfterARefinementInMidRun) {
   EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
 }
 
-// What loops say is measured again by the straightened maps; between the same cameras.
+// Loops are measured again in the corrected maps, between the same cameras.
 TEST(LoopCases, RefinementMeasuresThemAnew) {
   std::vector<double> before, after;  // errors [m]
   for (const int seed : {1, 2, 3}) {

@@ -42,7 +42,7 @@ inline void Add(const std::string& label, const Pose& T_world_object, sim::World
   world.objects.push_back({static_cast<int>(world.objects.size()), label, dims, {T_world_object}});
 }
 
-// Things stand on both sides of the path, `share_of_trees` of them trees, at distances that never
+// Objects are on both sides of the path, `share_of_trees` of them trees, at distances that never
 // repeat.
 inline void Plant(const sim::Path& path, double length_m, double share_of_trees, std::uint64_t seed,
                   sim::World& world) {
@@ -68,7 +68,7 @@ inline void Drive(const sim::Path& path, double from_m, double to_m, sim::World&
          Pose(lie::SO3<double>::RotY(sign > 0 ? 0 : M_PI), Vec3::Zero()));
 }
 
-// ... and turns round where it stands.
+// Turns around in place.
 inline void TurnRound(sim::World& world) {
   constexpr int kFrames = 20;
   const Pose T_world_cam = world.truth.poses.back();
@@ -110,7 +110,7 @@ struct Drives {
 
 enum class SecondLap { kSame, kOpposite };
 
-// Twice round the block; before it turns round the camera comes past where it began.
+// Twice around the block. The camera passes its start before it turns around.
 inline Drives TwoLaps(SecondLap second, double share_of_trees, std::uint64_t seed) {
   const sim::Path path = Block();
   sim::World world = EmptyWorld();

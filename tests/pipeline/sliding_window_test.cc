@@ -10,7 +10,7 @@ namespace {
 
 MapState EmptyState() { return {ObjectMap(GravityFrame(), LabelTable(), {}, {}, {}), {}}; }
 
-// The frame and, as in the mapper, its keyframe where it is one.
+// Adds the frame and, as in the mapper, its keyframe if it is one.
 bool AddFrame(MapState& state, SlidingWindow& window, const Pose& T_odom_cam) {
   const bool keyframe = window.IsKeyframe(state.frames, T_odom_cam);
   FrameRecord record;
@@ -54,7 +54,7 @@ TEST(SlidingWindow, SwitchedOffItMovesNothing) {
   EXPECT_EQ(state.frames.FirstChangeSince(before), 20) << "the new frame alone";
 }
 
-// Two parked cars ahead, seen where they are; the last camera's odometry is 0.2 m off.
+// Two parked cars ahead with exact detections; the last camera's odometry has an error of 0.2 m.
 TEST(SlidingWindow, ObjectsCorrectTheNewestCamera) {
   MapState state = EmptyState();
   std::vector<LandmarkId> cars;

@@ -20,7 +20,7 @@ double WorstDistance(const PoseGraph& a, const PoseGraph& b) {
   return worst;
 }
 
-// The same with and without chains, up to what is not linear.
+// The same result with and without chains, up to nonlinearity.
 TEST(CondensedGraph, SolvesAsTheWholeGraph) {
   PoseGraphWorldOptions options;
   options.keyframes = 240;

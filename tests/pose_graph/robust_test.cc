@@ -267,7 +267,7 @@ PoseGraph DriveWithLoops(double sigmas) {
   return graph;
 }
 
-// So many loops outvote odometry, where it may be that far off.
+// Enough loops outvote odometry with a noise that allows the error.
 TEST(RobustPoseGraph, LoopsAreRuledOutFromDriftFactorTimesTheirLimitInSigmas) {
   for (const double drift_factor : {1.5, 3.}) {
     RobustPoseGraphOptions options;
@@ -297,9 +297,9 @@ TEST(RobustPoseGraph, ALoneLoopIsKeptUpToItsLimit) {
   }
 }
 
-// The loop's chi2 against odometry that does not give way is k times the limit, whatever its
-// weight. It keeps a weight below 1 while (mu + 1) / mu > k (Yang et al., Eq. 14), and the first mu
-// takes residuals of up to twice the worst as convex: (mu + 1) / mu = 2 k.
+// The loop's chi2 against fixed odometry is k times the limit, independent of its weight. It keeps
+// a weight below 1 while (mu + 1) / mu > k (Yang et al., Eq. 14), and the first mu takes residuals
+// of up to twice the worst as convex: (mu + 1) / mu = 2 k.
 TEST(RobustPoseGraph, GraduationBeginsConvexAndEndsWhereTheLoopIsDecided) {
   for (const double k : {2., 4., 7.}) {
     for (const double mu_factor : {1.1, 1.4}) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kFine = 0.005f;
 
-/// How often what `is` says is found among the surfaces of triangles that `which` picks.
+/// Share of the surfaces with the property `is` among the triangles that `which` selects.
 template <class Which, class Is>
 double Share(const CarShape& shape, const Vec3f& paint, Which which, Is is) {
   const Mesh mesh = MakeCarMesh(shape);

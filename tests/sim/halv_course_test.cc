@@ -43,7 +43,7 @@ TEST(ArcLineArc, StraightOnIsALine) {
   EXPECT_NEAR(LengthOf(ArcLineArc({1, 2, 3}, {1, 2, 3}, 4)), 0, 1e-9);
 }
 
-/// Every case comes back to its way out, at the angle it is told.
+/// Every case meets its outward pass at the requested angle.
 TEST(HalvCourse, MeetsItsWayOutAtTheGivenAngle) {
   for (int number = 1; number <= 4; ++number) {
     const HalvCase& shape = HalvCaseOf(number);

@@ -131,7 +131,7 @@ TEST(Halv, RowsTellNothingButTheirScores) {
         EXPECT_LE(detections[i].score, detections[i - 1].score);
         ++pairs, in_order += id > sequence.detections.identity[row - 2];
       }
-      if (id < 0) continue;  // its true object stands where it was seen
+      if (id < 0) continue;  // its true object is at the detected place
       const Vec3 seen =
           sequence.scene.world.truth.poses[frame] * detections[i].T_cam_object.translation();
       EXPECT_LT(

@@ -46,7 +46,7 @@ int Count(const World& world, const std::string& label, bool driving) {
       }));
 }
 
-/// Nothing that stands overlaps: circles within the cuboids' widths.
+/// Parked objects do not overlap, tested by circles within the widths of the cuboids.
 void ExpectNoOverlap(const World& world) {
   for (const WorldObject& a : world.objects) {
     for (const WorldObject& b : world.objects) {

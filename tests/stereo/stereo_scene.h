@@ -43,7 +43,7 @@ class StereoScene {
         {Pose(lie::SO3<double>::FromMatrix(axes), {x, height_m - 0.5 * dims.z(), z}), dims});
   }
 
-  /// What a perfect detector would say of a block, hidden or not.
+  /// The detection of a block by a perfect detector, hidden or not.
   Box2d BoxOf(int i) const {
     return *ProjectCuboid(blocks[i].T_cam_object, blocks[i].dims, camera.left);
   }

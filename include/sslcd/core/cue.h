@@ -7,8 +7,8 @@
 
 namespace sslcd {
 
-/// A way to compare the looks of two objects: a vector of unit length for each detection, of which
-/// the dot product (cosine) tells how alike two are. CONTRIBUTING.md says how to add one.
+/// An appearance cue: a vector of unit length per detection, whose dot product (cosine) measures
+/// the similarity of two objects. CONTRIBUTING.md describes how to add one.
 enum class Cue {
   kColour,     ///< histogram h of the paper (III-A.2), see perception/colour.h
   kEmbedding,  ///< re-identification vector e of the paper (III-A.3), see detectors/embedder.h
@@ -16,8 +16,8 @@ enum class Cue {
 };
 inline constexpr std::size_t kCueCount = static_cast<std::size_t>(Cue::kCount);
 
-/// Cosines of the vectors of one object, and of two. An object looks less like itself from the
-/// opposite side: the mean falls with the angle between the two views.
+/// Statistics of the cosines of the same object and of different objects. The mean for the same
+/// object decreases with the angle between the two views.
 struct CosineStatistics {
   double same_side = 1;      ///< mean for one object, seen from one side
   double opposite_side = 1;  ///< mean for one object, seen from opposite sides
@@ -25,23 +25,24 @@ struct CosineStatistics {
   double sigma = 1;          ///< standard deviation about each of these means
 };
 
-/// What the system knows of one cue.
+/// The properties of one cue.
 struct CueRow {
   Cue cue;
-  const char* name;  ///< for messages
-  const char* file;  ///< of a sequence folder (docs/formats.md)
-  /// The file has a vector for every detection. False: a row of zeros where a detection has none.
+  const char* name;  ///< used in messages
+  const char* file;  ///< file in a sequence folder (docs/formats.md)
+  /// the file has a vector for every detection; false: detections without one have a row of zeros
   bool complete;
-  double (*weight)(double lambda);  ///< in the association score, Eq. 3
+  double (*weight)(double lambda);  ///< weight in the association score, Eq. 3
   CosineStatistics cosine;          ///< the default of AppearanceOptions::cosine
-  /// Most evidence of this cue alone, as a share of AppearanceOptions::limit. None: only the sum of
-  /// all cues is limited.
+  /// limit of the evidence of this cue, share of AppearanceOptions::limit; none: only the sum of
+  /// all cues is limited
   std::optional<double> limit_share;
 };
 
 /// The table of cues, in the order of the enum. All figures were set by hand. Colours are those of
-/// ColourOptions::Method::kRobust: they change with the light, hence their limit, and gaps in their
-/// file would be filled from images, with vectors of another kind.
+/// ColourOptions::Method::kRobust. They change with the light, so their evidence is limited. Their
+/// file must be complete, since the reader would fill gaps from images with vectors of another
+/// kind.
 inline constexpr CueRow kCueRows[] = {
     {Cue::kColour,
      "colour",
@@ -59,7 +60,7 @@ inline constexpr CueRow kCueRows[] = {
      std::nullopt},
 };
 
-/// Each cue has its row, at its place.
+/// Whether the rows are in the order of the enum, one per cue.
 template <std::size_t kRows>
 constexpr bool OneRowPerCue(const CueRow (&rows)[kRows]) {
   for (std::size_t i = 0; i < kRows; ++i)
@@ -68,7 +69,7 @@ constexpr bool OneRowPerCue(const CueRow (&rows)[kRows]) {
 }
 static_assert(OneRowPerCue(kCueRows), "each cue needs a row of kCueRows, in the order of the enum");
 
-/// One T for each cue.
+/// An array of one T per cue.
 template <class T>
 class PerCue {
  public:

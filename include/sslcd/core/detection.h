@@ -22,7 +22,7 @@ struct Detection {
   Pose T_cam_object;
   Vec3 dims{0, 0, 0};        ///< length, width, height [m], all > 0
   std::optional<Box2d> box;  ///< 2D box [px]; none: association does not use this cue
-  /// the vector of each cue, of unit length (that of a colour may have unit sum); empty: none
+  /// vector of each cue with unit length (a colour may have unit sum); empty: none
   PerCue<std::vector<float>> appearance;
 };
 

@@ -25,7 +25,7 @@ struct LayoutObject {
   Vec3 position{0, 0, 0};  ///< centre [m]
   double yaw = 0;          ///< about z; NaN: unknown [rad]
   Vec3 dims{0, 0, 0};      ///< length, width, height [m]; zero: unknown
-  /// of each cue, one per direction the object was seen from; empty: unknown
+  /// views of each cue, one per viewing direction; empty: unknown
   PerCue<std::vector<AppearanceView>> appearance;
 };
 

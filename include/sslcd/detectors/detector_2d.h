@@ -15,9 +15,9 @@ namespace sslcd {
 /// A model that finds boxes in one image.
 class Detector2d {
  public:
-  /// Reads `model_yaml` (detectors/model_description.h) and loads the model it names. Throws Error
-  /// when the description is wrong, the model cannot be loaded, or its inputs
-  /// and outputs have other shapes than the description says; the message has both.
+  /// Reads `model_yaml` (detectors/model_description.h) and loads its model. Throws Error if the
+  /// description is wrong, if the model cannot be loaded, or if its inputs and outputs differ in
+  /// shape from the description; the message has both shapes.
   static Detector2d Load(const std::string& model_yaml, const InferenceOptions& options = {});
   Detector2d(Detector2d&&) noexcept;
   Detector2d& operator=(Detector2d&&) noexcept;

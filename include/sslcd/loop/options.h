@@ -6,18 +6,18 @@
 
 namespace sslcd {
 
-/// What the table of cues says.
+/// The CosineStatistics of all rows of kCueRows.
 PerCue<CosineStatistics> CosinesOfTable();
 
-/// How alike sightings of one object are, and of two.
+/// The similarity of sightings of the same object and of different objects.
 struct AppearanceOptions {
-  PerCue<CosineStatistics> cosine = CosinesOfTable();  ///< no keys but those of the embedding
-  /// most evidence of one object's appearance, for or against [nats]; see CueRow::limit_share, too
+  PerCue<CosineStatistics> cosine = CosinesOfTable();  ///< only the embedding has keys
+  /// largest absolute evidence of one object's appearance [nats]; see also CueRow::limit_share
   double limit = 3.;
 };
 void DescribeFields(FieldVisitor& visitor, AppearanceOptions& options);
 
-/// What LayoutLikelihood expects of detector and map.
+/// Options of LayoutLikelihood: the expected errors of detector and map.
 struct LayoutLikelihoodOptions {
   double wrong_label = 0.03;  ///< share of objects whose class the detector confuses
   /// local objects outside of the mapped area do not count as unmapped, e.g. on a pass that crosses
