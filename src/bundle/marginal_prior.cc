@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "bundle/ba_terms.h"
@@ -92,85 +93,102 @@ void SquareRoot(const Quadratic& q, BaPrior& prior) {
   prior.r0 = inverse_root.asDiagonal() * eigen.eigenvectors().transpose() * q.b;
 }
 
-}  // namespace
+// Indices of the states that go.
+struct Dropped {
+  std::set<int> cameras, objects;
+};
 
-BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
-                    const std::vector<int>& objects, const BaOptions& options) {
-  const std::set<int> gone_cameras(cameras.begin(), cameras.end()),
-      gone_objects(objects.begin(), objects.end());
-  BaTerms terms(problem, options);
+// The states that a prior is about, as Ceres sees them: those that go, the cameras and objects that
+// stay, the scale. Columns of the Jacobian are in this order.
+struct States {
+  std::vector<double*> blocks;
+  int dropped_columns = 0;          // of those that go
+  std::vector<int> object_columns;  // of each object that stays: 3 where it has no yaw
+};
 
-  // Residuals that touch what goes, and the states that those residuals touch: what stays of them
-  // is the prior's subject.
-  std::set<ceres::ResidualBlockId> residuals;
-  const auto collect = [&](double* block) {
-    std::vector<ceres::ResidualBlockId> touching;
-    terms.ceres().GetResidualBlocksForParameterBlock(block, &touching);
-    residuals.insert(touching.begin(), touching.end());
-  };
-  for (const int i : gone_cameras) collect(terms.camera(i));
-  for (const int k : gone_objects) collect(terms.object(k));
-  // the scale's own prior; odometry that stays is taken out again below
-  collect(terms.log_scale());
-  std::set<double*> gone, touched;
-  for (const int i : gone_cameras) gone.insert(terms.camera(i));
-  for (const int k : gone_objects) gone.insert(terms.object(k));
-  std::vector<ceres::ResidualBlockId> used;
-  terms.ceres().GetResidualBlocks(&used);  // in the order they were added: deterministic
-  const auto keep_out = [&](ceres::ResidualBlockId id) {
-    if (residuals.count(id) == 0) return true;
+int ColumnsOf(const BaObject& object) { return object.symmetry == Symmetry::kFull ? 3 : 4; }
+
+// Residuals that touch a state that goes, the scale's own prior, and the prior of an earlier
+// marginalisation. In the order in which they were added: the sums below are then the same in each
+// run.
+std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Dropped& dropped,
+                                                    bool has_prior) {
+  std::set<double*> gone;
+  for (const int i : dropped.cameras) gone.insert(terms.camera(i));
+  for (const int k : dropped.objects) gone.insert(terms.object(k));
+  std::vector<ceres::ResidualBlockId> selected;
+  terms.ceres().GetResidualBlocks(&selected);
+  const auto stays = [&](ceres::ResidualBlockId id) {
     std::vector<double*> blocks;
     terms.ceres().GetParameterBlocksForResidualBlock(id, &blocks);
     const bool scale_only = blocks.size() == 1 && blocks[0] == terms.log_scale();
-    const bool is_prior =
-        !problem.prior.empty() && blocks.back() == terms.log_scale() && blocks.size() != 3;
-    const bool touches_gone =
-        std::any_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
-    if (!scale_only && !is_prior && !touches_gone) return true;
-    touched.insert(blocks.begin(), blocks.end());
-    return false;
+    // odometry, which ends with the scale, too, has three blocks
+    const bool is_prior = has_prior && blocks.back() == terms.log_scale() && blocks.size() != 3;
+    return !scale_only && !is_prior &&
+           std::none_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
   };
-  used.erase(std::remove_if(used.begin(), used.end(), keep_out), used.end());
+  selected.erase(std::remove_if(selected.begin(), selected.end(), stays), selected.end());
+  return selected;
+}
 
-  BaPrior prior;
-  std::vector<double*> blocks;
-  int dropped = 0;
-  for (const int i : gone_cameras) blocks.push_back(terms.camera(i)), dropped += 6;
-  for (const int k : gone_objects)
-    blocks.push_back(terms.object(k)),
-        dropped += problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4;
+// Lists the states that the residuals touch, and names those that stay in `prior`.
+States OrderStates(BaTerms& terms, const BaProblem& problem,
+                   const std::vector<ceres::ResidualBlockId>& residuals, const Dropped& dropped,
+                   BaPrior& prior) {
+  std::set<double*> touched;
+  for (const ceres::ResidualBlockId id : residuals) {
+    std::vector<double*> blocks;
+    terms.ceres().GetParameterBlocksForResidualBlock(id, &blocks);
+    touched.insert(blocks.begin(), blocks.end());
+  }
+  States states;
+  for (const int i : dropped.cameras) {
+    states.blocks.push_back(terms.camera(i));
+    states.dropped_columns += 6;
+  }
+  for (const int k : dropped.objects) {
+    states.blocks.push_back(terms.object(k));
+    states.dropped_columns += ColumnsOf(problem.objects[k]);
+  }
   for (std::size_t i = 0; i < problem.cameras.size(); ++i) {
-    if (gone_cameras.count(i) || !touched.count(terms.camera(i))) continue;
-    blocks.push_back(terms.camera(i));
+    if (dropped.cameras.count(i) || !touched.count(terms.camera(i))) continue;
+    states.blocks.push_back(terms.camera(i));
     prior.frames.push_back(problem.cameras[i].frame);
     prior.cameras.push_back(problem.cameras[i].T_world_cam);
   }
-  std::vector<int> columns_of_object;
   for (std::size_t k = 0; k < problem.objects.size(); ++k) {
-    if (gone_objects.count(k) || !touched.count(terms.object(k))) continue;
-    blocks.push_back(terms.object(k));
+    if (dropped.objects.count(k) || !touched.count(terms.object(k))) continue;
+    states.blocks.push_back(terms.object(k));
+    states.object_columns.push_back(ColumnsOf(problem.objects[k]));
     prior.object_ids.push_back(problem.objects[k].id);
     prior.objects.push_back(problem.objects[k].pose);
-    columns_of_object.push_back(problem.objects[k].symmetry == Symmetry::kFull ? 3 : 4);
   }
-  blocks.push_back(terms.log_scale());
+  states.blocks.push_back(terms.log_scale());
   prior.log_scale = problem.log_scale;
+  return states;
+}
 
+// Gauss-Newton: H = J^T J, b = J^T r, where the states are now; none where a residual cannot be
+// evaluated.
+std::optional<Quadratic> Linearise(BaTerms& terms, const std::vector<double*>& blocks,
+                                   const std::vector<ceres::ResidualBlockId>& residuals) {
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.parameter_blocks = blocks;
-  evaluate.residual_blocks = used;
+  evaluate.residual_blocks = residuals;
   std::vector<double> r;
   ceres::CRSMatrix sparse;
-  if (!terms.ceres().Evaluate(evaluate, nullptr, &r, nullptr, &sparse)) return {};
+  if (!terms.ceres().Evaluate(evaluate, nullptr, &r, nullptr, &sparse)) return std::nullopt;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
   for (int row = 0; row < sparse.num_rows; ++row)
     for (int at = sparse.rows[row]; at < sparse.rows[row + 1]; ++at)
       J(row, sparse.cols[at]) = sparse.values[at];
   const Eigen::Map<const Eigen::VectorXd> residual(r.data(), r.size());
-  SquareRoot(Eliminate({J.transpose() * J, J.transpose() * residual}, dropped), prior);
+  return Quadratic{J.transpose() * J, J.transpose() * residual};
+}
 
-  // Objects without yaw take part with three columns; give them the zero fourth one that BaPrior's
-  // layout has.
+// Objects without yaw take part with three columns: gives them the fourth one, of zeros, that
+// BaPrior's layout has.
+void FillYawColumns(const std::vector<int>& object_columns, BaPrior& prior) {
   Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(
       prior.J.rows(), 6 * prior.cameras.size() + 4 * prior.objects.size() + 1);
   int from = 0, to = 0;
@@ -180,9 +198,25 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
     to += room;
   };
   for (std::size_t i = 0; i < prior.cameras.size(); ++i) copy(6, 6);
-  for (const int columns : columns_of_object) copy(columns, 4);
+  for (const int columns : object_columns) copy(columns, 4);
   if (from < prior.J.cols()) copy(1, 1);  // the scale; absent where it is held constant
   prior.J = wide;
+}
+
+}  // namespace
+
+BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
+                    const std::vector<int>& objects, const BaOptions& options) {
+  const Dropped dropped{{cameras.begin(), cameras.end()}, {objects.begin(), objects.end()}};
+  BaTerms terms(problem, options);
+  const std::vector<ceres::ResidualBlockId> residuals =
+      SelectResiduals(terms, dropped, !problem.prior.empty());
+  BaPrior prior;
+  const States states = OrderStates(terms, problem, residuals, dropped, prior);
+  const std::optional<Quadratic> cost = Linearise(terms, states.blocks, residuals);
+  if (!cost) return {};
+  SquareRoot(Eliminate(*cost, states.dropped_columns), prior);
+  FillYawColumns(states.object_columns, prior);
   return prior;
 }
 

@@ -154,7 +154,11 @@ OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up) {
         std::array<double, 2> tried = best;
         tried[i] += move;
         const double value = LogPosterior(cycles, tried);
-        if (value > best_value) best = tried, best_value = value, better = true;
+        if (value > best_value) {
+          best = tried;
+          best_value = value;
+          better = true;
+        }
       }
     if (!better) step /= 2;
   }

@@ -34,7 +34,10 @@ CondensedGraph::CondensedGraph(const PoseGraph& graph, const std::vector<std::pa
   }
   const std::vector<int> component = Components(vertex_count, ends, trusted);
   for (int v = 0, parts = 0; v < vertex_count; ++v) {
-    if (component[v] == parts) keep[v] = true, ++parts;  // the first of its part
+    if (component[v] == parts) {  // the first of its part
+      keep[v] = true;
+      ++parts;
+    }
     if (graph.vertices[v].fixed || neighbours[v].size() > 2) keep[v] = true;
   }
   for (int v = 0; v < vertex_count; ++v) {

@@ -63,6 +63,54 @@ ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
   return ceres_options;
 }
 
+// The graph's poses; or those of the chordal relaxation, where it is asked for, or where the
+// graph's are far from the measurements and it is nearer to them. Fills in how it started.
+std::vector<Pose> StartPoses(const PoseGraph& graph, const Ends& ends,
+                             const std::vector<double>& weights, const std::vector<bool>& anchored,
+                             const PoseGraphOptions& options, PoseGraphSummary& summary) {
+  std::vector<Pose> poses = PosesOf(graph);
+  summary.initial_chi2 = Chi2Of(graph, ends, weights, poses);
+  const bool asked = options.start == PoseGraphStart::kChordal;
+  const bool try_chordal =
+      asked || (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
+                IsFar(summary.initial_chi2, graph, ends, weights, poses));
+  if (!try_chordal) return poses;
+  const auto chordal = ChordalStart(graph, ends, weights, anchored);
+  summary.chordal =
+      chordal && (asked || Chi2Of(graph, ends, weights, *chordal) < summary.initial_chi2);
+  return summary.chordal ? *chordal : poses;
+}
+
+// argmin over `poses` of sum_e w_e e^T I_e e, e = Log(T_from_to^-1 T_world_from^-1 T_world_to),
+// with the anchored poses held.
+ceres::Solver::Summary MinimiseChi2(const PoseGraph& graph, const Ends& ends,
+                                    const std::vector<double>& weights,
+                                    const std::vector<bool>& anchored,
+                                    const PoseGraphOptions& options, std::vector<Pose>& poses) {
+  PoseManifold full;
+  UprightManifold upright(options.gravity, options.freedom == PoseFreedom::kPlanar);
+  ceres::Manifold* manifold = &full;
+  if (options.freedom != PoseFreedom::kFull) manifold = &upright;
+  ceres::Problem::Options ownership;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  for (std::size_t v = 0; v < poses.size(); ++v) {
+    problem.AddParameterBlock(poses[v].data(), 7, manifold);
+    if (anchored[v]) problem.SetParameterBlockConstant(poses[v].data());
+  }
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    if (weights[e] == 0) continue;
+    Pose& from = poses[ends[e].first];
+    Pose& to = poses[ends[e].second];
+    const PoseGraph::Edge edge =
+        EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
+    problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
+  }
+  ceres::Solver::Summary result;
+  ceres::Solve(CeresOptions(options), &problem, &result);
+  return result;
+}
+
 }  // namespace
 
 int DegreesOfFreedom(PoseFreedom freedom) {
@@ -104,42 +152,9 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
       Components(static_cast<int>(graph.vertices.size()), index.ends, use);
   summary.components = 1 + *std::max_element(component.begin(), component.end());
   const std::vector<bool> anchored = Anchors(graph, component);
-
-  std::vector<Pose> poses = PosesOf(graph);
-  summary.initial_chi2 = Chi2Of(graph, index.ends, weights, poses);
-  const bool try_chordal =
-      options.start == PoseGraphStart::kChordal ||
-      (options.start == PoseGraphStart::kAuto && options.freedom == PoseFreedom::kFull &&
-       IsFar(summary.initial_chi2, graph, index.ends, weights, poses));
-  if (try_chordal) {
-    const auto chordal = ChordalStart(graph, index.ends, weights, anchored);
-    summary.chordal =
-        chordal && (options.start == PoseGraphStart::kChordal ||
-                    Chi2Of(graph, index.ends, weights, *chordal) < summary.initial_chi2);
-    if (summary.chordal) poses = *chordal;
-  }
-
-  PoseManifold full;
-  UprightManifold upright(options.gravity, options.freedom == PoseFreedom::kPlanar);
-  ceres::Manifold* manifold = &full;
-  if (options.freedom != PoseFreedom::kFull) manifold = &upright;
-  ceres::Problem::Options ownership;
-  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ceres::Problem problem(ownership);
-  for (std::size_t v = 0; v < poses.size(); ++v) {
-    problem.AddParameterBlock(poses[v].data(), 7, manifold);
-    if (anchored[v]) problem.SetParameterBlockConstant(poses[v].data());
-  }
-  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
-    if (weights[e] == 0) continue;
-    Pose& from = poses[index.ends[e].first];
-    Pose& to = poses[index.ends[e].second];
-    const PoseGraph::Edge edge =
-        EdgeWithin(options.freedom, options.gravity.up, graph.edges[e], from, to);
-    problem.AddResidualBlock(new EdgeCost(edge, &weights[e]), nullptr, from.data(), to.data());
-  }
-  ceres::Solver::Summary result;
-  ceres::Solve(CeresOptions(options), &problem, &result);
+  std::vector<Pose> poses = StartPoses(graph, index.ends, weights, anchored, options, summary);
+  const ceres::Solver::Summary result =
+      MinimiseChi2(graph, index.ends, weights, anchored, options, poses);
   summary.usable = result.IsSolutionUsable();
   summary.converged = result.termination_type == ceres::CONVERGENCE ||
                       result.termination_type == ceres::USER_SUCCESS;
