@@ -91,8 +91,8 @@ void AddWheels(const CarShape& shape, Mesh& mesh) {
       const Vec3f inner(axle, side * (out - kTyre), shape.wheel_radius),
           outer(axle, side * out, shape.wheel_radius);
       const Vec3f shoulder = Mix(inner, outer, 0.88f);
-      AddCone(mesh, inner, shoulder, shape.wheel_radius, shape.wheel_radius, kSides, kCarWheel);
-      AddCone(mesh, shoulder, outer, shape.wheel_radius, 0.92f * shape.wheel_radius, kSides,
+      AddCone(mesh, {inner, shape.wheel_radius}, {shoulder, shape.wheel_radius}, kSides, kCarWheel);
+      AddCone(mesh, {shoulder, shape.wheel_radius}, {outer, 0.92f * shape.wheel_radius}, kSides,
               kCarWheel);
     }
   }

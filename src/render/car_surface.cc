@@ -131,11 +131,44 @@ Surface Glass(const CarShape& shape, const Spot& spot, float pillar) {
   return glass;
 }
 
+/// A truck's box: panels with ribs; behind, doors above lamps and a number plate.
+Surface CargoBox(const CarShape& shape, const Surface& body, const Spot& spot, float dirt) {
+  const float z = spot.at.z();
+  const Vec3f panel = Hash(shape.seed, 72) % 2 ? Vec3f(0.62f, 0.62f, 0.6f) : body.albedo;
+  const float rib = spot.at.x() / 0.6f, lamp = std::abs(spot.at.y()) / shape.half_width;
+  if (spot.normal.x() < -0.5f && z < 1.02f) {
+    if (std::abs(spot.at.y()) < 0.26f && std::abs(z - 0.94f) < 0.055f)
+      return Plate(shape, 0.5f - spot.at.y() / 0.52f, 0.5f + (0.94f - z) / 0.11f);
+    return lamp > 0.75f ? Surface{Vec3f(0.3f, 0.012f, 0.012f), 0.07f, 80, kLamp} : kPlasticSurface;
+  }
+  const float stripe = Band((Fraction(rib) - 0.5f) * 0.6f, 0.008f, spot.footprint);
+  const bool door = spot.normal.x() < -0.5f && std::abs(spot.at.y()) < 0.01f;
+  return {panel * (1 + 0.04f * dirt) * (door ? 0.2f : 1 - 0.5f * stripe), 0.02f, 30, kPaint};
+}
+
+/// The seams around the doors of a side, and their handles.
+void DrawDoors(const CarShape& shape, const Spot& spot, float pillar, Surface& body) {
+  const float x = spot.at.x(), first = shape.screen_base - 0.3f;
+  if (spot.at.z() >= shape.belt || x >= first + 0.1f || x <= shape.rear_axle - 0.1f) return;
+  const float last = std::max(shape.rear_axle + 0.62f * shape.arch_radius, pillar - 1.05f);
+  float seam = 0;
+  for (float at : {first, pillar, last})
+    seam = std::max(seam, Band(x - at, 0.007f, spot.footprint));
+  body.albedo *= 1 - 0.9f * seam;
+  body.mirror *= 1 - seam;
+  for (float at : {pillar, last}) {
+    if (Within(x - at, 0.05f, 0.22f) && Within(spot.at.z() - shape.belt, -0.12f, -0.085f)) {
+      body.albedo *= 0.45f;
+      body.kind = kSeam;
+    }
+  }
+}
+
 }  // namespace
 
 Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) {
   const float x = spot.at.x(), z = spot.at.z();
-  const float dirt = Fractal(x + spot.at.y(), z, shape.seed, 3, 3, spot.footprint);
+  const float dirt = Fractal(x + spot.at.y(), z, shape.seed, {3, 3}, spot.footprint);
   const float low = 1 - Smooth(0.2f, 0.7f, z);
   Surface body{Linear(paint) * (1 + 0.05f * dirt), 0.045f, 250, kPaint};
   body.albedo = Mix(body.albedo, Vec3f(0.09f, 0.08f, 0.07f), low * (0.12f + 0.1f * dirt));
@@ -144,19 +177,7 @@ Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) 
   if (spot.part == kCarWheel) return Wheel(shape, spot);
   if (spot.part == kCarUnder) return {Vec3f::Constant(0.015f), 0, 1, kPlastic, 0.2f};
   if (spot.part == kCarMirror) return Hash(shape.seed, 71) % 3 ? body : kPlasticSurface;
-  if (spot.part == kCarBox) {
-    const Vec3f panel = Hash(shape.seed, 72) % 2 ? Vec3f(0.62f, 0.62f, 0.6f) : body.albedo;
-    const float rib = x / 0.6f, lamp = std::abs(spot.at.y()) / shape.half_width;
-    if (spot.normal.x() < -0.5f && z < 1.02f) {
-      if (std::abs(spot.at.y()) < 0.26f && std::abs(z - 0.94f) < 0.055f)
-        return Plate(shape, 0.5f - spot.at.y() / 0.52f, 0.5f + (0.94f - z) / 0.11f);
-      return lamp > 0.75f ? Surface{Vec3f(0.3f, 0.012f, 0.012f), 0.07f, 80, kLamp}
-                          : kPlasticSurface;
-    }
-    const float stripe = Band((Fraction(rib) - 0.5f) * 0.6f, 0.008f, spot.footprint);
-    const bool door = spot.normal.x() < -0.5f && std::abs(spot.at.y()) < 0.01f;
-    return {panel * (1 + 0.04f * dirt) * (door ? 0.2f : 1 - 0.5f * stripe), 0.02f, 30, kPaint};
-  }
+  if (spot.part == kCarBox) return CargoBox(shape, body, spot, dirt);
 
   if (spot.normal.x() > 0.4f && x > shape.nose() - 0.35f) {
     if (const auto front = Front(shape, spot)) return *front;
@@ -177,22 +198,7 @@ Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) 
   const bool rough = shape.style == CarStyle::kEstate && Hash(shape.seed, 73) % 2;
   if (z < shape.clearance + (rough ? 0.13f : 0.06f) || (rough && to_arch < 0.06f))
     return kPlasticSurface;
-  const float first = shape.screen_base - 0.3f;
-  const bool doors = x < first + 0.1f && x > shape.rear_axle - 0.1f;
-  if (z < shape.belt && doors) {
-    const float last = std::max(shape.rear_axle + 0.62f * shape.arch_radius, pillar - 1.05f);
-    float seam = 0;
-    for (float at : {first, pillar, last})
-      seam = std::max(seam, Band(x - at, 0.007f, spot.footprint));
-    body.albedo *= 1 - 0.9f * seam;
-    body.mirror *= 1 - seam;
-    for (float at : {pillar, last}) {
-      if (Within(x - at, 0.05f, 0.22f) && Within(z - shape.belt, -0.12f, -0.085f)) {
-        body.albedo *= 0.45f;
-        body.kind = kSeam;
-      }
-    }
-  }
+  DrawDoors(shape, spot, pillar, body);
   return body;
 }
 

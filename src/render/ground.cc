@@ -27,7 +27,7 @@ float Repaired(const Vec2f& place, std::uint32_t seed, float footprint) {
 float Cracked(const Vec2f& place, float bend, std::uint32_t seed, float footprint) {
   constexpr float kCells = 0.22f;  // per metre
   const float open =
-      Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, 0.12f, 2, footprint));
+      Smooth(-0.1f, 0.35f, Fractal(place.x(), place.y(), seed + 1, {0.12f, 2}, footprint));
   if (open <= 0) return 1;
   const Vec2f bent = kCells * place + 0.3f * bend * Vec2f(1, -1);
   const float crack = CellNoise(bent.x(), bent.y(), seed).border / kCells;
@@ -122,7 +122,7 @@ float Ground::Paved(const Vec2f& place) const {
     nearest = std::min(nearest, (used_[i] - place).norm());
     if (nearest < kPavedWithin - 1) return 1;
   }
-  const float ragged = 0.5f * Fractal(place.x(), place.y(), seed_ + 3, 1, 3, 0);
+  const float ragged = 0.5f * Fractal(place.x(), place.y(), seed_ + 3, {1, 3}, 0);
   return 1 - Smooth(kPavedWithin - 0.1f, kPavedWithin + 0.1f, nearest + ragged);
 }
 
@@ -136,15 +136,15 @@ float Ground::Painted(const Vec2f& place, float footprint) const {
         std::max(painted, Band((place - line.from - along * way).norm(), kHalfLine, footprint));
   }
   if (painted <= 0) return 0;
-  const float worn = Fractal(place.x(), place.y(), seed_ + 9, 1.3f, 6, footprint);
+  const float worn = Fractal(place.x(), place.y(), seed_ + 9, {1.3f, 6}, footprint);
   return painted * (0.85f - 0.75f * Smooth(0.05f, 0.7f, worn));
 }
 
 Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
   const float x = place.x(), y = place.y();
-  const float wide = Fractal(x, y, seed_, 0.07f, 3, footprint);
-  const float middle = Fractal(x, y, seed_ + 1, 0.8f, 5, footprint, 0.75f);
-  const float grain = Fractal(x, y, seed_ + 2, 28, 3, footprint, 0.8f);
+  const float wide = Fractal(x, y, seed_, {0.07f, 3}, footprint);
+  const float middle = Fractal(x, y, seed_ + 1, {0.8f, 5, 0.75f}, footprint);
+  const float grain = Fractal(x, y, seed_ + 2, {28, 3, 0.8f}, footprint);
   float grey = 0.125f * (1 + 0.3f * wide + 0.26f * middle + 0.34f * grain);
   const float stones = Clamp01(1.5f - 90 * footprint);  // share of stones, visible from nearby
   if (stones > 0) {
@@ -173,7 +173,7 @@ Surface Ground::At(const Spot& spot) const {
     surface.albedo = Mix(surface.albedo, Vec3f(0.62f, 0.62f, 0.6f), Painted(place, spot.footprint));
   }
   if (paved < 1) {
-    const float tuft = Fractal(place.x(), place.y(), seed_ + 10, 0.3f, 8, spot.footprint);
+    const float tuft = Fractal(place.x(), place.y(), seed_ + 10, {0.3f, 8}, spot.footprint);
     const Vec3f grass =
         Mix(Vec3f(0.06f, 0.1f, 0.025f), Vec3f(0.16f, 0.16f, 0.07f), Clamp01(0.45f + 0.5f * tuft));
     surface.albedo = Mix(grass, surface.albedo, paved);

@@ -42,7 +42,7 @@ Vec3f SkyColour(const Daylight& light, const Vec3f& direction) {
   if (up > 0.01f) {
     const float scale = 1.2f / (up + 0.12f);
     const float cloud =
-        Fractal(direction.x() * scale, direction.y() * scale, light.clouds, 0.9f, 5, 0.f);
+        Fractal(direction.x() * scale, direction.y() * scale, light.clouds, {0.9f, 5}, 0.f);
     sky = Mix(sky, Vec3f(Vec3f::Constant(0.55f) + 0.22f * light.sun),
               0.85f * Smooth(0.05f, 0.75f, cloud) * Smooth(0.01f, 0.2f, up));
   }

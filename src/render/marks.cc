@@ -11,7 +11,7 @@ Mesh MakeTreeMesh(const Vec3f& dims, std::uint32_t seed) {
   Draws draw(seed);
   Mesh mesh;
   const float height = dims.z(), radius = 0.5f * dims.x(), trunk = draw(0.24f, 0.34f) * height;
-  AddCone(mesh, {0, 0, 0}, {0, 0, 0.85f * height}, 0.075f * radius + 0.05f, 0.02f, 9, kTrunk);
+  AddCone(mesh, {{0, 0, 0}, 0.075f * radius + 0.05f}, {{0, 0, 0.85f * height}, 0.02f}, 9, kTrunk);
   constexpr int kClumps = 34, kLeaves = 40;
   for (int clump = 0; clump < kClumps; ++clump) {
     const float up = draw(0, 1), turn = draw(0, 6.283f);
@@ -43,17 +43,19 @@ Mesh MakePoleMesh(const Vec3f& dims) {
   Mesh mesh;
   const float radius = 0.5f * dims.x(), height = dims.z();
   constexpr int kSides = 20;
-  AddCone(mesh, {0, 0, 0}, {0, 0, 0.12f}, radius, radius, kSides, 0);
-  AddCone(mesh, {0, 0, 0.12f}, {0, 0, height - 0.28f}, 0.72f * radius, 0.6f * radius, kSides, 0);
-  AddCone(mesh, {0, 0, height - 0.28f}, {0, 0, height - 0.06f}, 0.6f * radius, radius, kSides, 1);
-  AddCone(mesh, {0, 0, height - 0.06f}, {0, 0, height}, radius, 0.5f * radius, kSides, 0);
+  AddCone(mesh, {{0, 0, 0}, radius}, {{0, 0, 0.12f}, radius}, kSides, 0);
+  AddCone(mesh, {{0, 0, 0.12f}, 0.72f * radius}, {{0, 0, height - 0.28f}, 0.6f * radius}, kSides,
+          0);
+  AddCone(mesh, {{0, 0, height - 0.28f}, 0.6f * radius}, {{0, 0, height - 0.06f}, radius}, kSides,
+          1);
+  AddCone(mesh, {{0, 0, height - 0.06f}, radius}, {{0, 0, height}, 0.5f * radius}, kSides, 0);
   ComputeNormals(mesh);
   return mesh;
 }
 
 Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
   const float turn = std::atan2(spot.at.y(), spot.at.x());
-  const float rust = Fractal(2 * turn, spot.at.z(), seed, 2, 4, spot.footprint);
+  const float rust = Fractal(2 * turn, spot.at.z(), seed, {2, 4}, spot.footprint);
   if (spot.part == 1) return {Vec3f(0.7f, 0.7f, 0.65f), 0.1f, 60, 1};
   const bool notice =
       std::abs(spot.at.z() - 1.5f) < 0.16f && std::cos(turn - 6.28f * Unit(seed)) > 0.6f;
@@ -71,7 +73,7 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
 
 Surface StopSurface(std::uint32_t seed, const Spot& spot) {
   const float worn =
-      Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, 4, 6, spot.footprint, 0.7f);
+      Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, {4, 6, 0.7f}, spot.footprint);
   const bool yellow = Floor(spot.at.y() / 0.3f) % 2 != 0 && worn < 0.25f && seed % 3 == 0;
   const Vec3f albedo = yellow ? Vec3f(0.5f, 0.36f, 0.04f) : Vec3f(0.3f, 0.29f, 0.27f);
   return {Vec3f(albedo * (1 + 0.35f * worn)), 0, 1, yellow, 0.6f};
@@ -80,7 +82,7 @@ Surface StopSurface(std::uint32_t seed, const Spot& spot) {
 Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
   if (spot.part == kTrunk) {
     const float bark = Fractal(6 * std::atan2(spot.at.y(), spot.at.x()), 0.7f * spot.at.z(), seed,
-                               2, 4, spot.footprint);
+                               {2, 4}, spot.footprint);
     return {Vec3f(0.1f, 0.075f, 0.05f) * (1 + 0.5f * bark), 0, 1, 1, 0.7f};
   }
   const float tint = ValueNoise(spot.at.x() * 6 + spot.at.y() * 5, spot.at.z() * 6, seed);

@@ -39,19 +39,18 @@ void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part) {
   AddQuad(mesh, corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1), corner(1, 0, 1), part);
 }
 
-void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius,
-             int sides, int part) {
-  const Vec3f axis = (to - from).normalized(), across = axis.unitOrthogonal(),
+void AddCone(Mesh& mesh, const Disc& from, const Disc& to, int sides, int part) {
+  const Vec3f axis = (to.centre - from.centre).normalized(), across = axis.unitOrthogonal(),
               other = axis.cross(across);
   const int first = static_cast<int>(mesh.points.size());
   for (int side = 0; side < sides; ++side) {
     const float angle =
         2 * static_cast<float>(M_PI) * static_cast<float>(side) / static_cast<float>(sides);
     const Vec3f out = std::cos(angle) * across + std::sin(angle) * other;
-    mesh.AddPoint(from + from_radius * out);
-    mesh.AddPoint(to + to_radius * out);
+    mesh.AddPoint(from.centre + from.radius * out);
+    mesh.AddPoint(to.centre + to.radius * out);
   }
-  const int bottom = mesh.AddPoint(from), top = mesh.AddPoint(to);
+  const int bottom = mesh.AddPoint(from.centre), top = mesh.AddPoint(to.centre);
   for (int side = 0; side < sides; ++side) {
     const int a = first + 2 * side, b = first + 2 * ((side + 1) % sides);
     mesh.AddQuad(a, b, b + 1, a + 1, part);

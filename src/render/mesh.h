@@ -25,9 +25,14 @@ struct Mesh {
 void AddQuad(Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, int part);
 void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part);
 
-/// About the axis from `from` to `to`, radii there; closed. Round, so its sides share points.
-void AddCone(Mesh& mesh, const Vec3f& from, const Vec3f& to, float from_radius, float to_radius,
-             int sides, int part);
+/// One end of a cone: a disc, across the cone's axis.
+struct Disc {
+  Vec3f centre;
+  float radius = 0;  ///< [m]
+};
+
+/// Truncated and closed. Round, so its sides share points.
+void AddCone(Mesh& mesh, const Disc& from, const Disc& to, int sides, int part);
 
 /// Mean over the faces around a corner that lie within `crease_rad` of its own: round where the
 /// mesh is round.

@@ -11,16 +11,15 @@ float ValueNoise(float x, float y, std::uint32_t seed) {
   return Mix(Mix(at(0, 0), at(1, 0), u), Mix(at(0, 1), at(1, 1), u), v);
 }
 
-float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint,
-              float fall) {
-  float sum = 0, amplitude = 1;
-  for (int octave = 0; octave < octaves; ++octave) {
+float Fractal(float x, float y, std::uint32_t seed, const Octaves& octaves, float footprint) {
+  float sum = 0, amplitude = 1, frequency = octaves.frequency;
+  for (int octave = 0; octave < octaves.count; ++octave) {
     // an octave needs two pixels a period
     const float left = Clamp01(1.5f - 2 * frequency * footprint);
     if (left <= 0) break;
     sum += left * amplitude * (2 * ValueNoise(x * frequency, y * frequency, seed + octave) - 1);
     frequency *= 2;
-    amplitude *= fall;
+    amplitude *= octaves.fall;
   }
   return sum;
 }

@@ -39,10 +39,16 @@ class Draws {
 /// noise".)
 float ValueNoise(float x, float y, std::uint32_t seed);
 
-/// Octaves of it from `frequency` [1/m] on, each twice as fine and `fall` times as strong; about -1
-/// to 1. What is finer than `footprint` [m] fades out, so that nothing flickers far away.
-float Fractal(float x, float y, std::uint32_t seed, float frequency, int octaves, float footprint,
-              float fall = 0.5f);
+/// Octaves of value noise, each twice as fine as the one before.
+struct Octaves {
+  float frequency = 1;  ///< of the first [1/m]
+  int count = 1;
+  float fall = 0.5f;  ///< each is this times as strong as the one before
+};
+
+/// Sum of octaves, about -1 to 1. What is finer than `footprint` [m] fades out, so that nothing
+/// flickers far away.
+float Fractal(float x, float y, std::uint32_t seed, const Octaves& octaves, float footprint);
 
 /// Distance to the borders between the nearest of points strewn one a cell (Worley), about 0 to 1,
 /// and a random number for the cell.

@@ -83,7 +83,7 @@ Surface House(const Building& house, float along, float up, const Spot& spot, st
                 : Vec3f(0.02f, 0.025f, 0.03f);
     return {inside, 0.1f, 900, curtain ? 4 : 3, 1};
   }
-  const float stain = Fractal(along, 0.5f * up, seed, 0.4f, 6, spot.footprint);
+  const float stain = Fractal(along, 0.5f * up, seed, {0.4f, 6}, spot.footprint);
   const bool brick = Hash(seed, 6) % 3 != 0;
   Vec3f albedo = brick ? Brick(along, up, seed, Plain(seed), spot.footprint) : Plain(seed);
   if (up < 0.6f || roof < 0.35f || (roof < 1 && roof > 0.85f)) albedo = Vec3f(0.35f, 0.34f, 0.33f);
@@ -167,7 +167,7 @@ Surface TownSurface(const Town& town, const Spot& spot) {
   const float along = along_x ? spot.at.x() : spot.at.y();
   const std::uint32_t face = (along_x ? 2 : 0) + (spot.normal.x() + spot.normal.y() > 0);
   if (!building.wall) return House(building, along, spot.at.z(), spot, face);
-  const float stain = Fractal(along, 0.6f * spot.at.z(), building.seed, 0.5f, 6, spot.footprint);
+  const float stain = Fractal(along, 0.6f * spot.at.z(), building.seed, {0.5f, 6}, spot.footprint);
   const bool coping = spot.at.z() > 1.8f;
   const Vec3f albedo =
       coping ? Vec3f(0.4f, 0.39f, 0.37f)

@@ -78,8 +78,10 @@ std::vector<Slot> WithoutDoubles(const std::vector<Slot>& slots, double turn_rad
 /// The direction most vehicles keep to, modulo a right angle.
 double Grain(const std::vector<Slot>& slots) {
   double sine = 0, cosine = 0;
-  for (const Slot& slot : slots)
-    sine += std::sin(4 * slot.heading), cosine += std::cos(4 * slot.heading);
+  for (const Slot& slot : slots) {
+    sine += std::sin(4 * slot.heading);
+    cosine += std::cos(4 * slot.heading);
+  }
   return 0.25 * std::atan2(sine, cosine);
 }
 
@@ -104,17 +106,91 @@ template <class Places>
 Box BoxOf(const Places& places) {
   Box box;
   for (const auto& p : places) {
-    box.left = std::min(box.left, p.x), box.right = std::max(box.right, p.x);
-    box.back = std::min(box.back, p.z), box.front = std::max(box.front, p.z);
+    box.left = std::min(box.left, p.x);
+    box.right = std::max(box.right, p.x);
+    box.back = std::min(box.back, p.z);
+    box.front = std::max(box.front, p.z);
   }
   return box;
 }
 
 bool Near(const Slot& slot, const std::vector<Path::Point>& points) {
-  constexpr double kNear = 14;
+  constexpr double kNear = 14;  // [m]; a parked car is seen well from here. Set by hand.
   return std::any_of(points.begin(), points.end(), [&](const Path::Point& point) {
     return std::hypot(slot.x - point.x, slot.z - point.z) < kNear;
   });
+}
+
+/// Points of two parts of the course: the way out, and the last leg, which closes the loop.
+struct Legs {
+  std::vector<Path::Point> way_out, last_leg;
+};
+
+Legs LegsOf(const HalvCourse& course) {
+  constexpr std::size_t kEvery = 5;  // of the course's points
+  Legs legs;
+  for (std::size_t i = 0; i < course.points.size(); i += kEvery) {
+    const double s =
+        course.path.length() * static_cast<double>(i) / static_cast<double>(course.points.size());
+    if (s < course.return_m) legs.way_out.push_back(course.points[i]);
+    if (s > course.last_leg_m) legs.last_leg.push_back(course.points[i]);
+  }
+  return legs;
+}
+
+/// Cars that are seen from both legs, less those that stand in the way.
+int CountUseful(const std::vector<Slot>& placed, const HalvCourse& course, const Legs& legs) {
+  int score = 0;
+  for (const Slot& slot : placed) {
+    if (!IsClear(slot, course.points)) {
+      --score;
+    } else if (Near(slot, legs.last_leg) && Near(slot, legs.way_out)) {
+      ++score;
+    }
+  }
+  return score;
+}
+
+/// The placement with most useful cars, over turns by right angles and a grid of shifts; none where
+/// no placement has any.
+std::optional<std::vector<Slot>> SearchPlacement(const std::vector<Slot>& slots,
+                                                 const HalvCourse& course, const Box& driven) {
+  constexpr double kBeyond = 12;  // the course may leave the lot by this much [m]
+  // Of the grid: its step [m], and the most steps along a side. A wider lot gets wider steps.
+  constexpr double kStep = 2, kMaxSteps = 150;
+  const Legs legs = LegsOf(course);
+  std::optional<std::vector<Slot>> best;
+  int best_score = 0;
+  const double grain = Grain(slots);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const std::vector<Slot> turned = SeenFrom(slots, 0, 0, grain + 0.5 * M_PI * quarter);
+    const Box lot = BoxOf(turned);
+    const double step =
+        std::max(kStep, std::max(lot.right - lot.left, lot.front - lot.back) / kMaxSteps);
+    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond;
+         x += step) {
+      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond;
+           z += step) {
+        std::vector<Slot> placed = SeenFrom(turned, x, z, 0);
+        const int score = CountUseful(placed, course, legs);
+        if (score <= best_score) continue;
+        best_score = score;
+        best = std::move(placed);
+      }
+    }
+  }
+  return best;
+}
+
+[[noreturn]] void FailTooSmall(const Box& driven, const Box& lot) {
+  const auto metres = [](double a, double b) {
+    return std::to_string(static_cast<int>(std::lround(b - a)));
+  };
+  throw Error(ErrorKind::kUsage,
+              "the path leaves the lot: it needs " + metres(driven.left, driven.right) + " m x " +
+                  metres(driven.back, driven.front) + " m, the cars stand on " +
+                  metres(lot.left, lot.right) + " m x " + metres(lot.back, lot.front) +
+                  " m; take a smaller --size, another --case or another layout");
 }
 
 }  // namespace
@@ -129,59 +205,11 @@ LayoutFile ReadLayout(const std::string& path) {
 }
 
 PlacedLayout PlaceLayout(const std::vector<Slot>& slots, const HalvCourse& course) {
-  constexpr double kBeyond = 12;  // the course may leave the lot by so much
-  // metres, coarser where the lot is wider than so many steps
-  constexpr double kGrid = 2, kSteps = 150;
-  constexpr std::size_t kEvery = 5;  // of the course's points
-  std::vector<Path::Point> way_out, last_leg;
-  for (std::size_t i = 0; i < course.points.size(); i += kEvery) {
-    const double s =
-        course.path.length() * static_cast<double>(i) / static_cast<double>(course.points.size());
-    if (s < course.return_m) way_out.push_back(course.points[i]);
-    if (s > course.last_leg_m) last_leg.push_back(course.points[i]);
-  }
   const Box driven = BoxOf(course.points);
-
-  std::optional<std::vector<Slot>> best;
-  int best_score = 0;
-  const double grain = Grain(slots);
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    const std::vector<Slot> turned = SeenFrom(slots, 0, 0, grain + 0.5 * M_PI * quarter);
-    const Box lot = BoxOf(turned);
-    const double step =
-        std::max(kGrid, std::max(lot.right - lot.left, lot.front - lot.back) / kSteps);
-    for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond;
-         x += step) {
-      for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond;
-           z += step) {
-        std::vector<Slot> placed = SeenFrom(turned, x, z, 0);
-        int score = 0;
-        for (const Slot& slot : placed) {
-          if (!IsClear(slot, course.points)) {
-            --score;
-          } else if (Near(slot, last_leg) && Near(slot, way_out)) {
-            ++score;
-          }
-        }
-        if (score <= best_score) continue;
-        best_score = score;
-        best = std::move(placed);
-      }
-    }
-  }
-  if (!best) {
-    const Box lot = BoxOf(slots);
-    const auto metres = [](double a, double b) {
-      return std::to_string(static_cast<int>(std::lround(b - a)));
-    };
-    throw Error(ErrorKind::kUsage,
-                "the path leaves the lot: it needs " + metres(driven.left, driven.right) + " m x " +
-                    metres(driven.back, driven.front) + " m, the cars stand on " +
-                    metres(lot.left, lot.right) + " m x " + metres(lot.back, lot.front) +
-                    " m; take a smaller --size, another --case or another layout");
-  }
+  const std::optional<std::vector<Slot>> placed = SearchPlacement(slots, course, driven);
+  if (!placed) FailTooSmall(driven, BoxOf(slots));
   PlacedLayout result;
-  for (const Slot& slot : *best) {
+  for (const Slot& slot : *placed) {
     if (IsClear(slot, course.points)) {
       result.slots.push_back(slot);
     } else {

@@ -35,7 +35,7 @@ TEST(Mesh, BoxFacesOutwards) {
 
 TEST(Mesh, RoundThingsHaveRoundNormalsAndSharpEdges) {
   Mesh mesh;
-  AddCone(mesh, {0, 0, 0}, {0, 0, 2}, 1, 1, 24, 0);
+  AddCone(mesh, {{0, 0, 0}, 1}, {{0, 0, 2}, 1}, 24, 0);
   ComputeNormals(mesh);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (int corner = 0; corner < 3; ++corner) {

@@ -14,8 +14,8 @@ TEST(Noise, IsContinuousAlsoAcrossZero) {
 }
 
 TEST(Noise, FinerThanAPixelFadesOut) {
-  EXPECT_NE(Fractal(0.3f, 0.4f, 1, 10, 4, 0.001f), 0);
-  EXPECT_EQ(Fractal(0.3f, 0.4f, 1, 10, 4, 0.2f), 0);
+  EXPECT_NE(Fractal(0.3f, 0.4f, 1, {10, 4}, 0.001f), 0);
+  EXPECT_EQ(Fractal(0.3f, 0.4f, 1, {10, 4}, 0.2f), 0);
 }
 
 TEST(Noise, OtherSeedsAreOtherNumbers) {
