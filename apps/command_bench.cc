@@ -26,72 +26,80 @@ int RunBench(BenchArguments& arguments, const Console& console) {
   return 0;
 }
 
+void AddTableOptions(CLI::App& command, BenchArguments& a) {
+  command
+      .add_option("NAME", a.name,
+                  "table1, table2, table3, attempts, pr, viewpoint, ablation, or all")
+      ->required()
+      ->check(CLI::IsMember(
+          {"table1", "table2", "table3", "attempts", "pr", "viewpoint", "ablation", "all"}));
+  command.add_option("--out", a.out, "folder of results; what is there is not measured again")
+      ->capture_default_str();
+  command.add_option("--seeds", a.seeds, "so many worlds of each case")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_option("--cases", a.cases, "cases of HALV-sim")
+      ->check(CLI::Range(1, 4))
+      ->delimiter(',');
+  command
+      .add_option("--viewpoints", a.viewpoints,
+                  "viewpoint: besides the cases, small loops that meet themselves at these "
+                  "angles, LOW-HIGH [deg]; "
+                  "they run whatever --cases is")
+      ->delimiter(',')
+      ->capture_default_str();
+  command.add_option("--methods", a.methods, "methods of table2, pr and viewpoint; default: all")
+      ->delimiter(',');
+  command.add_option("--baselines", a.baselines,
+                     "parameters of the other methods, see config/baselines.yaml");
+  command.add_option(
+      "--docs", a.docs,
+      "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
+}
+
+// What tables are made of, besides what HALV-sim makes.
+void AddInputOptions(CLI::App& command, BenchArguments& a) {
+  command
+      .add_option("--images", a.images,
+                  "folder of rendered sequences, lot-c1-s1 for case 1, seed 1, and so on "
+                  "(sslcd_sim halv --render); "
+                  "the appearance baseline, for table2, pr and viewpoint; "
+                  "the latter's worlds are called lot-v45-60-c4-s1 and so on")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option(
+          "--matches", a.matches,
+          "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, "
+          "and so on: "
+          "rows of query_frame match_frame confidence; a row of pr and a column of viewpoint")
+      ->check(CLI::ExistingDirectory);
+  command.add_option("--trajectories", a.trajectories,
+                     "NAME=FOLDER: what another system has made of the same sequences, TUM rows "
+                     "in FOLDER/lot-c1-s1.txt "
+                     "for case 1, seed 1, and so on; a row of table2");
+  command
+      .add_option("--layout", a.layout, "JSON file of parked cars, for attempts on a real car park")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option(
+          "--kitti", a.kitti,
+          "KITTI's tracking benchmark with orbslam3_poses and folders of detections, for table1")
+      ->check(CLI::ExistingDirectory);
+  command
+      .add_option("--detections", a.detections,
+                  "folders of detections in it; default: det_stereo_grade_car and "
+                  "det_pointrcnn_car, if there")
+      ->delimiter(',');
+}
+
 }  // namespace
 
 Command AddBenchCommand(CLI::App& app, Console& console) {
   CLI::App* command = app.add_subcommand(
       "bench", "the paper's tables and curves: sslcd, the paper and other methods");
   const auto a = std::make_shared<BenchArguments>();
-  command
-      ->add_option("NAME", a->name,
-                   "table1, table2, table3, attempts, pr, viewpoint, ablation, or all")
-      ->required()
-      ->check(CLI::IsMember(
-          {"table1", "table2", "table3", "attempts", "pr", "viewpoint", "ablation", "all"}));
-  command->add_option("--out", a->out, "folder of results; what is there is not measured again")
-      ->capture_default_str();
-  command->add_option("--seeds", a->seeds, "so many worlds of each case")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--cases", a->cases, "cases of HALV-sim")
-      ->check(CLI::Range(1, 4))
-      ->delimiter(',');
-  command
-      ->add_option("--viewpoints", a->viewpoints,
-                   "viewpoint: besides the cases, small loops that meet themselves at these "
-                   "angles, LOW-HIGH [deg]; "
-                   "they run whatever --cases is")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--methods", a->methods, "methods of table2, pr and viewpoint; default: all")
-      ->delimiter(',');
-  command->add_option("--baselines", a->baselines,
-                      "parameters of the other methods, see config/baselines.yaml");
-  command
-      ->add_option("--images", a->images,
-                   "folder of rendered sequences, lot-c1-s1 for case 1, seed 1, and so on "
-                   "(sslcd_sim halv --render); "
-                   "the appearance baseline, for table2, pr and viewpoint; "
-                   "the latter's worlds are called lot-v45-60-c4-s1 and so on")
-      ->check(CLI::ExistingDirectory);
-  command
-      ->add_option(
-          "--matches", a->matches,
-          "folder with matched image points (SuperGlue's, say), lot-c1-s1.txt for case 1, seed 1, "
-          "and so on: "
-          "rows of query_frame match_frame confidence; a row of pr and a column of viewpoint")
-      ->check(CLI::ExistingDirectory);
-  command->add_option("--trajectories", a->trajectories,
-                      "NAME=FOLDER: what another system has made of the same sequences, TUM rows "
-                      "in FOLDER/lot-c1-s1.txt "
-                      "for case 1, seed 1, and so on; a row of table2");
-  command
-      ->add_option("--layout", a->layout,
-                   "JSON file of parked cars, for attempts on a real car park")
-      ->check(CLI::ExistingFile);
-  command
-      ->add_option(
-          "--kitti", a->kitti,
-          "KITTI's tracking benchmark with orbslam3_poses and folders of detections, for table1")
-      ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("--detections", a->detections,
-                   "folders of detections in it; default: det_stereo_grade_car and "
-                   "det_pointrcnn_car, if there")
-      ->delimiter(',');
-  command->add_option(
-      "--docs", a->docs,
-      "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
+  AddTableOptions(*command, *a);
+  AddInputOptions(*command, *a);
   AddThreads(*command, a->threads, 0,
              "runs at a time; the figures but times do not depend on it; 0: all cores");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");

@@ -85,19 +85,22 @@ SequenceFiles SequenceFilesOf(const Dataset& dataset) {
   return files;
 }
 
-int Detect(DetectArguments& a, const Console& console) {
-  a.images.AddTo(a.config);
-  const Configuration given = a.config.Load();  // wrong ones first
-  const bool odometry_alone = a.request.odometry == "stereo" && !a.images.detects() &&
-                              a.images.embedder.empty() && given.vision.detector.empty();
-  if (odometry_alone && a.overlays)
-    throw Error(ErrorKind::kUsage,
-                "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
-                "leave it out");
-  a.request.detections_policy = PartPolicy::kIgnored;
-  ChooseOdometry(a.request);
-  Dataset dataset = LoadDataset(a.request);
+bool MakesOdometryAlone(const DetectArguments& a, const VisionOptions& vision) {
+  return a.request.odometry == "stereo" && !a.images.detects() && a.images.embedder.empty() &&
+         vision.detector.empty();
+}
+
+Dataset LoadWithoutDetections(DatasetRequest& request) {
+  request.detections_policy = PartPolicy::kIgnored;
+  ChooseOdometry(request);
+  Dataset dataset = LoadDataset(request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
+  return dataset;
+}
+
+// Throws Error(kUsage) where writing would replace what is read, or leave a ground truth of other
+// frames beside it.
+void CheckOutput(const DetectArguments& a, const Dataset& dataset) {
   const fs::path out = a.out;
   RefuseInput(out, dataset);
   if (a.force && !dataset.groundtruth && fs::exists(out / "groundtruth.txt"))
@@ -107,11 +110,57 @@ int Detect(DetectArguments& a, const Console& console) {
             ": would be of other frames, and the dataset has none to put in its place; move it");
   RefuseOverwriting({a.images.boxes, a.config.file},
                     {(out / "detections.txt").string(), (out / "config.yaml").string()});
+}
+
+// Appends frames to `files` until there are no more, or ctrl-C, or an error, which is returned: the
+// frames before it are not lost.
+std::optional<Error> CollectFrames(ImageFrontend& frontend, int total, const Console& console,
+                                   SequenceFiles& files) {
+  std::optional<Error> failure;
+  CatchInterrupt();
+  while (!Interrupted()) {
+    std::optional<Frame> frame = NextFrame(frontend, files.detections.size(), failure);
+    if (!frame) break;
+    files.odometry.stamps.push_back(frame->stamp);
+    files.odometry.poses.push_back(frame->T_odom_cam);
+    files.detections.push_back(std::move(frame->detections));
+    console.Progress("frame", static_cast<int>(files.detections.size()), total);
+  }
+  console.EndProgress();
+  return failure;
+}
+
+// The configuration that maps what was written.
+std::string ResolvedConfig(Configuration configuration, const ImageRequest& request) {
+  if (MeasuresByStereo(request, configuration.vision))
+    configuration.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
+  return DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
+}
+
+// What was written, and the command that maps it.
+std::string Written(const std::string& out, bool odometry_alone) {
+  return "wrote " + out +
+         (odometry_alone ? "; map it with detections: sslcd_run run "
+                         : "; map it with: sslcd_run run ") +
+         out + " --config " + (fs::path(out) / "config.yaml").string() +
+         (odometry_alone ? " --detections FILE" : "");
+}
+
+int Detect(DetectArguments& a, const Console& console) {
+  a.images.AddTo(a.config);
+  const Configuration given = a.config.Load();  // wrong ones first
+  const bool odometry_alone = MakesOdometryAlone(a, given.vision);
+  if (odometry_alone && a.overlays)
+    throw Error(ErrorKind::kUsage,
+                "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
+                "leave it out");
+  Dataset dataset = LoadWithoutDetections(a.request);
+  CheckOutput(a, dataset);
+  const fs::path out = a.out;
   PrepareSequenceFolder(out, a.force);
   const bool fresh = fs::is_empty(out);
   const ImageRequest request = a.images.RequestFor(dataset, !odometry_alone, given);
   const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
-  const int total = static_cast<int>(dataset.frames.size());
 
   const Camera camera = dataset.camera.value_or(Camera());
   Overlays overlays(out / "overlays");
@@ -126,17 +175,8 @@ int Detect(DetectArguments& a, const Console& console) {
                                : "odometry: made from the images");
 
   SequenceFiles files = SequenceFilesOf(dataset);
-  std::optional<Error> failure;  // what ended it early: the frames before it are not lost
-  CatchInterrupt();
-  while (!Interrupted()) {
-    std::optional<Frame> frame = NextFrame(frontend, files.detections.size(), failure);
-    if (!frame) break;
-    files.odometry.stamps.push_back(frame->stamp);
-    files.odometry.poses.push_back(frame->T_odom_cam);
-    files.detections.push_back(std::move(frame->detections));
-    console.Progress("frame", static_cast<int>(files.detections.size()), total);
-  }
-  console.EndProgress();
+  const std::optional<Error> failure =
+      CollectFrames(frontend, static_cast<int>(dataset.frames.size()), console, files);
   const FrontendReport report = frontend.Finish();
   if (Interrupted()) {
     Log(LogLevel::kWarning, "interrupted: nothing but overlays is written");
@@ -149,17 +189,11 @@ int Detect(DetectArguments& a, const Console& console) {
     throw *failure;
   }
   WarnOfMissingColours(files.detections);
-  Configuration resolved = configuration;
-  if (MeasuresByStereo(request, configuration.vision))
-    resolved.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
-  files.config_yaml = DumpConfig([&](FieldVisitor& v) { DescribeFields(v, resolved); }, false);
+  files.config_yaml = ResolvedConfig(configuration, request);
   WriteSequenceFiles(out, files);
   overlays.RemoveOthers();
-  console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\nwrote " + a.out +
-              (odometry_alone ? "; map it with detections: sslcd_run run "
-                              : "; map it with: sslcd_run run ") +
-              a.out + " --config " + (out / "config.yaml").string() +
-              (odometry_alone ? " --detections FILE" : ""));
+  console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\n" +
+              Written(a.out, odometry_alone));
   if (failure) {
     Log(LogLevel::kWarning, "stopped by an error: " + a.out + " holds the frames before it (" +
                                 std::to_string(files.detections.size()) + ")");
