@@ -86,6 +86,13 @@ void LayoutIndex::Build() {
   BuildPairs();
 }
 
+// One update: the indices whose objects have moved; and whether all lists are rebuilt at its end,
+// so that none is kept up to date meanwhile.
+struct LayoutIndex::Change {
+  bool rebuild = false;
+  std::vector<int> touched;
+};
+
 void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
                          const std::vector<int>& removed) {
   if (index_of_.empty())
@@ -94,60 +101,70 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
   const auto gone = std::count_if(removed.begin(), removed.end(),
                                   [&](int id) { return index_of_.count(id) > 0; });
   const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
-  const bool anew = triangles_ == nullptr || kFewOf * changes > objects_.size();
-  std::vector<int> touched;
-  const auto leave = [&](int i) {
-    touched.push_back(i);
-    if (!anew) Leave(i);
-  };
-  const auto enter = [&](int i) {
-    touched.push_back(i);
-    if (!anew) Enter(i);
-  };
-  const auto remove = [&](int id) {  // the last one takes its place
-    const auto known = index_of_.find(id);
-    if (known == index_of_.end()) return;
-    const int place = known->second, last = static_cast<int>(objects_.size()) - 1;
-    index_of_.erase(known);
-    if (!anew) Count(place, -1);
-    leave(place);
-    if (place != last) {
-      leave(last);
-      index_of_[objects_[last].id] = place;
-      objects_[place] = std::move(objects_[last]);
-      enter(place);
-    }
-    objects_.pop_back();
-    points_.pop_back();
-  };
-  for (const int id : removed) remove(id);
+  Change change;
+  change.rebuild = triangles_ == nullptr || kFewOf * changes > objects_.size();
+  for (const int id : removed) Remove(id, change);
   for (const LayoutObject& object : changed) {
-    if (!object.position.allFinite()) {
-      remove(object.id);
-      continue;
-    }
-    const auto [place, is_new] = index_of_.insert({object.id, static_cast<int>(objects_.size())});
-    const int i = place->second;
-    const bool stays = !is_new && SamePoint(objects_[i], object);
-    if (is_new) {
-      objects_.emplace_back();
-      points_.emplace_back();
+    if (object.position.allFinite()) {
+      Put(object, change);
     } else {
-      if (!anew) Count(i, -1);
-      if (!stays) leave(i);
+      Remove(object.id, change);
     }
-    objects_[i] = object;
-    if (!anew) Count(i, 1);
-    if (!stays) enter(i);
   }
-  if (anew) {
+  if (change.rebuild) {
     std::stable_sort(objects_.begin(), objects_.end(),
                      [](const LayoutObject& a, const LayoutObject& b) { return a.id < b.id; });
     Build();
   } else {
     Judge();
-    triangles_->Update(*this, std::move(touched));
+    triangles_->Update(*this, std::move(change.touched));
   }
+}
+
+// The last object takes the place of the one that goes.
+void LayoutIndex::Remove(int id, Change& change) {
+  const auto known = index_of_.find(id);
+  if (known == index_of_.end()) return;
+  const int place = known->second, last = static_cast<int>(objects_.size()) - 1;
+  index_of_.erase(known);
+  change.touched.push_back(place);
+  if (!change.rebuild) {
+    Count(place, -1);
+    Leave(place);
+  }
+  if (place != last) {
+    change.touched.push_back(last);
+    if (!change.rebuild) Leave(last);
+    index_of_[objects_[last].id] = place;
+    objects_[place] = std::move(objects_[last]);
+    change.touched.push_back(place);
+    if (!change.rebuild) Enter(place);
+  }
+  objects_.pop_back();
+  points_.pop_back();
+}
+
+// Adds an object, or replaces the one of its id.
+void LayoutIndex::Put(const LayoutObject& object, Change& change) {
+  const auto [place, is_new] = index_of_.insert({object.id, static_cast<int>(objects_.size())});
+  const int i = place->second;
+  const bool moves = is_new || !SamePoint(objects_[i], object);
+  if (is_new) {
+    objects_.emplace_back();
+    points_.emplace_back();
+  }
+  if (moves) change.touched.push_back(i);
+  if (change.rebuild) {
+    objects_[i] = object;
+    return;
+  }
+  if (!is_new) {
+    Count(i, -1);
+    if (moves) Leave(i);
+  }
+  objects_[i] = object;
+  Count(i, 1);
+  if (moves) Enter(i);
 }
 
 // What does not depend on where an object is.

@@ -117,6 +117,9 @@ class LayoutIndex {
   void Build();
   void BuildPairs();
   void SortPairs(const std::vector<ObjectPair>& found);
+  struct Change;  // what an update has touched
+  void Remove(int id, Change& change);
+  void Put(const LayoutObject& object, Change& change);
   void Count(int object, int by);
   void Enter(int object);
   void Leave(int object);

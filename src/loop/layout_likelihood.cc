@@ -129,7 +129,9 @@ void LayoutLikelihood::PrepareHeadings() {
     double sum = 0;
     for (const LayoutObject& object : local_)
       if (HasHeading(object)) sum += under(object, turn);
-    if (sum > likeliest) likeliest = sum, best = turn;
+    if (sum <= likeliest) continue;
+    likeliest = sum;
+    best = turn;
   }
   for (const LayoutObject& object : local_)
     chance_heading_.push_back(HasHeading(object) ? under(object, best) : 0.);
@@ -212,20 +214,18 @@ int LayoutLikelihood::OnMap(const YawShift& pose) const {
       }));
 }
 
-// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what
-// the shares of mapped and of seen objects say.
-LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view,
-                                   int on_map, double sigma) const {
+// Candidates that are worth a match, the most telling first. With the horizontal distance d and the
+// vertical one z between the objects, the map's density rho and the share w of wrong heights:
+//   gain = log(N2(d; sigma) / rho) + log(w + (1 - w) N(z; sigma_z) / N(z; background_z)) + semantic
+std::vector<LayoutLikelihood::Ranked> LayoutLikelihood::RankByGain(
+    const std::vector<Candidate>& candidates, double sigma) const {
+  constexpr double kRoundOff = 1e-9;  // [nats]
   const double sigma_z = HeightSigma(sigma),
                background_z = std::hypot(sigma_z, index_.height_spread());
   const double constant = -std::log(2 * M_PI * sigma * sigma * index_.density());
   const double per_z2 = 0.5 / (background_z * background_z) - 0.5 / (sigma_z * sigma_z),
                wrong = options_.wrong_height;
-  const double most_by_height = std::log(wrong + (1 - wrong) * background_z / sigma_z) + 1e-9;
-  struct Ranked {
-    double gain;
-    const Candidate* candidate;
-  };
+  const double most_by_height = std::log(wrong + (1 - wrong) * background_z / sigma_z) + kRoundOff;
   std::vector<Ranked> ranked;
   ranked.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
@@ -239,6 +239,14 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
   std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.gain != b.gain ? a.gain > b.gain : a.candidate < b.candidate;
   });
+  return ranked;
+}
+
+// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what
+// the shares of mapped and of seen objects say. One more match after n of N objects changes the
+// Beta-binomial by log((n + a) / (N - n - 1 + b)).
+LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view,
+                                   int on_map, double sigma) const {
   const double n_local = on_map;
   double all = in_view;
   double score = none_mapped_[on_map];
@@ -249,7 +257,7 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
   fit.should_see = static_cast<int>(all);
   std::vector<std::pair<int, int>>& matches = fit.matches;
   std::size_t that_pay = 0;
-  for (const auto& [gain, candidate] : ranked) {
+  for (const auto& [gain, candidate] : RankByGain(candidates, sigma)) {
     const int local = candidate->local, global = candidate->global;
     const bool taken = std::any_of(matches.begin(), matches.end(), [&](const auto& match) {
       return match.first == local || match.second == global;

@@ -15,6 +15,9 @@
 
 namespace sslcd {
 
+/// Rounds of LayoutLikelihood::Refine with hard matches: the gate then is half as wide. Set by hand.
+inline constexpr int kRefineRounds = 4;
+
 /// How much better the local layout is explained by "this is the map, seen under this pose" than by
 /// "these are other objects, strewn at the map's density". A log likelihood ratio, in nats: it
 /// speaks the same language on dense lots and lonely poles, and knows rare labels from common ones.
@@ -44,6 +47,10 @@ class LayoutLikelihood {
     double semantic_gain;  // label, heading, appearance [nats]
     bool in_view;          // the map's object lies among the local ones
   };
+  struct Ranked {
+    double gain;  // what the match tells by itself [nats]
+    const Candidate* candidate;
+  };
   struct Edge {  // of the hull
     Vec2 from, along;
     double least;  // cross product with it of what is inside
@@ -64,6 +71,7 @@ class LayoutLikelihood {
   int OnMap(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
+  std::vector<Ranked> RankByGain(const std::vector<Candidate>& candidates, double sigma) const;
   LayoutFit Assign(const std::vector<Candidate>& candidates, int in_view, int on_map,
                    double sigma) const;
 

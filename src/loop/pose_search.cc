@@ -32,7 +32,7 @@ std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
     pose.yaw = std::atan2(start.sine, start.cosine);
     pose.t = Vec3::Zero();
     pose.t = Vec3(start.x, start.y, start.z) - Apply(pose, centre);
-    hypothesis.fit = likelihood.Refine(pose, 4);
+    hypothesis.fit = likelihood.Refine(pose, kRefineRounds);
     if (static_cast<int>(hypothesis.fit.matches.size()) >= options.min_matches)
       found.push_back(hypothesis);
   }

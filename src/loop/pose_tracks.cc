@@ -18,6 +18,22 @@ Vec3 CentreOf(const std::vector<LayoutObject>& local) {
   return centre;
 }
 
+// Do two poses take a point to about the same place, under about the same yaw?
+bool AreNear(const YawShift& a, const YawShift& b, const Vec3& point, double distance_m,
+             double angle_rad) {
+  return (Apply(a, point) - Apply(b, point)).head<2>().norm() < distance_m &&
+         std::abs(WrapAngle(a.yaw - b.yaw)) < angle_rad;
+}
+
+// How many different objects the local maps of some attempts had.
+double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
+  std::vector<int> all;
+  for (const PoseTrack::Vote& vote : votes)
+    all.insert(all.end(), vote.objects.begin(), vote.objects.end());
+  std::sort(all.begin(), all.end());
+  return static_cast<double>(std::unique(all.begin(), all.end()) - all.begin());
+}
+
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
@@ -25,63 +41,67 @@ void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
                "attempts farther back on the path than this do not count for a track");
 }
 
+// One attempt: what all its tracks share, and the tracks so far.
+struct PoseTracks::Attempt {
+  double path_m;
+  std::vector<int> objects;  // of the local map, by id
+  Vec3 centre;               // of the local map; poses are compared there
+  const PoseSearchOptions& search;
+  const Prior& prior;
+  // Tracks that are as old have seen the same local maps: by the first vote and the number of
+  // votes, how many different objects these had.
+  std::map<std::pair<double, std::size_t>, double> different_since;
+  std::vector<PoseTrack> tracks;
+
+  double Different(const std::vector<PoseTrack::Vote>& votes) {
+    const auto [known, fresh] = different_since.insert({{votes.front().path_m, votes.size()}, 0});
+    if (fresh) known->second = CountObjects(votes);
+    return known->second;
+  }
+};
+
+void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit,
+                         Attempt& attempt) const {
+  for (const PoseTrack& other : attempt.tracks)
+    if (AreNear(other.pose, pose, attempt.centre, attempt.search.distinct_m,
+                attempt.search.distinct_rad))
+      return;
+  track.pose = pose;
+  track.fit = fit;
+  track.votes.push_back({attempt.path_m, fit.score, attempt.objects});
+  while (attempt.path_m - track.votes.front().path_m > options_.agree_m)
+    track.votes.erase(track.votes.begin());
+  double scores = 0, objects = 0;
+  for (const PoseTrack::Vote& vote : track.votes) {
+    scores += vote.score;
+    objects += static_cast<double>(vote.objects.size());
+  }
+  track.prior = attempt.prior(pose, fit);
+  track.evidence =
+      track.prior + fit.evidence - fit.score + scores * attempt.Different(track.votes) / objects;
+  attempt.tracks.push_back(std::move(track));
+}
+
 void PoseTracks::Update(const LayoutLikelihood& likelihood,
                         const std::vector<PoseHypothesis>& found, const PoseSearchOptions& search,
                         double path_m, const Prior& prior) {
   const std::vector<LayoutObject>& local = likelihood.local();
   if (local.empty()) return;
-  const Vec3 centre = CentreOf(local);
-  const auto near = [&](const YawShift& a, const YawShift& b, double distance, double angle) {
-    return (Apply(a, centre) - Apply(b, centre)).head<2>().norm() < distance &&
-           std::abs(WrapAngle(a.yaw - b.yaw)) < angle;
-  };
-  std::vector<int> ids;
-  for (const LayoutObject& object : local) ids.push_back(object.id);
-  // Tracks that are as old have seen the same local maps: how many different objects these had is
-  // counted once.
-  std::map<std::pair<double, std::size_t>, double> different_since;
-  const auto different = [&](const std::vector<PoseTrack::Vote>& votes) {
-    const auto [known, fresh] = different_since.insert({{votes.front().path_m, votes.size()}, 0});
-    if (fresh) {
-      std::vector<int> all;
-      for (const PoseTrack::Vote& vote : votes)
-        all.insert(all.end(), vote.objects.begin(), vote.objects.end());
-      std::sort(all.begin(), all.end());
-      known->second = static_cast<double>(std::unique(all.begin(), all.end()) - all.begin());
-    }
-    return known->second;
-  };
-  std::vector<PoseTrack> now;
-  const auto add = [&](PoseTrack track, const YawShift& pose, const LayoutFit& fit) {
-    for (const PoseTrack& other : now)
-      if (near(other.pose, pose, search.distinct_m, search.distinct_rad)) return;
-    track.pose = pose;
-    track.fit = fit;
-    track.votes.push_back({path_m, fit.score, ids});
-    while (path_m - track.votes.front().path_m > options_.agree_m)
-      track.votes.erase(track.votes.begin());
-    double scores = 0, objects = 0;
-    for (const PoseTrack::Vote& vote : track.votes) {
-      scores += vote.score;
-      objects += static_cast<double>(vote.objects.size());
-    }
-    track.prior = prior(pose, fit);
-    track.evidence =
-        track.prior + fit.evidence - fit.score + scores * different(track.votes) / objects;
-    now.push_back(std::move(track));
-  };
+  Attempt attempt{path_m, {}, CentreOf(local), search, prior, {}, {}};
+  for (const LayoutObject& object : local) attempt.objects.push_back(object.id);
   for (PoseTrack& track : tracks_) {
     YawShift pose = track.pose;
-    LayoutFit fit = likelihood.Refine(pose, 4);
-    if (!near(pose, track.pose, options_.step_m, options_.step_rad)) continue;
+    LayoutFit fit = likelihood.Refine(pose, kRefineRounds);
+    if (!AreNear(pose, track.pose, attempt.centre, options_.step_m, options_.step_rad)) continue;
     if (static_cast<int>(fit.matches.size()) < search.min_matches) continue;
-    add(std::move(track), pose, fit);
+    AddVote(std::move(track), pose, fit, attempt);
   }
   for (const PoseHypothesis& hypothesis : found) {
     PoseTrack track;
     track.id = next_id_++;
-    add(std::move(track), hypothesis.pose, hypothesis.fit);
+    AddVote(std::move(track), hypothesis.pose, hypothesis.fit, attempt);
   }
+  std::vector<PoseTrack>& now = attempt.tracks;
   std::stable_sort(now.begin(), now.end(),
                    [](const PoseTrack& a, const PoseTrack& b) { return a.evidence > b.evidence; });
   if (static_cast<int>(now.size()) > options_.max_tracks) now.resize(options_.max_tracks);

@@ -54,6 +54,10 @@ class PoseTracks {
   void Forget() { tracks_.clear(); }
 
  private:
+  struct Attempt;
+  /// The track goes on, or begins, at `pose`; not where a track of this attempt is already.
+  void AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit, Attempt& attempt) const;
+
   PoseTrackOptions options_;
   std::vector<PoseTrack> tracks_;
   int next_id_ = 0;
