@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@
 
 namespace sslcd {
 namespace {
+
+constexpr double kFarOff = 0.2;  // [m]
 
 struct Setup {
   double gap_m = 30, off_m = 0.2;
@@ -36,6 +39,78 @@ Pose Disturbed(const Pose& T, double off_m, std::mt19937& random) {
   return T * Pose::Exp(error);
 }
 
+// Of all pairs of a folder.
+struct Errors {
+  std::vector<double> right, down, ahead;  // [m]
+  std::vector<double> turn;                // [deg]
+  std::vector<double> normalised;          // squared errors by their covariances, over 6
+  int tried = 0, far_off = 0;
+};
+
+std::vector<double> PathOf(const std::vector<Pose>& poses, std::size_t count) {
+  std::vector<double> path{0};
+  for (std::size_t i = 1; i < count; ++i)
+    path.push_back(path[i - 1] + (poses[i].translation() - poses[i - 1].translation()).norm());
+  return path;
+}
+
+// The earlier frame whose view of the ground is nearest to that of frame `now`; `now` where none is
+// near.
+std::size_t FindPartner(const std::vector<Pose>& truth, const std::vector<double>& path,
+                        std::size_t now, const LoopViewOptions& views, double gap_m) {
+  const auto spot = [&](std::size_t i) { return Vec3(truth[i] * Vec3(0, 0, views.ahead_m)); };
+  double nearest = views.apart_m;
+  std::size_t old = now;
+  for (std::size_t j = 0; j < now && path[now] - path[j] >= gap_m; ++j) {
+    const double apart = (spot(j) - spot(now)).norm();
+    if (apart >= nearest) continue;
+    nearest = apart;
+    old = j;
+  }
+  return old;
+}
+
+std::optional<RelativePose> AlignFrames(const StereoFolder& input, const StereoCamera& camera,
+                                        std::size_t old, std::size_t now, const Pose& guess) {
+  cv::Mat images[4];
+  const std::string* const files[] = {&input.left[old], &input.right[old], &input.left[now],
+                                      &input.right[now]};
+  for (int k = 0; k < 4; ++k) images[k] = cv::imread(*files[k], cv::IMREAD_UNCHANGED);
+  return AlignGround({ViewOf(images[0]), ViewOf(images[1])}, {ViewOf(images[2]), ViewOf(images[3])},
+                     camera, guess, GroundOptions(), GroundAlignmentOptions());
+}
+
+void AddError(const Pose& truth, const RelativePose& found, Errors& errors) {
+  const Pose error = truth.inverse() * found.T_a_b;
+  errors.right.push_back(error.translation().x());
+  errors.down.push_back(error.translation().y());
+  errors.ahead.push_back(error.translation().z());
+  errors.turn.push_back(error.so3().Log().norm() * 180 / M_PI);
+  errors.normalised.push_back(
+      error.Log().dot(Pose::Matrix6(found.covariance.inverse()) * error.Log()) / 6);
+  errors.far_off += error.translation().norm() > kFarOff;
+}
+
+void PrintRow(const std::string& folder, const Errors& errors) {
+  std::printf("%-40s pairs %d  aligned %zu  off by %.1f m or more %d", folder.c_str(), errors.tried,
+              errors.turn.size(), kFarOff, errors.far_off);
+  const auto print = [](const char* name, std::vector<double> values) {
+    const double bias = Median(values);
+    for (double& value : values) value = std::abs(value);
+    std::printf("  %s %.3f (bias %+.3f)", name, Median(values), bias);
+  };
+  if (!errors.turn.empty()) {
+    print("right", errors.right);
+    print("down", errors.down);
+    print("ahead", errors.ahead);
+    std::printf("  turn %.3f deg  over covariance %.2f %.2f", Median(errors.turn),
+                Median(errors.normalised),
+                std::accumulate(errors.normalised.begin(), errors.normalised.end(), 0.) /
+                    static_cast<double>(errors.normalised.size()));
+  }
+  std::printf("\n");
+}
+
 void Measure(const std::string& folder, const std::string& poses, const Setup& setup) {
   const StereoFolder input = OpenStereoFolder(folder, poses);
   const std::size_t count = std::min(input.left.size(), input.truth.size());
@@ -43,60 +118,25 @@ void Measure(const std::string& folder, const std::string& poses, const Setup& s
   StereoCamera camera = input.camera;
   camera.disparity_at_infinity = CheckRig(camera, count, Loader(input), {}).disparity_at_infinity;
   LoopViewOptions views;
-  const GroundOptions ground;
   const int rows = cv::imread(input.left[0], cv::IMREAD_UNCHANGED).rows;
-  views.ahead_m = AlignmentRange(camera.left, rows, ground.height_m).value_or(views.ahead_m);
-  const auto spot = [&](std::size_t i) { return Vec3(input.truth[i] * Vec3(0, 0, views.ahead_m)); };
-  std::vector<double> path{0}, right, down, ahead, turn, normalised;
+  views.ahead_m =
+      AlignmentRange(camera.left, rows, GroundOptions().height_m).value_or(views.ahead_m);
+  const std::vector<double> path = PathOf(input.truth, count);
+  Errors errors;
   std::mt19937 random(1);
-  int tried = 0, far_off = 0;
   double last = -views.every_m;
   for (std::size_t i = 0; i < count; ++i) {
-    if (i > 0)
-      path.push_back(path[i - 1] +
-                     (input.truth[i].translation() - input.truth[i - 1].translation()).norm());
     if (path[i] < last + views.every_m) continue;
-    double nearest = views.apart_m;
-    std::size_t old = i;
-    for (std::size_t j = 0; j < i && path[i] - path[j] >= setup.gap_m; ++j) {
-      const double apart = (spot(j) - spot(i)).norm();
-      if (apart < nearest) nearest = apart, old = j;
-    }
+    const std::size_t old = FindPartner(input.truth, path, i, views, setup.gap_m);
     if (old == i) continue;
     last = path[i];
-    ++tried;
-    cv::Mat images[4];
-    const std::string* const files[] = {&input.left[old], &input.right[old], &input.left[i],
-                                        &input.right[i]};
-    for (int k = 0; k < 4; ++k) images[k] = cv::imread(*files[k], cv::IMREAD_UNCHANGED);
+    ++errors.tried;
     const Pose T_old_new = input.truth[old].inverse() * input.truth[i];
-    const auto found = AlignGround(
-        {ViewOf(images[0]), ViewOf(images[1])}, {ViewOf(images[2]), ViewOf(images[3])}, camera,
-        Disturbed(T_old_new, setup.off_m, random), ground, GroundAlignmentOptions());
-    if (!found) continue;
-    const Pose error = T_old_new.inverse() * found->T_a_b;
-    right.push_back(error.translation().x());
-    down.push_back(error.translation().y());
-    ahead.push_back(error.translation().z());
-    turn.push_back(error.so3().Log().norm() * 180 / M_PI);
-    normalised.push_back(error.Log().dot(Pose::Matrix6(found->covariance.inverse()) * error.Log()) /
-                         6);
-    far_off += error.translation().norm() > 0.2;
+    const auto found =
+        AlignFrames(input, camera, old, i, Disturbed(T_old_new, setup.off_m, random));
+    if (found) AddError(T_old_new, *found, errors);
   }
-  std::printf("%-40s pairs %d  aligned %zu  off by 0.2 m or more %d", folder.c_str(), tried,
-              turn.size(), far_off);
-  const auto print = [](const char* name, std::vector<double> errors) {
-    const double bias = Median(errors);
-    for (double& error : errors) error = std::abs(error);
-    std::printf("  %s %.3f (bias %+.3f)", name, Median(errors), bias);
-  };
-  if (!turn.empty()) {
-    print("right", right), print("down", down), print("ahead", ahead);
-    std::printf("  turn %.3f deg  over covariance %.2f %.2f", Median(turn), Median(normalised),
-                std::accumulate(normalised.begin(), normalised.end(), 0.) /
-                    static_cast<double>(normalised.size()));
-  }
-  std::printf("\n");
+  PrintRow(folder, errors);
 }
 
 }  // namespace
@@ -110,8 +150,10 @@ int main(int argc, char** argv) try {
     if (option != "--path" && option != "--off") break;
     (option == "--path" ? setup.gap_m : setup.off_m) = std::stod(argv[first + 1]);
   }
-  if (first >= argc || argv[first][0] == '-')
-    return std::fprintf(stderr, "usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...\n"), 2;
+  if (first >= argc || argv[first][0] == '-') {
+    std::fprintf(stderr, "usage: ground_bench [--path M] [--off M] FOLDER[:POSES] ...\n");
+    return 2;
+  }
   for (int i = first; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t colon = argument.find(':');
@@ -120,5 +162,6 @@ int main(int argc, char** argv) try {
   }
   return 0;
 } catch (const std::exception& error) {
-  return std::fprintf(stderr, "%s\n", error.what()), 1;
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -60,7 +60,10 @@ int IdentityOf(const std::map<int, Box2d>& visible, const Box2d& box) {
   double most = 0.5;
   for (const auto& [identity, other] : visible) {
     const double iou = Iou(box, other);
-    if (iou > most) most = iou, best = identity;
+    if (iou > most) {
+      most = iou;
+      best = identity;
+    }
   }
   return best;
 }
@@ -138,6 +141,53 @@ void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
       typical([](const Judged& j) { return j.yaw / j.sigmas.yaw; }));
 }
 
+constexpr double kNear = 25;                                 // [m]
+const std::vector<double> kEdges{0, 8, 12, 18, 25, 40, 80};  // of the bins of ranges [m]
+
+/// Boxes by their true range, and what became of them.
+struct Tally {
+  std::vector<std::vector<Judged>> bins{kEdges.size() - 1};
+  std::vector<int> counts = std::vector<int>(kEdges.size() - 1);
+  std::vector<Judged> near, all;
+  int near_boxes = 0, all_boxes = 0;
+  std::map<std::string, int> statuses;
+};
+
+/// Whether the box counts: its object is within the last bin.
+bool Add(const LiftedBox& lifted, const Pose& truth, const Vec3& dims, Tally& tally) {
+  const double range = truth.translation().norm();
+  const std::size_t bin =
+      std::upper_bound(kEdges.begin(), kEdges.end(), range) - kEdges.begin() - 1;
+  if (bin >= tally.bins.size()) return false;
+  ++tally.statuses[ToString(lifted.status)];
+  ++tally.counts[bin];
+  ++tally.all_boxes;
+  tally.near_boxes += range <= kNear;
+  if (lifted.status != LiftStatus::kLifted) return true;
+  const Judged judged = Judge(lifted, truth, dims);
+  tally.bins[bin].push_back(judged);
+  tally.all.push_back(judged);
+  if (range <= kNear) tally.near.push_back(judged);
+  return true;
+}
+
+void PrintTable(const Tally& tally) {
+  std::printf(
+      "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, "
+      "90 %% [deg] | "
+      "length, width, "
+      "height [m] | errors over sigmas: along, across, up, yaw "
+      "|\n|---|---|---|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < tally.bins.size(); ++i) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%.0f-%.0f", kEdges[i], kEdges[i + 1]);
+    Print(name, tally.bins[i], tally.counts[i]);
+  }
+  Print("0-25", tally.near, tally.near_boxes);
+  Print("all", tally.all, tally.all_boxes);
+  for (const auto& [status, count] : tally.statuses) std::printf("%s: %d\n", status.c_str(), count);
+}
+
 int Run(int argc, char** argv) {
   if (argc < 5)
     throw Error(ErrorKind::kUsage, "lift_bench SEQUENCE BOXES CASE SEED [EVERY [ROWS.csv]]");
@@ -152,13 +202,9 @@ int Run(int argc, char** argv) {
   LiftOptions options;
   options.ground.height_m = world.camera_height_m + 0.2;  // a wrong prior
 
-  const std::vector<double> edges{0, 8, 12, 18, 25, 40, 80};
-  std::vector<std::vector<Judged>> bins(edges.size() - 1);
-  std::vector<int> counts(bins.size());
-  std::vector<Judged> near, all;
-  int near_boxes = 0, all_boxes = 0, frames = 0;
+  Tally tally;
+  int frames = 0;
   double ms = 0;
-  std::map<std::string, int> statuses;
   std::FILE* rows = argc > 6 ? std::fopen(argv[6], "w") : nullptr;
   if (rows) std::fprintf(rows, "%s\n", kRowNames);
   for (const auto& [frame, list] : boxes) {
@@ -177,39 +223,14 @@ int Run(int argc, char** argv) {
       if (identity < 0) continue;
       const sim::WorldObject& object = world.objects[identity];
       const Pose truth = T_cam_world * object.PoseAt(frame);
-      const double range = truth.translation().norm();
-      const std::size_t bin =
-          std::upper_bound(edges.begin(), edges.end(), range) - edges.begin() - 1;
-      if (bin >= bins.size()) continue;
-      ++statuses[ToString(lifted[i].status)];
-      ++counts[bin];
-      ++all_boxes;
-      near_boxes += range <= 25;
-      if (rows) WriteRow(rows, frame, identity, lifted[i], truth, object.dims);
-      if (lifted[i].status != LiftStatus::kLifted) continue;
-      const Judged judged = Judge(lifted[i], truth, object.dims);
-      bins[bin].push_back(judged);
-      all.push_back(judged);
-      if (range <= 25) near.push_back(judged);
+      if (Add(lifted[i], truth, object.dims, tally) && rows)
+        WriteRow(rows, frame, identity, lifted[i], truth, object.dims);
     }
   }
   if (rows) std::fclose(rows);
-  std::printf(
-      "| range [m] | boxes | lifted | mean IoU | along bias, median [m], across, up | yaw median, "
-      "90 %% [deg] | "
-      "length, width, "
-      "height [m] | errors over sigmas: along, across, up, yaw "
-      "|\n|---|---|---|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%.0f-%.0f", edges[i], edges[i + 1]);
-    Print(name, bins[i], counts[i]);
-  }
-  Print("0-25", near, near_boxes);
-  Print("all", all, all_boxes);
-  for (const auto& [status, count] : statuses) std::printf("%s: %d\n", status.c_str(), count);
+  PrintTable(tally);
   std::printf("%d frames, %.1f boxes and %.1f ms each\n", frames,
-              all_boxes / std::max(1., double(frames)), ms / std::max(1, frames));
+              tally.all_boxes / std::max(1., double(frames)), ms / std::max(1, frames));
   return 0;
 }
 
