@@ -82,7 +82,10 @@ void Measure(const std::string& folder, const std::string& poses) {
 }  // namespace sslcd
 
 int main(int argc, char** argv) try {
-  if (argc < 2) return std::fprintf(stderr, "usage: odometry_bench FOLDER[:POSES] ...\n"), 2;
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: odometry_bench FOLDER[:POSES] ...\n");
+    return 2;
+  }
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t colon = argument.find(':');
@@ -91,5 +94,6 @@ int main(int argc, char** argv) try {
   }
   return 0;
 } catch (const std::exception& error) {
-  return std::fprintf(stderr, "%s\n", error.what()), 1;
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

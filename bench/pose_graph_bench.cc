@@ -72,7 +72,10 @@ void Kitti(const std::string& folder, const std::string& sequence) {
 
 int main(int argc, char** argv) {
   using namespace sslcd;
-  if (argc < 2) return std::fprintf(stderr, "usage: %s DATA_FOLDER [OUT_FOLDER]\n", argv[0]), 2;
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s DATA_FOLDER [OUT_FOLDER]\n", argv[0]);
+    return 2;
+  }
   const std::string data = argv[1];
   for (const std::string name : {"sphere2500", "parking-garage"}) {
     const std::string path = data + "/g2o/" + name + ".g2o";

@@ -14,7 +14,10 @@ int Nearest(const BinaryDescriptor& descriptor, const std::vector<BinaryDescript
   int best = 0, least = std::numeric_limits<int>::max();
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const int distance = HammingDistance(descriptor, centres[i]);
-    if (distance < least) least = distance, best = static_cast<int>(i);
+    if (distance < least) {
+      least = distance;
+      best = static_cast<int>(i);
+    }
   }
   return best;
 }
@@ -112,7 +115,10 @@ int Vocabulary::WordOf(const BinaryDescriptor& descriptor) const {
     int best = -1, least = std::numeric_limits<int>::max();
     for (const int child : nodes_[node].children) {
       const int distance = HammingDistance(descriptor, nodes_[child].centre);
-      if (distance < least) least = distance, best = child;
+      if (distance < least) {
+        least = distance;
+        best = child;
+      }
     }
     node = best;
   }

@@ -82,7 +82,10 @@ class Resection {
       for (std::size_t j = 0; j < query_.pixels.size(); ++j) {
         if ((query_.pixels[j] - pixel).cwiseAbs().maxCoeff() > options_.search_px) continue;
         const int distance = HammingDistance(old_.descriptors[i], query_.descriptors[j]);
-        if (distance < best.distance) best.query = static_cast<int>(j), best.distance = distance;
+        if (distance < best.distance) {
+          best.query = static_cast<int>(j);
+          best.distance = distance;
+        }
       }
       if (best.query < 0) continue;
       const auto [taken, is_new] = of_query.insert({best.query, best});
@@ -112,7 +115,8 @@ class Resection {
   static constexpr double kNearestM = 0.5;
 
   void Take(const std::vector<Pair>& pairs) {
-    points_.clear(), pixels_.clear();
+    points_.clear();
+    pixels_.clear();
     for (const Pair& pair : pairs) {
       const Vec3& point = *old_.points[pair.old];
       points_.emplace_back(point.x(), point.y(), point.z());
@@ -135,7 +139,10 @@ class Resection {
     for (int round = 0; round < kRounds; ++round) {
       std::vector<cv::Point3d> points;
       std::vector<cv::Point2d> pixels;
-      for (const int i : Agreeing()) points.push_back(points_[i]), pixels.push_back(pixels_[i]);
+      for (const int i : Agreeing()) {
+        points.push_back(points_[i]);
+        pixels.push_back(pixels_[i]);
+      }
       if (points.size() < kLeast) return false;
       cv::solvePnPRefineLM(points, pixels, K_, cv::noArray(), rotation_, translation_);
     }

@@ -54,7 +54,10 @@ PlaceMatcher PointMatchMatcher(const std::string& file, const PointMatchOptions&
     for (const auto& [frame, sum] : matches->second) {
       if (frame > query.old_frame || sum.matches < options.least_matches) continue;
       const double score = sum.confidence / sum.matches;
-      if (best.match_frame < 0 || score > best.score) best.match_frame = frame, best.score = score;
+      if (best.match_frame < 0 || score > best.score) {
+        best.match_frame = frame;
+        best.score = score;
+      }
     }
     if (best.match_frame < 0) return std::nullopt;
     best.accepted = best.score >= options.accept_score;

@@ -104,7 +104,10 @@ std::vector<double> ReadTimestamps(const std::string& path) {
                                    std::lround(part(0, 8, 2)));
     const double second =
         part(1, 0, 2) * 3600 + part(1, 3, 2) * 60 + part(1, 6, std::string_view::npos);
-    if (stamps.empty()) first_day = day, first_second = second;
+    if (stamps.empty()) {
+      first_day = day;
+      first_second = second;
+    }
     const double stamp = static_cast<double>(day - first_day) * 86400. + (second - first_second);
     if (!stamps.empty() && !(stamp > stamps.back()))
       row.Fail("the stamp does not come after the one before");

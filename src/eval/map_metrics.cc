@@ -31,7 +31,10 @@ std::optional<std::size_t> Nearest(const Cuboid& box, const std::vector<Cuboid>&
   std::optional<std::size_t> best;
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const double distance = HorizontalDistance(box, boxes[k]);
-    if (distance < gate) best = k, gate = distance;
+    if (distance < gate) {
+      best = k;
+      gate = distance;
+    }
   }
   return best;
 }
@@ -116,7 +119,10 @@ void PlaceObjects(const MapRun& run, Scenes& scenes) {
 
 class Mean {
  public:
-  void Add(double value) { sum_ += value, ++count_; }
+  void Add(double value) {
+    sum_ += value;
+    ++count_;
+  }
   int count() const { return count_; }
   std::optional<double> value() const {
     return count_ > 0 ? std::optional<double>(sum_ / count_) : std::nullopt;

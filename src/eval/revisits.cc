@@ -41,7 +41,10 @@ std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
     for (int old = 0; old < f && distance[old] < distance[f] - options.old_m; ++old) {
       const Vec3 apart = reference[old].translation() - reference[f].translation();
       const double horizontal = std::hypot(apart.x(), apart.z());
-      if (horizontal < revisit.distance_m) revisit.distance_m = horizontal, revisit.old_frame = old;
+      if (horizontal < revisit.distance_m) {
+        revisit.distance_m = horizontal;
+        revisit.old_frame = old;
+      }
     }
     if (revisit.old_frame < 0) continue;
     for (const auto& [identity, places] : seen) {

@@ -191,7 +191,10 @@ ErrorStats Summarise(std::vector<double> errors) {
   if (errors.empty()) return stats;
   const double n = static_cast<double>(errors.size());
   double sum = 0, squares = 0, variance = 0;
-  for (const double e : errors) sum += e, squares += e * e;
+  for (const double e : errors) {
+    sum += e;
+    squares += e * e;
+  }
   stats.mean = sum / n;
   for (const double e : errors) variance += (e - stats.mean) * (e - stats.mean);
   std::sort(errors.begin(), errors.end());

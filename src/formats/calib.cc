@@ -65,7 +65,10 @@ class Entries {
     const std::vector<double> P = Numbers(keys, 12);
     if (P.empty()) return std::nullopt;
     Camera camera;
-    camera.fx = P[0], camera.cx = P[2], camera.fy = P[5], camera.cy = P[6];
+    camera.fx = P[0];
+    camera.cx = P[2];
+    camera.fy = P[5];
+    camera.cy = P[6];
     const double depth = P[11];
     camera.offset =
         Vec3((P[3] - camera.cx * depth) / camera.fx, (P[7] - camera.cy * depth) / camera.fy, depth);

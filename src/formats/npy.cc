@@ -41,7 +41,8 @@ void ParseShape(const std::string& path, std::string_view text, NpyMatrix& matri
   if (shape.size() != 2)
     Fail(path,
          "expected an array of two dimensions, rows x dim, found " + std::to_string(shape.size()));
-  matrix.rows = shape[0], matrix.columns = shape[1];
+  matrix.rows = shape[0];
+  matrix.columns = shape[1];
 }
 
 template <class T>

@@ -70,8 +70,10 @@ std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const S
     const TopView to = SeeFromAbove(b.grey, camera.left, b.T_cam_ground * turned.inverse(), grid);
     cv::Mat sum(2 * search + 1, 2 * search + 1, CV_32F, cv::Scalar(0));
     int count = 0;
-    ForEachPatch(from, to, kHalf, search,
-                 [&](const cv::Rect&, const cv::Mat& scores) { sum += scores, ++count; });
+    ForEachPatch(from, to, kHalf, search, [&](const cv::Rect&, const cv::Mat& scores) {
+      sum += scores;
+      ++count;
+    });
     if (count < kFewest) continue;
     double score = 0;
     cv::Point at;
@@ -119,7 +121,8 @@ Pose FitMotion(std::vector<GroundPair>& pairs) {
       middle_a += weights[i] * pairs[i].in_a;
       middle_b += weights[i] * pairs[i].in_b;
     }
-    middle_a /= sum, middle_b /= sum;
+    middle_a /= sum;
+    middle_b /= sum;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Vec3 p = pairs[i].in_a - middle_a, q = pairs[i].in_b - middle_b;
       cosine += weights[i] * q.dot(p);

@@ -158,7 +158,11 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
     const auto next = at + 1;
     if (next != input.scan.end() && next->u - at->u < kGap * width) continue;
     const std::ptrdiff_t count = std::count_if(first, next, inside);
-    if (count > most) most = count, best_first = first, best_last = next;
+    if (count > most) {
+      most = count;
+      best_first = first;
+      best_last = next;
+    }
     first = next;
   }
   input.scan = {best_first, best_last};

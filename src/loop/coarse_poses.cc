@@ -150,7 +150,10 @@ class Contest {
     x_.resize(padded, 0.f);
     y_.resize(padded, 0.f);
     bounds_.resize(padded, GainBound::kOne);
-    for (std::size_t i = 0; i < points.size(); ++i) x_[i] = points[i].x, y_[i] = points[i].y;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      x_[i] = points[i].x;
+      y_[i] = points[i].y;
+    }
     // Where triangles propose the poses, these are too few for a picture of the map.
     if (index.triangles() == nullptr)
       bound_.emplace(index.points(), static_cast<float>(kCoarseInlierM));

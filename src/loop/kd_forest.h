@@ -50,7 +50,10 @@ class KdForest {
       tree->alive[finder.row] = false;
       ++tree->dead;
       std::size_t dead = 0, all = 0;
-      for (const auto& other : trees_) dead += other->dead, all += other->values.size();
+      for (const auto& other : trees_) {
+        dead += other->dead;
+        all += other->values.size();
+      }
       if (dead > kLinear + all / 2) MergeTail(true);
       return true;
     }

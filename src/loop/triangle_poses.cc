@@ -23,8 +23,12 @@ std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,
                                 const std::array<LayoutPoint, 3>& to, float tolerance) {
   LayoutPoint p, q;  // the centres
   for (int i = 0; i < 3; ++i) {
-    p.x += from[i].x / 3, p.y += from[i].y / 3, p.z += from[i].z / 3;
-    q.x += to[i].x / 3, q.y += to[i].y / 3, q.z += to[i].z / 3;
+    p.x += from[i].x / 3;
+    p.y += from[i].y / 3;
+    p.z += from[i].z / 3;
+    q.x += to[i].x / 3;
+    q.y += to[i].y / 3;
+    q.z += to[i].z / 3;
   }
   float dot = 0, cross = 0;
   for (int i = 0; i < 3; ++i) {
@@ -62,8 +66,10 @@ void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points,
               std::abs(local.side[i] - global.side[order[i]]) <= tolerance;
     if (!fits) continue;
     std::array<LayoutPoint, 3> from, to;
-    for (int i = 0; i < 3; ++i)
-      from[i] = points[local.vertex[i]], to[i] = map[global.vertex[order[i]]];
+    for (int i = 0; i < 3; ++i) {
+      from[i] = points[local.vertex[i]];
+      to[i] = map[global.vertex[order[i]]];
+    }
     if (const auto pose = Align(from, to, tolerance)) poses.push_back(*pose);
   }
 }

@@ -84,7 +84,9 @@ class Painter {
   Vector NewVector() { return RandomVector(random_, noise_.dimension); }
   Identity NewIdentity() {
     Identity identity;
-    identity.constant = NewVector(), identity.forward = NewVector(), identity.left = NewVector();
+    identity.constant = NewVector();
+    identity.forward = NewVector();
+    identity.left = NewVector();
     const double spread = random_.Uniform(1 - noise_.side_spread, 1 + noise_.side_spread);
     identity.side = std::min(0.5 * (noise_.same_side - noise_.opposite_side) * spread,
                              noise_.same_side - noise_.other_object);

@@ -16,7 +16,11 @@ namespace {
 struct Mean {
   double sum = 0, squares = 0;
   int count = 0;
-  void Add(double value) { sum += value, squares += value * value, ++count; }
+  void Add(double value) {
+    sum += value;
+    squares += value * value;
+    ++count;
+  }
   double value() const { return count > 0 ? sum / count : 0; }
   double sigma() const {
     return count > 0 ? std::sqrt(std::max(0., squares / count - value() * value())) : 0;

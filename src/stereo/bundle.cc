@@ -33,7 +33,10 @@ struct Reprojection {
 /// The weight of a sighting; zero for the right column if there is none.
 Mat3 Weight(const StereoSighting& sighting) {
   Mat3 weight = sighting.weight;
-  if (std::isnan(sighting.pixel.right)) weight.row(2).setZero(), weight.col(2).setZero();
+  if (std::isnan(sighting.pixel.right)) {
+    weight.row(2).setZero();
+    weight.col(2).setZero();
+  }
   return weight;
 }
 

@@ -19,7 +19,10 @@ namespace {
 Pose RandomPose(std::mt19937& random, double angle) {
   const auto u = [&] { return (random() % 20001) / 10000. - 1.; };
   Vec6 xi;
-  for (int i = 0; i < 3; ++i) xi[i] = 5 * u(), xi[i + 3] = angle * u();
+  for (int i = 0; i < 3; ++i) {
+    xi[i] = 5 * u();
+    xi[i + 3] = angle * u();
+  }
   return Pose::Exp(xi);
 }
 

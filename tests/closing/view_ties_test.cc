@@ -109,8 +109,10 @@ struct TruthAligner {
     ++asked;
     const auto& truth = drives.world.truth.poses;
     const Pose T = truth[pair.a_frame].inverse() * truth[pair.b_frame];
-    if ((T.inverse() * pair.T_a_b_guess).translation().norm() > limit_m)
-      return ++refused, std::nullopt;
+    if ((T.inverse() * pair.T_a_b_guess).translation().norm() > limit_m) {
+      ++refused;
+      return std::nullopt;
+    }
     Vec6 variances;
     variances << Vec3::Constant(4e-4), Vec3::Constant(1e-6);
     return RelativePose{T * off, variances.asDiagonal()};

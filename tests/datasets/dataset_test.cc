@@ -90,8 +90,10 @@ TEST_F(SequenceFolder, LoadsAllParts) {
 /// The beginning of an image file, up to its size.
 std::string Png(int width, int height) {
   std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\0\0\0\0\0", 24);
-  head[18] = static_cast<char>(width >> 8), head[19] = static_cast<char>(width);
-  head[22] = static_cast<char>(height >> 8), head[23] = static_cast<char>(height);
+  head[18] = static_cast<char>(width >> 8);
+  head[19] = static_cast<char>(width);
+  head[22] = static_cast<char>(height >> 8);
+  head[23] = static_cast<char>(height);
   return head;
 }
 

@@ -46,7 +46,10 @@ TEST(CuboidInCamera, LooksAtTheCameraWhereverItStands) {
 
 TEST(CameraOfInput, SeesTheSamePointsInTheInput) {
   Camera camera;
-  camera.fx = 700, camera.fy = 710, camera.cx = 600, camera.cy = 180;
+  camera.fx = 700;
+  camera.fy = 710;
+  camera.cx = 600;
+  camera.cy = 180;
   const InputMap map{0.5, 2, 3, -40};
   const Camera seen = CameraOfInput(camera, map);
   const Vec3 point(1, 0.5, 10);

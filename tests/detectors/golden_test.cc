@@ -65,7 +65,10 @@ TEST_P(Golden3d, FindsWhatNumPyFinds) {
   EXPECT_EQ(detector.uses_right_image(), name == "stereo3d");
   const cv::Mat left = LeftImage(), right(48, 64, CV_8UC3, cv::Scalar(60, 120, 150));
   StereoCamera camera;
-  camera.left.fx = 70, camera.left.fy = 72, camera.left.cx = 31, camera.left.cy = 20;
+  camera.left.fx = 70;
+  camera.left.fy = 72;
+  camera.left.cx = 31;
+  camera.left.cy = 20;
   camera.left.offset = {0.06, -0.01, 0.002};
   camera.baseline_m = 0.5;
   const std::vector<Detection> found = detector.Detect(

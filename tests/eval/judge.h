@@ -82,7 +82,10 @@ inline std::vector<MapObject> ClusterDetections(const std::vector<Frame>& frames
       double nearest_m = gate_m;
       for (MapObject& object : objects) {
         const double distance = (object.T_world_object.translation() - T.translation()).norm();
-        if (distance < nearest_m) nearest = &object, nearest_m = distance;
+        if (distance < nearest_m) {
+          nearest = &object;
+          nearest_m = distance;
+        }
       }
       if (nearest == nullptr) {
         nearest = &objects.emplace_back();

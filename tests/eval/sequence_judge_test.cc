@@ -64,7 +64,10 @@ std::vector<LoopClosure> FakeLoops(const std::vector<Pose>& reference) {
     double nearest_m = 12;
     for (int i = 0; i < query - 300; ++i) {
       const double distance = (reference[i].translation() - reference[query].translation()).norm();
-      if (distance < nearest_m) match = i, nearest_m = distance;
+      if (distance < nearest_m) {
+        match = i;
+        nearest_m = distance;
+      }
     }
     Vec6 noise;
     for (double& v : noise) v = normal(random);

@@ -60,7 +60,10 @@ Image Load(const std::string& path) {
   const std::string kind = path.substr(0, path.find('/'));
   if (kind == "broken") return {};
   Image image = Wall(std::stoi(path.substr(path.find('/') + 1)), kind == "right");
-  if (kind == "small") image.height /= 2, image.pixels.resize(image.pixels.size() / 2);
+  if (kind == "small") {
+    image.height /= 2;
+    image.pixels.resize(image.pixels.size() / 2);
+  }
   return image;
 }
 

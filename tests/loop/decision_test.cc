@@ -54,7 +54,10 @@ TEST(DecideSingleLook, ABetterMirrorImageRefutesAndIsAskedLast) {
   options.mirror_gain = 2;
   int asked = 0;
   const auto mirror = [&asked](double evidence) {
-    return [&asked, evidence] { return ++asked, evidence; };
+    return [&asked, evidence] {
+      ++asked;
+      return evidence;
+    };
   };
   EXPECT_EQ(DecideSingleLook({7}, 6, mirror(9), options).decision, LoopDecision::kAccepted);
   const LoopVerdict refused = DecideSingleLook({7}, 6, mirror(9.1), options);

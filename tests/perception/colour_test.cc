@@ -34,7 +34,9 @@ struct Picture {
       return static_cast<unsigned char>(
           std::min(255., std::max(0., std::round(value * brightness))));
     };
-    pixel[0] = lit(colour.blue), pixel[1] = lit(colour.green), pixel[2] = lit(colour.red);
+    pixel[0] = lit(colour.blue);
+    pixel[1] = lit(colour.green);
+    pixel[2] = lit(colour.red);
   }
 };
 

@@ -141,7 +141,10 @@ TEST(Renderer, DrivingAndChurnedVehiclesAreWhereTheWorldSays) {
     int count = 0;
     for (int y = 0; y < view.height; ++y) {
       for (int x = 0; x < view.width; ++x) {
-        if (view.identity[view.PixelAt(x, y)] == 0) sum += x, ++count;
+        if (view.identity[view.PixelAt(x, y)] == 0) {
+          sum += x;
+          ++count;
+        }
       }
     }
     return count == 0 ? -1 : sum / count;

@@ -129,7 +129,8 @@ TEST(Halv, RowsTellNothingButTheirScores) {
       const int id = sequence.detections.identity[row++];
       if (i > 0) {
         EXPECT_LE(detections[i].score, detections[i - 1].score);
-        ++pairs, in_order += id > sequence.detections.identity[row - 2];
+        ++pairs;
+        in_order += id > sequence.detections.identity[row - 2];
       }
       if (id < 0) continue;  // its true object is at the detected place
       const Vec3 seen =
@@ -214,8 +215,12 @@ TEST(Halv, BadOptionsSayWhatToDo) {
   refuse([](auto& o) { o.drift.shape.wander_scale = -1; }, {"wander_scale is -1"});
   refuse([](auto& o) { o.appearance.light = std::nan(""); }, {"light is nan"});
   refuse([](auto& o) { o.appearance.same_side = 0.2; }, {"same_side", "opposite_side"});
-  refuse([](auto& o) { o.scene.viewpoint_low_deg = 90, o.scene.viewpoint_high_deg = 10; },
-         {"viewpoint_low_deg"});
+  refuse(
+      [](auto& o) {
+        o.scene.viewpoint_low_deg = 90;
+        o.scene.viewpoint_high_deg = 10;
+      },
+      {"viewpoint_low_deg"});
   refuse([](auto& o) { o.drift.shape = {0, 0, 0, 0, 0, 0, 1}; }, {"--ate-m"});
   refuse([](auto& o) { o.drift.ate_m = -0.5; }, {"ate_m", "0 or more", "-1"});
   refuse([](auto& o) { o.scene.viewpoint_low_deg = -0.5; }, {"viewpoint_low_deg", "-1"});

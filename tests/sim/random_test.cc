@@ -31,11 +31,14 @@ TEST(Random, HasTheRightMoments) {
   double sum = 0, squares = 0, fourth = 0, uniform = 0, poisson = 0, poisson_squares = 0;
   for (int i = 0; i < kCount; ++i) {
     const double x = random.Normal(), u = random.Uniform(2, 4);
-    sum += x, squares += x * x, fourth += x * x * x * x;
+    sum += x;
+    squares += x * x;
+    fourth += x * x * x * x;
     ASSERT_TRUE(u >= 2 && u < 4);
     uniform += u;
     const int n = random.Poisson(1.5);
-    poisson += n, poisson_squares += n * n;
+    poisson += n;
+    poisson_squares += n * n;
   }
   EXPECT_NEAR(sum / kCount, 0, 0.01);
   EXPECT_NEAR(squares / kCount, 1, 0.02);

@@ -159,7 +159,9 @@ Errors RangeErrors(const World& world, const DetectorNoise& noise, std::uint64_t
       // Along the true ray; lateral errors have no share in this component.
       const Vec3 ray = world.objects[0].PoseAt(0).translation().normalized();
       const double error = detection.T_cam_object.translation().dot(ray) - true_range;
-      errors.mean += error, squares += error * error, errors.count += 1;
+      errors.mean += error;
+      squares += error * error;
+      errors.count += 1;
       errors.flips +=
           std::abs(WrapAngle(GravityFrame().YawOf(detection.T_cam_object.so3()) - 0.3)) > M_PI / 2;
     }

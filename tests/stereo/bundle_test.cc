@@ -108,7 +108,8 @@ TEST(OdometryWindow, WeightsSayWhatIsWorthHow) {
     std::normal_distribution<double> gauss(0, 1);
     for (StereoSighting& s : scene.frames[1].sightings) {
       const double error = gauss(random);
-      s.pixel.left += error, s.pixel.right += error;
+      s.pixel.left += error;
+      s.pixel.right += error;
       if (weighted) s.weight = weight;
       if (s.point % 5 == 0) s.pixel.right = NAN;  // then the third row says nothing
     }
@@ -154,8 +155,11 @@ TEST(OdometryWindow, ResidualScaleIsTheirStandardDeviation) {
   Scene scene(1, 1, 400);
   std::mt19937 random(1);
   std::normal_distribution<double> gauss(0, 0.7);
-  for (StereoSighting& s : scene.frames[0].sightings)
-    s.pixel.left += gauss(random), s.pixel.row += 3 * gauss(random), s.pixel.right = NAN;
+  for (StereoSighting& s : scene.frames[0].sightings) {
+    s.pixel.left += gauss(random);
+    s.pixel.row += 3 * gauss(random);
+    s.pixel.right = NAN;
+  }
   EXPECT_LT((ResidualScale(scene.camera, scene.frames[0], scene.points) - Vec3(0.7, 2.1, 0)).norm(),
             0.2);
   for (std::size_t i = 0; i < 40; ++i) scene.frames[0].sightings[i].pixel.row += 30;

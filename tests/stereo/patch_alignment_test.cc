@@ -13,7 +13,11 @@ namespace {
 
 Camera TestCamera() {
   Camera camera;
-  camera.fx = 200, camera.fy = 210, camera.cx = 160, camera.cy = 120, camera.width = 320,
+  camera.fx = 200;
+  camera.fy = 210;
+  camera.cx = 160;
+  camera.cy = 120;
+  camera.width = 320;
   camera.height = 240;
   return camera;
 }
@@ -115,8 +119,10 @@ TEST(PatchAlignment, IsNotFoundWhereItIsNot) {
   endless(2, 1) = -0.01;  // the row through the patch's middle is at infinity
   EXPECT_FALSE(AlignPatch(patch, endless, image, at)) << "not finite";
   Eigen::Matrix3d mirrored = same, collapsed = same;
-  mirrored(0, 0) = -1, mirrored(0, 2) = 200;
-  collapsed(0, 0) = 0.01, collapsed(0, 2) = 99;
+  mirrored(0, 0) = -1;
+  mirrored(0, 2) = 200;
+  collapsed(0, 0) = 0.01;
+  collapsed(0, 2) = 99;
   EXPECT_FALSE(AlignPatch(patch, mirrored, image, at)) << "seen from behind";
   EXPECT_FALSE(AlignPatch(patch, collapsed, image, at)) << "seen edge on";
   cv::Mat ramp(image.size(), CV_8U);

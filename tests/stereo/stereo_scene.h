@@ -96,7 +96,10 @@ class StereoScene {
       for (int axis = 0; axis < 3; ++axis) {
         const double speed = std::abs(along[axis]) > 1e-12 ? along[axis] : 1e-12;
         const double a = (-half[axis] - from[axis]) / speed, b = (half[axis] - from[axis]) / speed;
-        if (std::min(a, b) > enter) enter = std::min(a, b), side = axis;
+        if (std::min(a, b) > enter) {
+          enter = std::min(a, b);
+          side = axis;
+        }
         leave = std::min(leave, std::max(a, b));
       }
       if (side < 0 || enter >= leave) continue;

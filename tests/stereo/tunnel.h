@@ -19,7 +19,12 @@ class Tunnel {
 
   static StereoCamera Camera() {
     sslcd::Camera left;
-    left.fx = 200, left.fy = 210, left.cx = 160, left.cy = 120, left.width = 320, left.height = 240;
+    left.fx = 200;
+    left.fy = 210;
+    left.cx = 160;
+    left.cy = 120;
+    left.width = 320;
+    left.height = 240;
     return {left, 0.3};
   }
 
@@ -43,7 +48,11 @@ class Tunnel {
     std::uint64_t h = static_cast<std::uint64_t>(a) * 0x9E3779B97F4A7C15U ^
                       static_cast<std::uint64_t>(b) * 0xC2B2AE3D27D4EB4FU ^
                       static_cast<std::uint64_t>(c) * 0x165667B19E3779F9U;
-    h ^= h >> 29, h *= 0xBF58476D1CE4E5B9U, h ^= h >> 32, h *= 0x94D049BB133111EBU, h ^= h >> 29;
+    h ^= h >> 29;
+    h *= 0xBF58476D1CE4E5B9U;
+    h ^= h >> 32;
+    h *= 0x94D049BB133111EBU;
+    h ^= h >> 29;
     return static_cast<double>(h >> 11) * 0x1p-53;
   }
 
@@ -63,17 +72,26 @@ class Tunnel {
     double best = 1e9;
     int wall = 0;
     const auto meet = [&](double t, int which) {
-      if (t > 1e-6 && t < best) best = t, wall = which;
+      if (t > 1e-6 && t < best) {
+        best = t;
+        wall = which;
+      }
     };
-    meet((kWide - from.x()) / ray.x(), 0), meet((-kWide - from.x()) / ray.x(), 1);
-    meet((kUp - from.y()) / ray.y(), 2), meet((-kUp - from.y()) / ray.y(), 3);
-    meet((kLong - from.z()) / ray.z(), 4), meet((-kLong - from.z()) / ray.z(), 5);
+    meet((kWide - from.x()) / ray.x(), 0);
+    meet((-kWide - from.x()) / ray.x(), 1);
+    meet((kUp - from.y()) / ray.y(), 2);
+    meet((-kUp - from.y()) / ray.y(), 3);
+    meet((kLong - from.z()) / ray.z(), 4);
+    meet((-kLong - from.z()) / ray.z(), 5);
     const Vec3 p = from + best * ray;
     const double u = wall < 4 ? p.z() : p.x(), v = wall < 2 ? p.y() : wall < 4 ? p.x() : p.y();
     double sum = 0, weight = 0;
     int layer = wall;
     for (const double cell : {1.2, 0.5, 0.2, 0.08}) {
-      if (cell > 3 * pixel * best) sum += cell * Noise(u / cell, v / cell, layer), weight += cell;
+      if (cell > 3 * pixel * best) {
+        sum += cell * Noise(u / cell, v / cell, layer);
+        weight += cell;
+      }
       layer += 8;
     }
     return weight > 0 ? sum / weight : 0.5;

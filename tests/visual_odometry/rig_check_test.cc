@@ -25,7 +25,8 @@ struct Rig {
     const Camera camera = Tunnel::Camera().left;
     cv::Mat shift = cv::getRotationMatrix2D(
         {static_cast<float>(camera.cx), static_cast<float>(camera.cy)}, roll_deg, 1);
-    shift.at<double>(0, 2) += right_px, shift.at<double>(1, 2) += down_px;
+    shift.at<double>(0, 2) += right_px;
+    shift.at<double>(1, 2) += down_px;
     for (int i = 0; i < frames; ++i) {
       const Tunnel::Pair seen = Tunnel().Look(Pose::Trans(0, 0, 0.4 * i));
       cv::Mat moved;
