@@ -11,6 +11,9 @@
 namespace sslcd {
 namespace {
 
+// What a belief counts less than the one before it. Set by hand.
+constexpr double kLessPlausible = 0.5;
+
 SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate& candidate) {
   SimilarityCues cues;
   const Detection& detection = *query.detection;
@@ -38,7 +41,7 @@ double Geometry(const AssociationQuery& query, const AssociationCandidate& candi
     const double squared = difference.dot(covariance.inverse() * difference);
     if (squared <= options.gate_sigmas * options.gate_sigmas && difference.norm() <= options.gate_m)
       best = std::max(best, plausibility * std::exp(-0.25 * squared));
-    plausibility *= 0.5;
+    plausibility *= kLessPlausible;
   }
   return best;
 }

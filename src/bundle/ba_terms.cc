@@ -19,7 +19,11 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
   return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
 }
 
-constexpr double kTieLoss = 3;  // standard deviations; a tie that is off by so many counts half
+// A tie that is off by this many standard deviations counts half. Set by hand.
+constexpr double kTieLoss = 3;
+// Where the first camera is: so certain that nothing moves it; next to a prior, which says where
+// the cameras are, this times less. Set by hand. [m, rad]
+constexpr double kGaugeMetres = 1e-3, kGaugeRad = 1e-4, kLooserGauge = 300;
 constexpr double kFullWeight = 1;
 
 // What blocks have in common is ours, and there once.
@@ -150,8 +154,9 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
   }
   if (!cameras_.empty() && (problem.prior.empty() || problem.hold_first)) {
     // The gauge: the world is where the first camera says it is; next to a prior, roughly.
-    const double looser = problem.prior.empty() ? 1 : 300;
-    const PosePrior gauge{problem.cameras.front().T_world_cam, 1e-3 * looser, 1e-4 * looser};
+    const double looser = problem.prior.empty() ? 1 : kLooserGauge;
+    const PosePrior gauge{problem.cameras.front().T_world_cam, kGaugeMetres * looser,
+                          kGaugeRad * looser};
     ceres_.AddResidualBlock(AutoDiff<PosePrior, 6, 7>(gauge), nullptr, cameras_.front().data());
   }
   if (options.odometry.scale_prior <= 0) ceres_.SetParameterBlockConstant(&log_scale_);

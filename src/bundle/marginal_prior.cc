@@ -61,6 +61,15 @@ bool MarginalPriorCost::Evaluate(double const* const* blocks, double* residuals,
 
 namespace {
 
+// Eigenvalues below these shares of the largest are zero: what the data leave free. In the states
+// that go; in the prior, which has the round-off of the first on top.
+constexpr double kFreeOfDropped = 1e-12, kFreeOfPrior = 1e-10;
+constexpr double kLeastEigenvalue = 1e-12;  // of the largest one, where there are no data at all
+
+double LargestOf(const Eigen::VectorXd& eigenvalues) {
+  return std::max(kLeastEigenvalue, eigenvalues.cwiseAbs().maxCoeff());
+}
+
 // 0.5 x^T H x + b^T x, over states in the order of `names`.
 struct Quadratic {
   Eigen::MatrixXd H;
@@ -72,7 +81,7 @@ struct Quadratic {
 Quadratic Eliminate(const Quadratic& q, int dropped) {
   const int kept = static_cast<int>(q.H.rows()) - dropped;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(q.H.topLeftCorner(dropped, dropped));
-  const double floor = 1e-12 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
+  const double floor = kFreeOfDropped * LargestOf(eigen.eigenvalues());
   const Eigen::VectorXd inverse =
       eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? 1. / v : 0.; });
   const Eigen::MatrixXd H_inverse =
@@ -85,7 +94,7 @@ Quadratic Eliminate(const Quadratic& q, int dropped) {
 // H = J^T J and b = J^T r0.
 void SquareRoot(const Quadratic& q, BaPrior& prior) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(0.5 * (q.H + q.H.transpose()));
-  const double floor = 1e-10 * std::max(1e-12, eigen.eigenvalues().cwiseAbs().maxCoeff());
+  const double floor = kFreeOfPrior * LargestOf(eigen.eigenvalues());
   const Eigen::VectorXd root =
       eigen.eigenvalues().unaryExpr([floor](double v) { return v > floor ? std::sqrt(v) : 0.; });
   const Eigen::VectorXd inverse_root = root.unaryExpr([](double v) { return v > 0 ? 1. / v : 0.; });

@@ -92,7 +92,9 @@ BaSummary SolveBa(BaProblem& problem, const BaOptions& options) {
 }
 
 NoiseScale EstimateNoiseScale(const BaProblem& problem) {
-  constexpr double kMedianOfGaussian = 0.6745;
+  constexpr double kMedianOfGaussian = 0.6745;          // median of |x|, x ~ N(0, 1)
+  constexpr std::size_t kFewest = 20;                   // errors that a median is taken of
+  constexpr double kLeastScale = 0.5, kMostScale = 40;  // sanity bounds, as ObjectMap has them
   std::vector<double> errors[4];
   for (const BaSighting& sighting : problem.sightings) {
     const BaObject& object = problem.objects[sighting.object];
@@ -110,8 +112,8 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
   NoiseScale scale = problem.noise_scale;
   double* const components[4] = {&scale.radial, &scale.lateral, &scale.vertical, &scale.yaw};
   for (int i = 0; i < 4; ++i)
-    if (errors[i].size() >= 20)
-      *components[i] = std::clamp(Median(errors[i]) / kMedianOfGaussian, 0.5, 40.);
+    if (errors[i].size() >= kFewest)
+      *components[i] = std::clamp(Median(errors[i]) / kMedianOfGaussian, kLeastScale, kMostScale);
   return scale;
 }
 

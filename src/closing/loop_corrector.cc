@@ -29,7 +29,7 @@ bool SolveGraph(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
 }  // namespace
 
 bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger) {
-  constexpr double kProbability = 0.9;
+  constexpr double kProbability = 0.9;  // of the chi-square test, 6 DoF; set by hand
   const std::vector<LoopAttempt>& attempts = ledger.attempts();
   return std::all_of(attempts.begin(), attempts.end(), [&](const LoopAttempt& attempt) {
     if (!attempt.in_graph || attempt.solved) return true;

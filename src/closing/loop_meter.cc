@@ -11,7 +11,18 @@ namespace sslcd {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-constexpr double kYawSigma = 0.2;  // of two passes' idea of one object's heading [rad]
+// All set by hand; no search over them is recorded.
+// Standard deviation between the headings that two passes give one object. [rad]
+constexpr double kYawSigma = 0.2;
+// Where the common objects fix the heading badly, cameras further back on the path are tried, this
+// far apart. [m]
+constexpr int kCamerasTried = 3;
+constexpr double kFurtherBack = 10.;
+// Range from which an object is seen: a turn of the odometry moves the object by it. [m]
+constexpr double kSeenFrom = 10.;
+// Path on either side of a camera over which cameras stand upright on average. [m]
+constexpr double kLevelReach = 20.;
+constexpr double kLeastTilt = 1e-9;  // below it the axis of a tilt is round-off [rad]
 
 // Where on the path the first and the last of the common objects were seen. [m]
 std::pair<double, double> SeenBetween(const CommonObjects& common) {
@@ -34,12 +45,11 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(
 
 std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m,
                                                   double beyond_m) const {
-  constexpr double kFurtherBack = 10.;  // [m]
   const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
   if (!drift.usable) return std::nullopt;
   const auto [first_m, last_m] = SeenBetween(common);
   std::optional<LoopMeasurement> best;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < kCamerasTried; ++i) {
     const int query = frames_.AtPath(
         std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
     const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
@@ -133,26 +143,24 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
 
 // How far odometry may have moved what was seen at `seen_m` of the path, relative to a frame. [m]
 double LoopMeter::OdometrySigma(int frame, double seen_m) const {
-  constexpr double kRange = 10.;  // from which an object is seen [m]
   const Pose step =
       frames_[frame].T_odom_cam.inverse() * frames_[frames_.AtPath(seen_m)].T_odom_cam;
   const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
   return std::hypot(sigmas.horizontal,
-                    sigmas.rotation * (0.5 * step.translation().norm() + kRange));
+                    sigmas.rotation * (0.5 * step.translation().norm() + kSeenFrom));
 }
 
 // Turns the world about a camera so that the cameras around it stand upright on average.
 Pose LoopMeter::LevelFrame(int frame) const {
-  constexpr double kReach = 20.;  // of path [m]
   const Vec3 up_in_cam = frames_.front().T_world_cam.so3().inverse() * gravity_.up;
   Vec3 up = Vec3::Zero();
   for (const int step : {-1, 1})
     for (int f = frame; f >= 0 && f < frames_.size(); f += step) {
-      if (std::abs(frames_[f].travelled - frames_[frame].travelled) > kReach) break;
+      if (std::abs(frames_[f].travelled - frames_[frame].travelled) > kLevelReach) break;
       up += frames_[f].T_world_cam.so3() * up_in_cam;
     }
   const Vec3 axis = up.cross(gravity_.up);
-  if (axis.norm() < 1e-9) return {};
+  if (axis.norm() < kLeastTilt) return {};
   const auto turn =
       lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
   const Vec3 pivot = frames_[frame].T_world_cam.translation();

@@ -9,8 +9,12 @@
 namespace sslcd {
 namespace {
 
-// A loop was closed to within this, so to say at the start of the path.
+// Standard deviations of a place at the end of the last loop, before any path. Set by hand. [m,
+// rad]
 constexpr double kStartMetres = 1., kStartRad = 0.02;
+// The density of a Gaussian at its peak is that of all headings alike, 1 / (2 pi), where its sigma
+// is sqrt(2 pi) = 2.5: no heading becomes less likely than that. [rad]
+constexpr double kWidestYaw = 2.5;
 
 }  // namespace
 
@@ -33,8 +37,9 @@ PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distance
         std::hypot(kStartMetres, options.drift_share * path, sigma_yaw * path / std::sqrt(3.));
     const double moved = (Apply(pose, centre) - centre).head<2>().norm() / sigma;
     const double turned = WrapAngle(pose.yaw) / sigma_yaw;
-    const double density = std::exp(-0.5 * (moved * moved + turned * turned)) /
-                           (std::pow(2 * M_PI, 1.5) * sigma * sigma * std::min(sigma_yaw, 2.5));
+    const double density =
+        std::exp(-0.5 * (moved * moved + turned * turned)) /
+        (std::pow(2 * M_PI, 1.5) * sigma * sigma * std::min(sigma_yaw, kWidestYaw));
     return std::log(options.surprise + (1 - options.surprise) * searched * density);
   };
 }

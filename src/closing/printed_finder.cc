@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// The paper prints no covariance; .1 m and .1 rad.
+// The paper prints no covariance: 0.1 m and 0.1 rad, set by hand. [m^2, rad^2]
 constexpr double kVariance = 0.01;
 
 // Positions as the paper compares them: in the world, heights included.

@@ -14,7 +14,6 @@
 namespace sslcd {
 namespace {
 
-constexpr int kRefineRounds = 4;  // of one pose (LayoutLikelihood::Refine)
 // The evidence of a fit is against poses anywhere on the map; a track leaves about this much of
 // them: 1.5 m about the pose and .35 rad of heading. [m^2 rad]
 constexpr double kTrackVolume = 2.5;

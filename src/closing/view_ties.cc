@@ -34,7 +34,7 @@ int SameSpot(const FrameStore& frames, int i, const PathGraph& path, double reac
 }
 
 bool IsMeasurement(const RelativePose& pose) {
-  constexpr double kLeastVariance = 1e-12;  // [m^2, rad^2]
+  constexpr double kLeastVariance = 1e-12;  // what is less is round-off [m^2, rad^2]
   if (!pose.T_a_b.Log().allFinite() || !pose.covariance.allFinite()) return false;
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(pose.covariance);
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > kLeastVariance;
@@ -43,7 +43,7 @@ bool IsMeasurement(const RelativePose& pose) {
 }  // namespace
 
 double PathUntilOff(const OdometryNoise& noise, double off_m) {
-  constexpr double kStep = 5, kLongest = 10000;  // [m]
+  constexpr double kStep = 5, kLongest = 10000;  // resolution and end of the answer [m]
   double path = 0;
   // A random walk of the heading of s per sqrt(m) moves the camera by s L^1.5 / sqrt(3) after L
   // metres.
@@ -86,7 +86,7 @@ std::vector<ViewTie> TieViews(const FrameStore& frames, const PathGraph& path,
 }
 
 std::vector<ViewTie> AgreeingTies(const std::vector<ViewTie>& ties, const FrameStore& frames) {
-  constexpr double kProbability = 0.999;
+  constexpr double kProbability = 0.999;  // of the chi-square test, 6 DoF; set by hand
   std::vector<ViewTie> agreeing;
   for (const ViewTie& tie : ties) {
     const Pose T_from_to = frames[tie.from].T_world_cam.inverse() * frames[tie.to].T_world_cam;

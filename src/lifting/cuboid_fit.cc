@@ -20,6 +20,17 @@ constexpr double kDisparityBias = 0.05;  // [px] that all columns of an object s
 constexpr double kShapeSigma = 0.06;     // [m] that the body's shape adds to the sides of its box
 constexpr double kGroundSigma = 0.04;    // [m] of the ground under an object against the plane
 constexpr double kSlopeSigma = 0.003;    // [rad] of the plane's slope
+constexpr double kCauchy = 2;  // [sigmas] a point of the scan that is off by this counts half
+// The fit starts from this many headings, over half a turn. Set by hand.
+constexpr int kStarts = 12, kIterations = 15;
+// At a start, the middle of the contour lies before the centre by this share of half the size along
+// the ray. Set by hand.
+constexpr double kNearSide = 0.7;
+constexpr double kLeastSize = 0.1;  // [m] sanity bound
+constexpr double kNearest = 0.1;  // [m] of a point that a ray meets; where less, it would be behind
+constexpr double kLeastDepth = 0.3;  // [m] of a corner in the image
+constexpr double kLeastRange = 0.5;  // [m] of the centre, for what its shape covers in the image
+constexpr double kParallel = 1e-9;   // a ray's share across a side, at least
 
 /// What is solved for. x, z: centre on the ground, right of and before the camera; base: ground
 /// over the plane.
@@ -29,7 +40,7 @@ using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
 /// Corners of the image of a body of sheet metal, as shares of length, width, height from the
 /// middle of the bottom, for one of four symmetric quarters: tyre, bumper, side, roof. A cuboid's
-/// own corners stand out by decimetres.
+/// own corners stand out by decimetres. Set by hand.
 std::array<Vec3, 6> Quarter(const ClassPrior& prior) {
   const bool wheels = prior.overhang > 0;
   const double sill = wheels ? 0.14 : 0;
@@ -66,7 +77,7 @@ class Problem {
       out[row++] = (input_.scan[i].disparity - predicted) / kDisparitySigma;
     }
     const Box2d seen = Silhouette(p);
-    const double shape_px = kShapeSigma / std::max(p[kZ], 0.5);
+    const double shape_px = kShapeSigma / std::max(p[kZ], kLeastRange);
     const auto side = [](double beyond, bool open, double sigma, double shape) {
       return (open ? std::min(beyond, 0.) : beyond) / std::hypot(sigma, shape);
     };
@@ -111,7 +122,7 @@ class Problem {
     const double along = std::abs(std::cos(yaw) * ray.x() + std::sin(yaw) * ray.y()) / ray.norm();
     const double half =
         0.5 * (prior.length_m * along + prior.width_m * std::sqrt(std::max(0., 1 - along * along)));
-    const Vec2 centre = ray * depth + ray.normalized() * 0.7 * half;
+    const Vec2 centre = ray * depth + ray.normalized() * kNearSide * half;
     Parameters p;
     p << centre.x(), centre.y(), yaw, prior.length_m, prior.width_m, prior.height_m, 0, 0;
     return p;
@@ -119,8 +130,9 @@ class Problem {
 
   /// Two things do not stand in one place.
   double Crowding(const Parameters& p) const {
-    constexpr int kAlong = 9, kAcross = 5;
-    constexpr double kCost = 20;  // of standing where something stands, for all of it
+    constexpr int kAlong = 9, kAcross = 5;  // points of the footprint that are asked
+    // Of a footprint that is all taken. Set by hand.
+    constexpr double kCost = 20;
     int taken = 0;
     const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
     for (int i = 0; i < kAlong; ++i) {
@@ -136,8 +148,6 @@ class Problem {
   }
 
  private:
-  static constexpr double kCauchy = 2;
-
   /// Where the ray (right, forward; 1 along the optical axis) meets the footprint, else the corner
   /// nearest to it.
   double Depth(const Parameters& p, const Vec2& ray) const {
@@ -147,14 +157,14 @@ class Problem {
     const Vec2 half(0.5 * p[kLength], 0.5 * p[kWidth]);
     double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
     for (int axis = 0; axis < 2; ++axis) {
-      const double speed = std::abs(direction[axis]) > 1e-9 ? direction[axis] : 1e-9;
+      const double speed = std::abs(direction[axis]) > kParallel ? direction[axis] : kParallel;
       const double a = (-half[axis] - origin[axis]) / speed,
                    b = (half[axis] - origin[axis]) / speed;
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
-    if (enter <= leave) return std::max(enter, 0.1);
-    double closest = std::numeric_limits<double>::infinity(), depth = 0.1;
+    if (enter <= leave) return std::max(enter, kNearest);
+    double closest = std::numeric_limits<double>::infinity(), depth = kNearest;
     for (int corner = 0; corner < 4; ++corner) {
       const Vec2 to(corner & 1 ? half.x() - origin.x() : -half.x() - origin.x(),
                     corner & 2 ? half.y() - origin.y() : -half.y() - origin.y());
@@ -163,7 +173,7 @@ class Problem {
       closest = off;
       depth = to.dot(direction) / direction.squaredNorm();
     }
-    return std::max(depth, 0.1);
+    return std::max(depth, kNearest);
   }
 
   Box2d Silhouette(const Parameters& p) const {
@@ -177,7 +187,7 @@ class Problem {
         const Vec3 point =
             ground_.ToCamera({p[kX] + c * along - s * across, p[kBase] + part.z() * p[kHeight],
                               p[kZ] + s * along + c * across});
-        const double z = std::max(point.z(), 0.3);
+        const double z = std::max(point.z(), kLeastDepth);
         const double u = camera_.fx * point.x() / z + camera_.cx,
                      v = camera_.fy * point.y() / z + camera_.cy;
         seen = {std::min(seen.left, u), std::min(seen.top, v), std::max(seen.right, u),
@@ -206,7 +216,7 @@ Normal NormalEquations(const Problem& problem, const Parameters& p,
   Eigen::Matrix<double, Eigen::Dynamic, kParameters> jacobian(residuals.size(), int{kParameters});
   Eigen::VectorXd moved(residuals.size());
   for (int i = 0; i < kParameters; ++i) {
-    constexpr double kStep = 1e-4;
+    constexpr double kStep = 1e-4;  // of the difference quotient [m, rad, px]
     Parameters ahead = p;
     ahead[i] += kStep;
     problem.Residuals(ahead, moved);
@@ -220,14 +230,19 @@ Normal NormalEquations(const Problem& problem, const Parameters& p,
 }
 
 /// Levenberg-Marquardt.
-Solution Solve(const Problem& problem, Parameters p, int iterations) {
+Solution Solve(const Problem& problem, Parameters p) {
+  // Damping: at the start, at least and at most; times this after a step that fails, by this after
+  // one that succeeds.
+  constexpr double kDamping = 1e-2, kLeastDamping = 1e-6, kMostDamping = 1e6;
+  constexpr double kMoreDamping = 8, kLessDamping = 5;
+  constexpr double kLeastGain = 1e-4;  // of the cost: less changes nothing that counts
   Eigen::VectorXd residuals(problem.residuals()), tried(problem.residuals());
   problem.Residuals(p, residuals);
   Solution solution{p, Normal::Identity(), problem.Cost(residuals)};
-  double damping = 1e-2;
+  double damping = kDamping;
   Parameters gradient;
   solution.information = NormalEquations(problem, p, residuals, gradient);
-  for (int i = 0; i < iterations; ++i) {
+  for (int i = 0; i < kIterations; ++i) {
     Normal damped = solution.information;
     damped.diagonal() *= 1 + damping;
     const Parameters next = solution.p - damped.ldlt().solve(gradient);
@@ -235,17 +250,17 @@ Solution Solve(const Problem& problem, Parameters p, int iterations) {
     const double cost =
         next.allFinite() ? problem.Cost(tried) : std::numeric_limits<double>::infinity();
     if (!(cost < solution.cost)) {
-      damping *= 8;
-      if (damping > 1e6) break;
+      damping *= kMoreDamping;
+      if (damping > kMostDamping) break;
       continue;
     }
     const double gain = solution.cost - cost;
     solution.p = next;
     solution.cost = cost;
     residuals = tried;
-    damping = std::max(damping / 5, 1e-6);
+    damping = std::max(damping / kLessDamping, kLeastDamping);
     solution.information = NormalEquations(problem, next, residuals, gradient);
-    if (gain < 1e-4) break;
+    if (gain < kLeastGain) break;
   }
   return solution;
 }
@@ -281,13 +296,12 @@ std::optional<CuboidFit> FitCuboid(const FitInput& input, const StereoCamera& ca
                                    const GroundFrame& ground) {
   if (input.scan.empty()) return std::nullopt;
   const Problem problem(input, camera, ground);
-  constexpr int kStarts = 12;
   std::vector<Solution> solutions;
   for (int i = 0; i < kStarts; ++i) {
-    Solution solution = Solve(problem, problem.Start(i * M_PI / kStarts), 15);
+    Solution solution = Solve(problem, problem.Start(i * M_PI / kStarts));
     solution.cost += problem.Crowding(solution.p);
     const bool sound =
-        solution.p.segment<3>(kLength).minCoeff() > 0.1 && std::isfinite(solution.cost);
+        solution.p.segment<3>(kLength).minCoeff() > kLeastSize && std::isfinite(solution.cost);
     if (sound) solutions.push_back(solution);
   }
   if (solutions.empty()) return std::nullopt;

@@ -31,7 +31,7 @@ double Overlap(double low_a, double high_a, double low_b, double high_b) {
 /// Sides at the image's border, and those where a box begins that stands nearer.
 BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image,
                    const Box2d& sigmas) {
-  constexpr double kShare = 0.25;  // of a side, hidden
+  constexpr double kShare = 0.25;  // of a side, hidden; set by hand
   BoxSides open;
   open.left_open = box.left < sigmas.left;
   open.top_open = box.top < sigmas.top;
@@ -62,8 +62,8 @@ DisparityPatch Match(const GreyPair& grey, const Box2d& box, double max_disparit
   // [px] Heights of boxes from where on half the resolution tells as much, and up to where twice
   // the columns, interpolated, tell more. Not tuned.
   constexpr double kLarge = 240, kSmall = 80;
-  constexpr double kPad = 4;  // [px] what matching needs beside the box
-  const double scale = height > kLarge ? 0.5 : 1;
+  constexpr double kPad = 4;                       // [px] what matching needs beside the box
+  const double scale = height > kLarge ? 0.5 : 1;  // half the resolution, or all of it
   return MatchInside(grey, {box.left - kPad, box.top - kPad, box.right + kPad, box.bottom + kPad},
                      max_disparity, height < kSmall ? 2 : scale, scale);
 }
@@ -128,7 +128,7 @@ Box2d SigmasOf(const Box2d& box, const LiftOptions& options) {
 
 /// As far as the object of a coarse box may reach.
 Box2d Around(const Box2d& box, const Box2d& sigmas, const ImageView& image) {
-  constexpr double kSigmas = 2;
+  constexpr double kSigmas = 2;  // 95 % of a Gaussian
   return Clipped({box.left - kSigmas * sigmas.left, box.top - kSigmas * sigmas.top,
                   box.right + kSigmas * sigmas.right, box.bottom + kSigmas * sigmas.bottom},
                  image);
@@ -145,7 +145,8 @@ void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
 /// Where the box is coarse, the ends of the contour tell of its sides, too. Of a contour with gaps,
 /// the part that has most points in the box is the object's.
 void TakeSidesOfContour(const Box2d& around, FitInput& input) {
-  // share of the box's width: what is seen through, or without texture
+  // Shares of the box's width. A gap: what is seen through, or without texture; and the standard
+  // deviation of the ends of a contour. Set by hand.
   constexpr double kGap = 0.25, kSigma = 0.05;
   const Box2d box = input.box;
   const double width = box.right - box.left;
@@ -177,9 +178,10 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
 /// A cuboid for a box, or why not.
 LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer,
                 const ClassPrior& prior, CuboidFit& answer) {
-  // the cost of a column that is not the object's
+  // The cost of a column that is not the object's; a fit that is off by more is none [sigmas]. Set
+  // by hand.
   constexpr double kElsewhere = 1;
-  constexpr double kBoxError = 5, kScanError = 2.5;  // [sigmas]
+  constexpr double kBoxError = 5, kScanError = 2.5;
   const double max_disparity =
       scene.camera.baseline_m * scene.camera.left.fx / scene.options.min_range_m;
   const bool coarse = scene.options.box_sigma_share > 0;

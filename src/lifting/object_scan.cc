@@ -28,13 +28,17 @@ const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_p
 
 bool IsHidden(const std::vector<Nearer>& nearer, double u, double v, const Vec3& point,
               double depth, double bf) {
-  constexpr double kMargin = 0.2;  // [m]
+  // Pixels are hidden that are no farther than a nearer object's contour there, and a little more,
+  // because disparities scatter: share of the range, and metres. Set by hand.
+  constexpr double kFartherShare = 1.03, kMargin = 0.2;
+  // A contour tells of columns this near to it: share of the box's width, and pixels. Set by hand.
+  constexpr double kReachShare = 0.1, kReachPx = 4;
   return std::any_of(nearer.begin(), nearer.end(), [&](const Nearer& other) {
     const Box2d& box = other.box;
     if (u < box.left || u > box.right || v < box.top || v > box.bottom) return false;
-    const ScanPoint* there = At(other.scan, u, std::max(0.1 * (box.right - box.left), 4.));
-    // its disparities scatter
-    if (there && depth < bf / there->disparity * 1.03 + kMargin) return true;
+    const ScanPoint* there =
+        At(other.scan, u, std::max(kReachShare * (box.right - box.left), kReachPx));
+    if (there && depth < bf / there->disparity * kFartherShare + kMargin) return true;
     return other.footprint ? other.footprint->Contains(point.x(), point.z(), kMargin) : !there;
   });
 }
@@ -44,7 +48,8 @@ std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box,
                             const GroundFrame& ground, const ScanRules& rules) {
   const Camera& left = camera.left;
   const double bf = camera.baseline_m * left.fx;
-  const double width = std::max((box.right - box.left) / rules.columns, 2.);
+  constexpr double kNarrowest = 2;  // [px]
+  const double width = std::max((box.right - box.left) / rules.columns, kNarrowest);
   std::vector<Column> columns(static_cast<std::size_t>((box.right - box.left) / width) + 1);
   for (int y = 0; y < patch.values.rows; ++y) {
     const float* row = patch.values.ptr<float>(y);
@@ -74,7 +79,7 @@ struct Weighed {
 };
 
 std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
-  constexpr std::size_t kFewest = 4;  // pixels in a column
+  constexpr std::size_t kFewest = 4;  // pixels in a column; set by hand
   std::vector<Weighed> medians;
   for (Column& column : columns) {
     if (column.disparities.size() < kFewest) continue;
@@ -120,7 +125,8 @@ std::vector<std::vector<ScanPoint>> ScanObject(const DisparityPatch& patch, cons
   const double bf = camera.baseline_m * camera.left.fx;
   std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
   std::vector<std::vector<ScanPoint>> answers;
-  for (int i = 0; i < 2; ++i) {
+  constexpr int kAnswers = 2;  // the object, and what stands before or behind it
+  for (int i = 0; i < kAnswers; ++i) {
     std::vector<ScanPoint> points = TakeStretch(all, rules.depth_m);
     if (points.size() >= rules.fewest) answers.push_back(std::move(points));
   }

@@ -21,8 +21,8 @@ struct ScanRules {
   /// heights above the ground that are looked at: below glass, above the shadow
   double low_m = 0, high_m = 0;
   double depth_m = 0;      ///< the visible side of an object spans no more than this
-  double columns = 40;     ///< points, at most
-  std::size_t fewest = 4;  ///< points, at least
+  double columns = 40;     ///< points, at most; set by hand
+  std::size_t fewest = 4;  ///< points, at least; set by hand
 };
 
 /// What stands nearer, and may hide some of the object.

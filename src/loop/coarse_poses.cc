@@ -17,6 +17,10 @@ namespace {
 constexpr int kPairsPerObject = 6;
 // Soft score of an object that falls on one of another label, share of a right one. Set by hand.
 constexpr float kOtherLabelScore = 0.3f;
+// Poses are the same whose shift, in whole metres, and whose yaw, in these units, are. Set by hand.
+constexpr double kSameYawRad = 0.1;
+// Poses of a lower score than this share of the best one's are not refined. Set by hand.
+constexpr float kShareOfBest = 0.5f;
 
 struct LocalPair {
   ObjectPair pair;
@@ -66,8 +70,8 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
 /// the place of one at every object nearby.
 class GainBound {
  public:
-  static constexpr int kOne = 250;
-  static constexpr int kAtOnce = 8;
+  static constexpr int kOne = 250;   // a gain of 1, in the picture's units
+  static constexpr int kAtOnce = 8;  // points that one look takes, as a vector
 
   GainBound(const std::vector<LayoutPoint>& map, float inlier_m) : inlier_(inlier_m) {
     constexpr float kFinest = 0.5f, kMaxSide = 1024;  // [m], cells
@@ -163,8 +167,8 @@ class Contest {
     pose.score = MayWin(pose) ? Score(pose) : 0;
     if (!(pose.score >= least_)) return;
     const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
-    const std::int64_t cell =
-        key(std::atan2(pose.sine, pose.cosine) / 0.1) << 40 | key(pose.x) << 20 | key(pose.y);
+    const std::int64_t cell = key(std::atan2(pose.sine, pose.cosine) / kSameYawRad) << 40 |
+                              key(pose.x) << 20 | key(pose.y);
     CoarsePose& kept = cells_[cell];
     if (pose.score > kept.score) kept = pose;
     RaiseBar(pose.score);
@@ -237,13 +241,14 @@ class Contest {
   // What has to come on top of a score to reach least_; a little less, for the sake of rounding.
   // [1/GainBound::kOne]
   int Needed(float score) const {
-    return static_cast<int>((least_ - score - 1e-3f) * GainBound::kOne) - 1;
+    constexpr float kRoundOff = 1e-3f;
+    return static_cast<int>((least_ - score - kRoundOff) * GainBound::kOne) - 1;
   }
 
-  // What falls short of half the best score, or of the winners so far, is out.
+  // What falls short of its share of the best score, or of the winners so far, is out.
   void RaiseBar(float score) {
     constexpr int kNow = 256;  // every so often, the winners are counted
-    least_ = std::max(least_, 0.5f * score);
+    least_ = std::max(least_, kShareOfBest * score);
     if (++entered_ % kNow != 0 || cells_.size() <= winners_) return;
     std::vector<float> scores;
     for (const auto& [cell, pose] : cells_) scores.push_back(pose.score);

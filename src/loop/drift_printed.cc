@@ -8,9 +8,11 @@ namespace sslcd {
 std::optional<Pose> SolveDriftAsPrinted(const std::vector<DriftPair>& pairs) {
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   using Vector6 = Eigen::Matrix<double, 6, 1>;
+  constexpr int kMaxIterations = 50;    // the paper prints none; set by hand
+  constexpr double kLeastStep = 1e-10;  // norm of the last step [m, rad]
   if (pairs.empty()) return std::nullopt;
   Pose T_drift;
-  for (int iteration = 0; iteration < 50; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     Mat6 H = Mat6::Zero();
     Vector6 b = Vector6::Zero();
     for (const DriftPair& pair : pairs) {
@@ -25,7 +27,7 @@ std::optional<Pose> SolveDriftAsPrinted(const std::vector<DriftPair>& pairs) {
     const Vector6 step = -H.ldlt().solve(b);
     if (!step.allFinite()) return std::nullopt;
     T_drift = T_drift * Pose::Exp(step);
-    if (step.norm() < 1e-10) break;
+    if (step.norm() < kLeastStep) break;
   }
   return T_drift;
 }

@@ -9,13 +9,17 @@
 namespace sslcd {
 namespace {
 
-constexpr double kBin = 0.25;          // of pair distances [m]
-constexpr double kSurroundings = 15.;  // radius in which density and heights are judged [m]
-constexpr double kBlock = 10.;         // [m]
-// in which squared differences of heights are added up [m^2]
-constexpr double kHeightUnit = 1e-9;
-constexpr std::size_t kMaxPairs = 50000;  // with more, triangles are faster
-constexpr int kMaxLabels = 256;           // with lists of their own
+constexpr double kBin = 0.25;   // of pair distances; of speed only [m]
+constexpr double kBlock = 10.;  // side of the cells that hold each object once [m]
+// Radius in which density and heights are judged. Set by hand. [m]
+constexpr double kSurroundings = 15.;
+// Squared differences of heights are added up in this unit, and up to this: a slope or an outlier
+// counts no more. [m^2]
+constexpr double kHeightUnit = 1e-9, kMostHeight2 = 1.;
+constexpr double kSamePoint2 = 1e-12;  // objects that are closer have no direction [m^2]
+// With more pairs, triangles are faster (docs/notes, "Loop detection against the size of the map").
+constexpr std::size_t kMaxPairs = 50000;
+constexpr int kMaxLabels = 256;  // with lists of their own
 // where more than one object in so many changes, all are built anew
 constexpr std::size_t kFewOf = 32;
 
@@ -208,9 +212,9 @@ void LayoutIndex::CountNeighbours(int i, int by) {
       for (const int j : blocks_.At(column, row)) {
         const Vec3 step = objects_[j].position - p;
         const double d2 = step.head<2>().squaredNorm();
-        if (d2 < 1e-12 || !(std::sqrt(d2) < kSurroundings)) continue;
+        if (d2 < kSamePoint2 || !(std::sqrt(d2) < kSurroundings)) continue;
         neighbours_ += by;
-        height_sum_ += by * std::llround(std::min(1., step.z() * step.z()) / kHeightUnit);
+        height_sum_ += by * std::llround(std::min(kMostHeight2, step.z() * step.z()) / kHeightUnit);
       }
     }
   }
@@ -258,7 +262,7 @@ void LayoutIndex::BuildPairs() {
       const Sorted *a = &sorted[i], *b = &sorted[j];
       if (a->label > b->label || (a->label == b->label && a->object > b->object)) std::swap(a, b);
       const double dx = b->x - a->x, dy = b->y - a->y, dz = b->z - a->z, d2 = dx * dx + dy * dy;
-      if (d2 > max_pair_ * max_pair_ || d2 < 1e-12) continue;
+      if (d2 > max_pair_ * max_pair_ || d2 < kSamePoint2) continue;
       const double distance = std::sqrt(d2);
       found.push_back({a->object, b->object, static_cast<float>(distance),
                        static_cast<float>(dx / distance), static_cast<float>(dy / distance),

@@ -12,9 +12,10 @@
 namespace sslcd {
 namespace {
 
-// enough for triangles that are left when one neighbour of five is missed
+// Enough for triangles that are left when one neighbour of five is missed. Set by hand.
 constexpr int kNeighbours = 6;
-constexpr float kShortest = 4.f;  // the longest side at least, for the sake of the yaw [m]
+// The longest side at least, for the sake of the yaw. Set by hand. [m]
+constexpr float kShortest = 4.f;
 
 using Neighbours = std::array<int, kNeighbours>;  // -1: none
 

@@ -12,11 +12,18 @@
 namespace sslcd {
 namespace {
 
+// All set by hand, for maps of up to 100 000 objects (docs/notes, "Loop detection against the size
+// of the map").
 constexpr std::size_t kMaxTriangles = 400;  // of the local map that are looked up
 constexpr std::size_t kMinTriangles = 40;   // ... and where these have found enough poses, no more:
 constexpr std::size_t kEnoughPoses = 5000;
 constexpr std::size_t kMaxFound = 2000;  // by one triangle
 constexpr std::size_t kMaxPoses = 3000;  // that are scored
+// The golden section: steps of this share of a list, modulo its length, spread any few of them over
+// it (Knuth, The Art of Computer Programming 3, 6.4).
+constexpr double kGoldenSection = 0.618;
+constexpr float kVoteMetres = 4.f;  // side of the cells in which poses are counted
+constexpr float kVoteTurn = 0.4f;   // ... and of the yaw's, as a point on the unit circle
 
 // Three points laid on three others; none if they do not fit to within `tolerance`.
 std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,
@@ -91,15 +98,14 @@ class Votes {
 
  private:
   std::size_t Cell(const CoarsePose& pose, int grid) const {
-    constexpr float kSize = 4.f, kTurn = 0.4f;  // the yaw as a point on the unit circle [m, 1]
     const auto key = [&](float v, float size) {
       return static_cast<std::uint64_t>(
           static_cast<std::int64_t>(std::floor(v / size + 0.5f * static_cast<float>(grid))));
     };
-    std::uint64_t hash = key(pose.x, kSize) * 0x9E3779B97F4A7C15u;
-    hash = (hash ^ hash >> 29 ^ key(pose.y, kSize)) * 0xBF58476D1CE4E5B9u;
-    hash = (hash ^ hash >> 32 ^ key(pose.cosine, kTurn)) * 0x94D049BB133111EBu;
-    hash = (hash ^ hash >> 29 ^ key(pose.sine, kTurn)) * 0x9E3779B97F4A7C15u;
+    std::uint64_t hash = key(pose.x, kVoteMetres) * 0x9E3779B97F4A7C15u;
+    hash = (hash ^ hash >> 29 ^ key(pose.y, kVoteMetres)) * 0xBF58476D1CE4E5B9u;
+    hash = (hash ^ hash >> 32 ^ key(pose.cosine, kVoteTurn)) * 0x94D049BB133111EBu;
+    hash = (hash ^ hash >> 29 ^ key(pose.sine, kVoteTurn)) * 0x9E3779B97F4A7C15u;
     return (hash >> 32) & mask_;
   }
   std::size_t mask_ = 1023;
@@ -114,8 +120,7 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
   const std::vector<ObjectTriangle> triangles = NeighbourTriangles(points);
   const std::size_t used = std::min(triangles.size(), kMaxTriangles);
   std::size_t step = std::max<std::size_t>(
-      1, static_cast<std::size_t>(0.618 * static_cast<double>(triangles.size())));
-  // so that any few of them are spread over the local map
+      1, static_cast<std::size_t>(kGoldenSection * static_cast<double>(triangles.size())));
   while (std::gcd(step, triangles.size()) > 1) ++step;
   std::vector<CoarsePose> poses;
   std::vector<const ObjectTriangle*> found;

@@ -8,6 +8,12 @@
 namespace sslcd {
 namespace {
 
+// Sizes scatter twice as much at this range as at 0, from LiDAR and from stereo images alike. Set
+// by hand. [m]
+constexpr double kTwiceAt = 20.;
+// A size that is off by this share of the median counts half (Cauchy's weight). Set by hand.
+constexpr double kHalfWeightOff = 0.15;
+
 struct Weighted {
   double value, weight;
 };
@@ -34,15 +40,14 @@ Vec3 FuseDims(const std::vector<Sighting>& sightings) {
     std::vector<Weighted> samples;
     for (const Sighting& sighting : sightings) {
       const double range = sighting.T_cam_object.translation().norm();
-      // LiDAR and stereo sizes alike scatter twice as much at 20 m as at 0
-      const double sigma = 1 + range / 20.;
+      const double sigma = 1 + range / kTwiceAt;
       samples.push_back({sighting.dims[axis], sighting.score / (sigma * sigma)});
     }
     const double centre = WeightedMedian(samples);
     double sum = 0, weights = 0;
     for (const Weighted& sample : samples) {
-      const double off = (sample.value - centre) / (0.15 * centre);
-      const double weight = sample.weight / (1 + off * off);  // Cauchy
+      const double off = (sample.value - centre) / (kHalfWeightOff * centre);
+      const double weight = sample.weight / (1 + off * off);
       sum += weight * sample.value;
       weights += weight;
     }

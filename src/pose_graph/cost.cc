@@ -25,7 +25,8 @@ void StoreAmbient(const Matrix6& J, const double* pose, double* jacobian) {
   ambient = J.lazyProduct(minus);
 }
 
-constexpr double kCertain = 1e8;  // information [1/m^2, 1/rad^2] of what the vertices cannot change
+// Information of what the vertices cannot change, above any measurement's. [1/m^2, 1/rad^2]
+constexpr double kCertain = 1e8;
 
 }  // namespace
 

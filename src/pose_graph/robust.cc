@@ -20,6 +20,11 @@ constexpr int kInnerIterations = 20;
 constexpr int kMaxRounds = 100;
 constexpr int kMaxDecisions = 5;      // rounds of deciding on all loops; two are usual
 constexpr int kMaxWarmDecisions = 3;  // the same from a former solution
+// Of the limit on chi-square: less is no misfit to start from, where all loops agree.
+constexpr double kLeastMisfit = 1e-3;
+// Share of the loops, and one loop at least, that a solution from a former one may refuse anew;
+// more asks for a solution from the start. Set by hand.
+constexpr double kShareOfNew = 0.02;
 
 double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
                 std::size_t e) {
@@ -57,7 +62,7 @@ class Gnc {
   }
 
   void Graduate() {
-    double mu = limit_ / std::max(2 * Worst() - limit_, 1e-3 * limit_);
+    double mu = limit_ / std::max(2 * Worst() - limit_, kLeastMisfit * limit_);
     for (bool undecided = true; undecided && rounds_ < kMaxRounds; mu *= options_.mu_factor) {
       SetWeights([&](double loop_chi2) { return Weight(loop_chi2, mu, limit_); });
       undecided =
@@ -215,7 +220,6 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
     }
     if (!changed) break;
   }
-  constexpr double kShareOfNew = 0.02;
   if (static_cast<double>(refused(decided.edge_weight) - refused(kept_before)) >
       std::max(1., kShareOfNew * static_cast<double>(loops.size())))
     return false;

@@ -39,7 +39,8 @@ std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& compon
 }
 
 // A chordal start pays where the poses are this much further from the measurements than noise
-// explains, or where one of them is turned this far: beyond, a linearised rotation leads astray.
+// explains (times the expected chi-square), or where one of them is turned this far [rad]: beyond,
+// a linearised rotation leads astray. Set by hand.
 constexpr double kFarFromMeasurements = 10, kFarTurned = 0.5;
 
 bool IsFar(double chi2, const PoseGraph& graph, const Ends& ends,

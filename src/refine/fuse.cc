@@ -49,11 +49,12 @@ class Fusion {
   // as one of them.
   bool InOnePlace(const MapLandmark& a, const MapLandmark& b) const {
     constexpr double kChiSquare99 = 9.21;  // two components
+    constexpr double kInside = 0.25;  // share of both widths: half of a mean width. Set by hand
     const GravityFrame& gravity = map_.gravity();
     const Vec3 apart = a.pose.position - b.pose.position;
     const Vec2 d(apart.dot(gravity.forward), apart.dot(gravity.left));
     if (!(d.norm() <= options_.refine.duplicate_m)) return false;
-    const double room = 0.25 * (a.dims.head<2>().minCoeff() + b.dims.head<2>().minCoeff());
+    const double room = kInside * (a.dims.head<2>().minCoeff() + b.dims.head<2>().minCoeff());
     if (d.norm() < room) return true;  // one would stand inside the other
     const Eigen::Matrix2d covariance = OneSighting(a) + OneSighting(b);
     return d.dot(covariance.ldlt().solve(Eigen::Vector2d(d))) <= kChiSquare99;
@@ -118,6 +119,8 @@ LandmarkId Resolve(LandmarkId id, const MergedIds& merged) {
 }
 
 bool SeenTogether(const MapLandmark& a, const MapLandmark& b) {
+  // Share of the sightings of the one that has fewer: a detector makes two boxes of one object now
+  // and then. Set by hand.
   constexpr double kSlip = 0.1;
   std::size_t together = 0;
   for (auto i = a.sightings.begin(), j = b.sightings.begin();

@@ -12,7 +12,7 @@ namespace {
 // Path length up to each frame in odometry metres. A camera at rest adds a tiny length, so that
 // weights by path are always defined.
 std::vector<double> PathOf(const FrameStore& frames) {
-  constexpr double kCreep = 1e-6;
+  constexpr double kCreep = 1e-6;  // a frame [m]
   std::vector<double> path(frames.size(), 0.);
   for (int i = 1; i < frames.size(); ++i) {
     const Vec3 step = frames[i].T_odom_cam.translation() - frames[i - 1].T_odom_cam.translation();

@@ -157,7 +157,7 @@ std::optional<std::vector<Slot>> SearchPlacement(const std::vector<Slot>& slots,
                                                  const HalvCourse& course, const Box& driven) {
   constexpr double kBeyond = 12;  // the course may leave the lot by this much [m]
   // Of the grid: its step [m], and the most steps along a side. A wider lot gets wider steps.
-  constexpr double kStep = 2, kMaxSteps = 150;
+  constexpr double kGrid = 2, kMaxSteps = 150;
   const Legs legs = LegsOf(course);
   std::optional<std::vector<Slot>> best;
   int best_score = 0;
@@ -166,7 +166,7 @@ std::optional<std::vector<Slot>> SearchPlacement(const std::vector<Slot>& slots,
     const std::vector<Slot> turned = SeenFrom(slots, 0, 0, grain + 0.5 * M_PI * quarter);
     const Box lot = BoxOf(turned);
     const double step =
-        std::max(kStep, std::max(lot.right - lot.left, lot.front - lot.back) / kMaxSteps);
+        std::max(kGrid, std::max(lot.right - lot.left, lot.front - lot.back) / kMaxSteps);
     for (double x = lot.left - kBeyond - driven.left; x + driven.right <= lot.right + kBeyond;
          x += step) {
       for (double z = lot.back - kBeyond - driven.back; z + driven.front <= lot.front + kBeyond;
