@@ -1,9 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop/heading_density.h"
 
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace sslcd {
+namespace {
+
+constexpr int kHeadings = 72;  // turns that are tried, bins of five degrees
+using Background = std::array<double, kHeadings>;
+
+// log density of the map's headings, with one heading on top that may be any. [log 1/rad]
+Background LogDensityOf(const LayoutIndex::Headings& map) {
+  Background background{};
+  int headings = 0;
+  for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
+    const auto& counts = map[symmetry == Symmetry::kPi];
+    const std::vector<double>& densities = HeadingDensities(symmetry);
+    const int bins = static_cast<int>(counts.size());
+    for (int from = 0; from < bins; ++from) {
+      if (counts[from] == 0) continue;
+      headings += counts[from];
+      for (int bin = 0; bin < kHeadings; ++bin)
+        background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
+    }
+  }
+  for (double& density : background)
+    density = std::log((density + 1 / (2 * M_PI)) / (headings + 1));
+  return background;
+}
+
+}  // namespace
 
 double HeadingDensity(double difference_rad, Symmetry symmetry) {
   // Set by hand without a recorded search.
@@ -27,6 +55,34 @@ const std::vector<double>& HeadingDensities(Symmetry symmetry) {
   static const std::vector<double> kFullTurn = compute(Symmetry::kNone),
                                    kHalfTurn = compute(Symmetry::kPi);
   return symmetry == Symmetry::kPi ? kHalfTurn : kFullTurn;
+}
+
+bool HasHeading(const LayoutObject& object) {
+  return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw);
+}
+
+std::vector<double> ChanceHeadings(const std::vector<LayoutObject>& local,
+                                   const LayoutIndex::Headings& map) {
+  const Background background = LogDensityOf(map);
+  const auto under = [&](const LayoutObject& object, int turn) {
+    const int bin =
+        static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
+    return background[(bin + turn) % kHeadings];
+  };
+  int best = 0;
+  double likeliest = -std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < kHeadings; ++turn) {
+    double sum = 0;
+    for (const LayoutObject& object : local)
+      if (HasHeading(object)) sum += under(object, turn);
+    if (sum <= likeliest) continue;
+    likeliest = sum;
+    best = turn;
+  }
+  std::vector<double> chance;
+  for (const LayoutObject& object : local)
+    chance.push_back(HasHeading(object) ? under(object, best) : 0.);
+  return chance;
 }
 
 }  // namespace sslcd

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "sslcd/core/label.h"
+#include "loop/layout_index.h"
+#include "sslcd/core/layout.h"
 
 namespace sslcd {
 
@@ -13,5 +14,14 @@ double HeadingDensity(double difference_rad, Symmetry symmetry);
 
 /// HeadingDensity at 0, 1, ... 359 degrees.
 const std::vector<double>& HeadingDensities(Symmetry symmetry);
+
+bool HasHeading(const LayoutObject& object);
+
+/// log density of each local object's heading, were the local objects others of the same kind: they
+/// then face as the map's objects do, as a whole under whatever turn makes that likeliest. Not
+/// under the turn of the pose that is weighed: a pose under which every car faces the wrong way has
+/// that against it. 0 for objects without a heading. [log 1/rad]
+std::vector<double> ChanceHeadings(const std::vector<LayoutObject>& local,
+                                   const LayoutIndex::Headings& map);
 
 }  // namespace sslcd

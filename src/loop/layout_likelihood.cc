@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/math.h"
 #include "loop/convex_hull.h"
@@ -48,10 +47,6 @@ double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no)
   return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
 }
 
-bool HasHeading(const LayoutObject& object) {
-  return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw);
-}
-
 }  // namespace
 
 void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
@@ -66,9 +61,11 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
 
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                                    const LayoutLikelihoodOptions& options)
-    : local_(local), index_(index), options_(options) {
+    : local_(local),
+      index_(index),
+      options_(options),
+      chance_heading_(ChanceHeadings(local, index.headings())) {
   PrepareLabels();
-  PrepareHeadings();
   PrepareHull();
   for (std::size_t n = 0; n <= local.size(); ++n)
     none_mapped_.push_back(
@@ -96,45 +93,6 @@ void LayoutLikelihood::PrepareHull() {
     const Vec2 along = corners_[(i + 1) % corners_.size()] - corners_[i];
     hull_.push_back({corners_[i], along, -kHullMargin * along.norm()});
   }
-}
-
-// log density of a local object's heading, were the local objects others of the same kind: they
-// then face as the map's objects do, as a whole under whatever turn makes that likeliest. Not under
-// the turn of the pose that is weighed: a pose under which every car faces the wrong way has that
-// against it.
-void LayoutLikelihood::PrepareHeadings() {
-  std::array<double, kHeadings> background{};  // density of the map's headings [1/rad]
-  int headings = 0;
-  for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
-    const auto& counts = index_.headings()[symmetry == Symmetry::kPi];
-    const std::vector<double>& densities = HeadingDensities(symmetry);
-    const int bins = static_cast<int>(counts.size());
-    for (int from = 0; from < bins; ++from) {
-      if (counts[from] == 0) continue;
-      headings += counts[from];
-      for (int bin = 0; bin < kHeadings; ++bin)
-        background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
-    }
-  }
-  for (double& density : background)
-    density = std::log((density + 1 / (2 * M_PI)) / (headings + 1));
-  const auto under = [&](const LayoutObject& object, int turn) {
-    const int bin =
-        static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
-    return background[(bin + turn) % kHeadings];
-  };
-  int best = 0;
-  double likeliest = -std::numeric_limits<double>::infinity();
-  for (int turn = 0; turn < kHeadings; ++turn) {
-    double sum = 0;
-    for (const LayoutObject& object : local_)
-      if (HasHeading(object)) sum += under(object, turn);
-    if (sum <= likeliest) continue;
-    likeliest = sum;
-    best = turn;
-  }
-  for (const LayoutObject& object : local_)
-    chance_heading_.push_back(HasHeading(object) ? under(object, best) : 0.);
 }
 
 // How much better the headings agree than chance would have it.

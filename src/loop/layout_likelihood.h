@@ -15,7 +15,8 @@
 
 namespace sslcd {
 
-/// Rounds of LayoutLikelihood::Refine with hard matches: the gate then is half as wide. Set by hand.
+/// Rounds of LayoutLikelihood::Refine with hard matches: the gate then is half as wide. Set by
+/// hand.
 inline constexpr int kRefineRounds = 4;
 
 /// How much better the local layout is explained by "this is the map, seen under this pose" than by
@@ -64,7 +65,6 @@ class LayoutLikelihood {
   Settled Settle(const YawShift& pose) const;
   YawShift Align(const LayoutFit& fit) const;
   void PrepareLabels();
-  void PrepareHeadings();
   void PrepareHull();
   double HeadingGain(int local, const LayoutObject& global, double yaw) const;
   double Appearance(int local, int global) const;
@@ -78,11 +78,10 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
-  static constexpr int kHeadings = 72;
   // gain of each local object where its label is right; 0 if there is but one
   std::vector<double> equal_label_;
   double other_label_ = 0;              // ... and where it is wrong
-  std::vector<double> chance_heading_;  // of each local object: log density [1/rad]
+  std::vector<double> chance_heading_;  // ChanceHeadings
   std::vector<Vec2> corners_;           // of the local objects' convex hull, counter-clockwise
   std::vector<Edge> hull_;
   // log probability that none of so many is mapped
