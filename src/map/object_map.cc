@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "map/noise_learning.h"
 #include "perception/projection.h"
 
 namespace sslcd {
@@ -18,11 +19,8 @@ struct ObjectMap::View {
 
 namespace {
 
-constexpr int kLearnAfter = 3;  // sightings before a landmark's place is good enough to learn from
-// Step of the logarithm of the scale per detection: some hundred detections for a factor of ten.
-constexpr double kLearningRate = 0.03;
-constexpr double kMinScale = 0.5, kMaxScale = 40.;  // of the learnt noise; sanity bounds
-constexpr double kMedianOfGaussian = 0.6745;        // median of |x|, x ~ N(0, 1)
+// Sightings before a landmark's place is good enough to learn the noise from. Set by hand.
+constexpr int kLearnAfter = 3;
 
 // Bearing of the camera in the object frame: which side of the object is in view.
 double Viewpoint(const Pose& T_cam_object) {
@@ -208,7 +206,7 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   const Detection& detection = *query.detection;
   if (options_.learn_noise && landmark.sightings.size() >= kLearnAfter &&
       landmark.state == LandmarkState::kConfirmed)
-    LearnNoise(landmark, detection, view);
+    LearnNoise(landmark, detection, view.T_world_cam, gravity_, noise_, noise_scale_);
 
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
   for (const CueRow& row : kCueRows)
@@ -234,29 +232,6 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
           : WrapAngle(landmark.pose.yaw + share * WrapAngle(seen.yaw - landmark.pose.yaw, M_PI));
   landmark.dims = FuseDims(landmark.sightings);
   Reindex(landmark, view.stamp);
-}
-
-// Tracks the median of each component's normalised error: the scale goes up a little when the error
-// is above it, down when below (Robbins and Monro), so that it settles where half of all errors lie
-// on either side.
-void ObjectMap::LearnNoise(const MapLandmark& landmark, const Detection& detection,
-                           const View& view) {
-  const Vec3 point_cam = detection.T_cam_object.translation();
-  const Pose T_cam_object = view.T_world_cam.inverse() * ToPose(landmark.pose, gravity_);
-  const Vec3 error = RayFrame(point_cam) * (point_cam - T_cam_object.translation());
-  const DetectionSigmas unit = SigmasAt(point_cam.norm(), noise_, NoiseScale::Uniform(1.));
-  const auto learn = [&](double& scale, double normalised_error) {
-    scale *=
-        std::exp(kLearningRate * (std::abs(normalised_error) > kMedianOfGaussian * scale ? 1 : -1));
-    scale = std::clamp(scale, kMinScale, kMaxScale);
-  };
-  learn(noise_scale_.radial, error.x() / unit.radial);
-  learn(noise_scale_.lateral, error.y() / unit.lateral);
-  learn(noise_scale_.vertical, error.z() / unit.vertical);
-  if (landmark.symmetry != Symmetry::kFull) {
-    const double yaw = gravity_.YawOf((view.T_world_cam * detection.T_cam_object).so3());
-    learn(noise_scale_.yaw, WrapAngle(yaw - landmark.pose.yaw, M_PI) / unit.yaw);
-  }
 }
 
 void ObjectMap::Judge(MapLandmark& landmark, MapUpdate& update) {

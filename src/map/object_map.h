@@ -78,7 +78,6 @@ class ObjectMap {
                                           const View& view) const;
   void Create(const AssociationQuery& query, const View& view);
   void Update(MapLandmark& landmark, const AssociationQuery& query, const View& view);
-  void LearnNoise(const MapLandmark& landmark, const Detection& detection, const View& view);
   void Judge(MapLandmark& landmark, MapUpdate& update);
   void Retire(double stamp);
   void Reindex(const MapLandmark& landmark, double stamp);
