@@ -120,8 +120,7 @@ int ColumnsOf(const BaObject& object) { return object.symmetry == Symmetry::kFul
 // Residuals that touch a state that goes, the scale's own prior, and the prior of an earlier
 // marginalisation. In the order in which they were added: the sums below are then the same in each
 // run.
-std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Dropped& dropped,
-                                                    bool has_prior) {
+std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Dropped& dropped) {
   std::set<double*> gone;
   for (const int i : dropped.cameras) gone.insert(terms.camera(i));
   for (const int k : dropped.objects) gone.insert(terms.object(k));
@@ -131,8 +130,8 @@ std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Droppe
     std::vector<double*> blocks;
     terms.ceres().GetParameterBlocksForResidualBlock(id, &blocks);
     const bool scale_only = blocks.size() == 1 && blocks[0] == terms.log_scale();
-    // odometry, which ends with the scale, too, has three blocks
-    const bool is_prior = has_prior && blocks.back() == terms.log_scale() && blocks.size() != 3;
+    const bool is_prior = dynamic_cast<const MarginalPriorCost*>(
+                              terms.ceres().GetCostFunctionForResidualBlock(id)) != nullptr;
     return !scale_only && !is_prior &&
            std::none_of(blocks.begin(), blocks.end(), [&](double* b) { return gone.count(b) > 0; });
   };
@@ -218,8 +217,7 @@ BaPrior Marginalise(const BaProblem& problem, const std::vector<int>& cameras,
                     const std::vector<int>& objects, const BaOptions& options) {
   const Dropped dropped{{cameras.begin(), cameras.end()}, {objects.begin(), objects.end()}};
   BaTerms terms(problem, options);
-  const std::vector<ceres::ResidualBlockId> residuals =
-      SelectResiduals(terms, dropped, !problem.prior.empty());
+  const std::vector<ceres::ResidualBlockId> residuals = SelectResiduals(terms, dropped);
   BaPrior prior;
   const States states = OrderStates(terms, problem, residuals, dropped, prior);
   const std::optional<Quadratic> cost = Linearise(terms, states.blocks, residuals);
