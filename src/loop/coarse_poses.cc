@@ -39,8 +39,9 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
       const Vec3 step = local[b].position - local[a].position;
       const double distance = std::hypot(step.x(), step.y());
       if (distance < kMinPairM || distance > index.max_pair()) continue;
-      const auto begin = index.PairsBegin(local[a].label, local[b].label, distance - kPairNoiseM);
-      const auto end = index.PairsEnd(local[a].label, local[b].label, distance + kPairNoiseM);
+      const auto begin =
+          index.pairs().Begin(local[a].label, local[b].label, distance - kPairNoiseM);
+      const auto end = index.pairs().End(local[a].label, local[b].label, distance + kPairNoiseM);
       if (end <= begin) continue;
       LocalPair pair;
       pair.pair = {a,
@@ -280,8 +281,8 @@ void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<Layout
   for (const LocalPair& chosen : ChoosePairs(local, index)) {
     const ObjectPair& l = chosen.pair;
     const LayoutPoint &pa = points[l.a], &pb = points[l.b];
-    const auto end = index.PairsEnd(pa.label, pb.label, l.distance + kPairNoiseM);
-    for (auto g = index.PairsBegin(pa.label, pb.label, l.distance - kPairNoiseM); g < end; ++g) {
+    const auto end = index.pairs().End(pa.label, pb.label, l.distance + kPairNoiseM);
+    for (auto g = index.pairs().Begin(pa.label, pb.label, l.distance - kPairNoiseM); g < end; ++g) {
       if (std::abs(g->distance - l.distance) > tolerance) continue;
       if (map[g->a].label != pa.label || map[g->b].label != pb.label) continue;
       for (int flip = 0; flip < (pa.label == pb.label ? 2 : 1); ++flip) {

@@ -4,22 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "loop/triangle_index.h"
-
 namespace sslcd {
 namespace {
 
-constexpr double kBin = 0.25;   // of pair distances; of speed only [m]
 constexpr double kBlock = 10.;  // side of the cells that hold each object once [m]
 // Radius in which density and heights are judged. Set by hand. [m]
 constexpr double kSurroundings = 15.;
 // Squared differences of heights are added up in this unit, and up to this: a slope or an outlier
 // counts no more. [m^2]
 constexpr double kHeightUnit = 1e-9, kMostHeight2 = 1.;
-constexpr double kSamePoint2 = 1e-12;  // objects that are closer have no direction [m^2]
+constexpr double kSamePoint2 = 1e-12;  // closer objects are one [m^2]
 // With more pairs, triangles are faster (docs/notes, "Loop detection against the size of the map").
 constexpr std::size_t kMaxPairs = 50000;
-constexpr int kMaxLabels = 256;  // with lists of their own
 // where more than one object in so many changes, all are built anew
 constexpr std::size_t kFewOf = 32;
 
@@ -46,32 +42,6 @@ double LayoutIndex::pose_volume() const {
   return 2 * M_PI * static_cast<double>(objects_.size()) / density_;
 }
 
-LayoutIndex::LayoutIndex(const LayoutIndex& other)
-    : objects_(other.objects_),
-      points_(other.points_),
-      index_of_(other.index_of_),
-      max_pair_(other.max_pair_),
-      reach_(other.reach_),
-      blocks_(other.blocks_),
-      near_(other.near_),
-      labels_(other.labels_),
-      bins_(other.bins_),
-      pair_start_(other.pair_start_),
-      pairs_(other.pairs_),
-      triangles_(other.triangles_ ? std::make_unique<TriangleIndex>(*other.triangles_) : nullptr),
-      neighbours_(other.neighbours_),
-      height_sum_(other.height_sum_),
-      density_(other.density_),
-      height_spread_(other.height_spread_),
-      label_counts_(other.label_counts_),
-      headings_(other.headings_) {}
-
-LayoutIndex& LayoutIndex::operator=(const LayoutIndex& other) { return *this = LayoutIndex(other); }
-
-LayoutIndex::~LayoutIndex() = default;
-LayoutIndex::LayoutIndex(LayoutIndex&&) noexcept = default;
-LayoutIndex& LayoutIndex::operator=(LayoutIndex&&) noexcept = default;
-
 void LayoutIndex::Build() {
   blocks_ = CellLists(kBlock);
   near_ = CellLists(reach_);
@@ -87,7 +57,12 @@ void LayoutIndex::Build() {
     Enter(i);
   }
   Judge();
-  BuildPairs();
+  std::vector<ObjectPair> pairs = FindPairs(objects_, max_pair_, kMaxPairs + 1);
+  if (pairs.size() > kMaxPairs) {
+    triangles_.emplace(*this);
+    pairs.clear();
+  }
+  pairs_ = PairIndex(objects_, pairs, max_pair_);
 }
 
 // One update: the indices whose objects have moved; and whether all lists are rebuilt at its end,
@@ -106,7 +81,7 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
                                   [&](int id) { return index_of_.count(id) > 0; });
   const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
   Change change;
-  change.rebuild = triangles_ == nullptr || kFewOf * changes > objects_.size();
+  change.rebuild = !triangles_ || kFewOf * changes > objects_.size();
   for (const int id : removed) Remove(id, change);
   for (const LayoutObject& object : changed) {
     if (object.position.allFinite()) {
@@ -234,90 +209,6 @@ bool LayoutIndex::Known(double x, double y) const {
   for (int i = 0; i < 9; ++i)
     if (!blocks_.At(middle + i / 3 - 1, row + i % 3 - 1).empty()) return true;
   return false;
-}
-
-// Neighbours by a sweep along the longer side of the map.
-void LayoutIndex::BuildPairs() {
-  struct Sorted {
-    double along, x, y, z;
-    int label, object;
-  };
-  Eigen::AlignedBox2d box;
-  for (const LayoutObject& object : objects_) box.extend(object.position.head<2>());
-  const int axis = !objects_.empty() && box.sizes().y() > box.sizes().x() ? 1 : 0;
-  std::vector<Sorted> sorted;
-  sorted.reserve(objects_.size());
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    const Vec3& p = objects_[i].position;
-    sorted.push_back({p[axis], p.x(), p.y(), p.z(), objects_[i].label, static_cast<int>(i)});
-  }
-  std::sort(sorted.begin(), sorted.end(), [](const Sorted& a, const Sorted& b) {
-    return a.along != b.along ? a.along < b.along : a.object < b.object;
-  });
-
-  std::vector<ObjectPair> found;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    for (std::size_t j = i + 1; j < sorted.size() && sorted[j].along - sorted[i].along <= max_pair_;
-         ++j) {
-      const Sorted *a = &sorted[i], *b = &sorted[j];
-      if (a->label > b->label || (a->label == b->label && a->object > b->object)) std::swap(a, b);
-      const double dx = b->x - a->x, dy = b->y - a->y, dz = b->z - a->z, d2 = dx * dx + dy * dy;
-      if (d2 > max_pair_ * max_pair_ || d2 < kSamePoint2) continue;
-      const double distance = std::sqrt(d2);
-      found.push_back({a->object, b->object, static_cast<float>(distance),
-                       static_cast<float>(dx / distance), static_cast<float>(dy / distance),
-                       static_cast<float>(dz)});
-    }
-    if (found.size() <= kMaxPairs) continue;
-    triangles_ = std::make_unique<TriangleIndex>(*this);
-    found.clear();
-    break;
-  }
-  SortPairs(found);
-}
-
-int LayoutIndex::LabelRank(int label) const {
-  const auto place = std::lower_bound(labels_.begin(), labels_.end(), label);
-  if (place == labels_.end() || *place != label) return -1;
-  return std::min(static_cast<int>(place - labels_.begin()), kMaxLabels - 1);
-}
-
-int LayoutIndex::PairSlot(int rank_a, int rank_b, double distance_m) const {
-  const int bin = std::clamp(static_cast<int>(distance_m / kBin), 0, bins_ - 1);
-  return (rank_b * (rank_b + 1) / 2 + rank_a) * bins_ + bin;
-}
-
-void LayoutIndex::SortPairs(const std::vector<ObjectPair>& found) {
-  labels_.clear();
-  for (const auto& [label, count] : label_counts_) labels_.push_back(label);
-  const int ranks = std::min(static_cast<int>(labels_.size()), kMaxLabels);
-  bins_ = static_cast<int>(max_pair_ / kBin) + 2;
-  pair_start_.assign(static_cast<std::size_t>(ranks * (ranks + 1) / 2) * bins_ + 1, 0);
-  std::vector<int> rank, slot;
-  for (const LayoutPoint& point : points_) rank.push_back(LabelRank(point.label));
-  slot.reserve(found.size());
-  for (const ObjectPair& pair : found) {
-    slot.push_back(PairSlot(rank[pair.a], rank[pair.b], pair.distance));
-    ++pair_start_[slot.back() + 1];
-  }
-  for (std::size_t i = 1; i < pair_start_.size(); ++i) pair_start_[i] += pair_start_[i - 1];
-  pairs_.resize(found.size());
-  std::vector<int> fill(pair_start_.begin(), pair_start_.end() - 1);
-  for (std::size_t i = 0; i < found.size(); ++i) pairs_[fill[slot[i]]++] = found[i];
-}
-
-std::vector<ObjectPair>::const_iterator LayoutIndex::PairsBegin(int label_a, int label_b,
-                                                                double from_m) const {
-  const int a = LabelRank(label_a), b = LabelRank(label_b);
-  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
-  return pairs_.begin() + pair_start_[PairSlot(a, b, from_m)];
-}
-
-std::vector<ObjectPair>::const_iterator LayoutIndex::PairsEnd(int label_a, int label_b,
-                                                              double to_m) const {
-  const int a = LabelRank(label_a), b = LabelRank(label_b);
-  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
-  return pairs_.begin() + pair_start_[PairSlot(a, b, to_m) + 1];
 }
 
 }  // namespace sslcd

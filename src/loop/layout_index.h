@@ -5,24 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "loop/cell_lists.h"
+#include "loop/pair_index.h"
+#include "loop/triangle_index.h"
 #include "sslcd/core/layout.h"
 
 namespace sslcd {
-
-class TriangleIndex;
-
-/// Two objects of a layout, labels ascending.
-struct ObjectPair {
-  int a = 0, b = 0;      ///< indices
-  float distance = 0;    ///< horizontal [m]
-  float dx = 0, dy = 0;  ///< unit vector from a to b
-  float dz = 0;          ///< height of b over a [m]
-};
 
 /// What scoring a pose has to know about an object.
 struct LayoutPoint {
@@ -39,11 +31,6 @@ class LayoutIndex {
   /// points find what is within `reach_m`. O(objects + pairs) for small maps, O(n log n) for large
   /// ones.
   LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
-  ~LayoutIndex();
-  LayoutIndex(const LayoutIndex& other);
-  LayoutIndex& operator=(const LayoutIndex& other);
-  LayoutIndex(LayoutIndex&&) noexcept;
-  LayoutIndex& operator=(LayoutIndex&&) noexcept;
 
   /// Objects have come, have changed, or (`removed`, ids) are gone. No two objects may have one id;
   /// one that is not known is ignored in `removed`. Then answers as an index built of the objects
@@ -89,13 +76,11 @@ class LayoutIndex {
   /// 20 m)?
   bool Known(double x, double y) const;
 
-  /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset,
-  /// by bins; of more than 256 labels, the rarer ones may share a list. None in large maps.
-  std::vector<ObjectPair>::const_iterator PairsBegin(int label_a, int label_b, double from_m) const;
-  std::vector<ObjectPair>::const_iterator PairsEnd(int label_a, int label_b, double to_m) const;
+  /// Pairs by labels and distance; none in large maps.
+  const PairIndex& pairs() const { return pairs_; }
 
   /// Triangles of neighbours; null in small maps, which have pairs.
-  const TriangleIndex* triangles() const { return triangles_.get(); }
+  const TriangleIndex* triangles() const { return triangles_ ? &*triangles_ : nullptr; }
 
   /// Objects per square metre, as seen from an object: the density of its surroundings.
   double density() const { return density_; }
@@ -115,8 +100,6 @@ class LayoutIndex {
 
  private:
   void Build();
-  void BuildPairs();
-  void SortPairs(const std::vector<ObjectPair>& found);
   struct Change;  // what an update has touched
   void Remove(int id, Change& change);
   void Put(const LayoutObject& object, Change& change);
@@ -125,8 +108,6 @@ class LayoutIndex {
   void Leave(int object);
   void CountNeighbours(int object, int by);
   void Judge();
-  int LabelRank(int label) const;
-  int PairSlot(int label_a, int label_b, double distance_m) const;
 
   std::vector<LayoutObject> objects_;
   std::vector<LayoutPoint> points_;
@@ -134,11 +115,8 @@ class LayoutIndex {
   double max_pair_, reach_;
   // each object once; each object in every cell that its reach touches
   CellLists blocks_, near_;
-  std::vector<int> labels_;      // ascending
-  int bins_ = 0;                 // of distance
-  std::vector<int> pair_start_;  // of each slot (label, label, distance) in pairs_
-  std::vector<ObjectPair> pairs_;
-  std::unique_ptr<TriangleIndex> triangles_;
+  PairIndex pairs_;
+  std::optional<TriangleIndex> triangles_;
   // pairs of objects in each other's surroundings; whole numbers, so that any order of updates adds
   // up to the same
   std::int64_t neighbours_ = 0, height_sum_ = 0;

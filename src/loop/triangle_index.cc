@@ -208,6 +208,8 @@ TriangleIndex::TriangleIndex(const LayoutIndex& index) : state_(std::make_unique
 TriangleIndex::TriangleIndex(const TriangleIndex& other)
     : state_(std::make_unique<State>(*other.state_)) {}
 
+TriangleIndex::TriangleIndex(TriangleIndex&&) noexcept = default;
+TriangleIndex& TriangleIndex::operator=(TriangleIndex&&) noexcept = default;
 TriangleIndex::~TriangleIndex() = default;
 
 void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {

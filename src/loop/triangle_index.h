@@ -41,7 +41,9 @@ class TriangleIndex {
  public:
   explicit TriangleIndex(const LayoutIndex& index);
   TriangleIndex(const TriangleIndex& other);  ///< O(n log n): its trees are built again
-  TriangleIndex& operator=(const TriangleIndex&) = delete;
+  TriangleIndex& operator=(const TriangleIndex& other) { return *this = TriangleIndex(other); }
+  TriangleIndex(TriangleIndex&&) noexcept;
+  TriangleIndex& operator=(TriangleIndex&&) noexcept;
   ~TriangleIndex();
 
   /// Follows the index it was made of, whose points at `changed` indices (old ones or new ones) are

@@ -41,8 +41,8 @@ TEST(LayoutIndex, FindsAllPairsOfADistance) {
           expected += std::abs(d - distance) < 0.5;
       }
     }
-    const auto end = index.PairsEnd(0, 1, distance + 0.5);
-    for (auto pair = index.PairsBegin(0, 1, distance - 0.5); pair < end; ++pair) {
+    const auto end = index.pairs().End(0, 1, distance + 0.5);
+    for (auto pair = index.pairs().Begin(0, 1, distance - 0.5); pair < end; ++pair) {
       EXPECT_EQ(map[pair->a].label, 0);
       EXPECT_EQ(map[pair->b].label, 1);
       const Vec3 step = map[pair->b].position - map[pair->a].position;
@@ -53,7 +53,7 @@ TEST(LayoutIndex, FindsAllPairsOfADistance) {
     }
     EXPECT_EQ(found, expected) << distance;
   }
-  EXPECT_GE(index.PairsBegin(7, 8, 1), index.PairsEnd(7, 8, 9));
+  EXPECT_GE(index.pairs().Begin(7, 8, 1), index.pairs().End(7, 8, 9));
 }
 
 TEST(LayoutIndex, VisitsABoxOnce) {
@@ -92,8 +92,8 @@ TEST(LayoutIndex, ManyLabelsCostNoPair) {
   const LayoutIndex index(map, 50, 2);
   for (const int i : {0, 200, 390}) {
     bool found = false;
-    const auto end = index.PairsEnd(7 * i, 7 * (i + 2), 6.1);
-    for (auto pair = index.PairsBegin(7 * i, 7 * (i + 2), 5.9); pair < end; ++pair)
+    const auto end = index.pairs().End(7 * i, 7 * (i + 2), 6.1);
+    for (auto pair = index.pairs().Begin(7 * i, 7 * (i + 2), 5.9); pair < end; ++pair)
       found |= pair->a == i && pair->b == i + 2;
     EXPECT_TRUE(found) << i;
   }
@@ -102,9 +102,9 @@ TEST(LayoutIndex, ManyLabelsCostNoPair) {
 TEST(LayoutIndex, LargeMapsHaveTrianglesInsteadOfPairs) {
   const LayoutIndex small(Strewn(300, 200, 6), 50, 2), large(Strewn(3000, 632, 6), 50, 2);
   EXPECT_EQ(small.triangles(), nullptr);
-  EXPECT_LT(small.PairsBegin(0, 0, 10), small.PairsEnd(0, 0, 20));
+  EXPECT_LT(small.pairs().Begin(0, 0, 10), small.pairs().End(0, 0, 20));
   EXPECT_NE(large.triangles(), nullptr);
-  EXPECT_GE(large.PairsBegin(0, 0, 10), large.PairsEnd(0, 0, 20));
+  EXPECT_GE(large.pairs().Begin(0, 0, 10), large.pairs().End(0, 0, 20));
   EXPECT_NEAR(small.density(), large.density(), 0.15 * large.density());
 }
 
@@ -279,7 +279,7 @@ TEST(LayoutIndex, TakesOddMaps) {
   const LayoutIndex far({ObjectAt({0, 0, 0}), ObjectAt({1e7, -1e7, 0})}, 50, 2);
   EXPECT_FALSE(far.Near(1e7, -1e7).empty());
   const LayoutIndex heap(std::vector<LayoutObject>(20, ObjectAt({3, 3, 3})), 50, 2);
-  EXPECT_GE(heap.PairsBegin(0, 0, 0), heap.PairsEnd(0, 0, 50))
+  EXPECT_GE(heap.pairs().Begin(0, 0, 0), heap.pairs().End(0, 0, 50))
       << "no direction between equal points";
 }
 
