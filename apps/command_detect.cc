@@ -62,7 +62,7 @@ void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections)
                                 "image): no colours.npy");
 }
 
-// What is written has the names of what was read.
+// The output has the same file names as the input.
 void RefuseInput(const fs::path& out, const Dataset& dataset) {
   std::vector<fs::path> inputs = {dataset.odometry_path, dataset.groundtruth_path};
   for (const Frame& frame : dataset.frames)
@@ -75,7 +75,7 @@ void RefuseInput(const fs::path& out, const Dataset& dataset) {
           out.string() + ": holds images, odometry or ground truth that are read; write elsewhere");
 }
 
-// All but the frames.
+// All parts of the sequence except the frames.
 SequenceFiles SequenceFilesOf(const Dataset& dataset) {
   SequenceFiles files;
   if (dataset.camera && dataset.camera_right) files.camera = StereoCameraOf(dataset);

@@ -26,7 +26,7 @@ constexpr double kTieLoss = 3;
 constexpr double kGaugeMetres = 1e-3, kGaugeRad = 1e-4, kLooserGauge = 300;
 constexpr double kFullWeight = 1;
 
-// What blocks have in common is ours, and there once.
+// The problem does not own shared functions, which exist once.
 ceres::Problem::Options Shared() {
   ceres::Problem::Options options;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -50,7 +50,7 @@ BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
   for (std::size_t k = 0; k < objects_.size(); ++k) {
     const UprightPose& pose = problem.objects[k].pose;
     objects_[k] = {pose.position.x(), pose.position.y(), pose.position.z(), pose.yaw};
-    // An object without yaw keeps the one it has; nothing measures it.
+    // The yaw of a symmetric object is constant; no residual measures it.
     if (problem.objects[k].symmetry == Symmetry::kFull)
       ceres_.AddParameterBlock(objects_[k].data(), 4, &without_yaw_);
     else
@@ -74,8 +74,8 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
                               object);
       continue;
     }
-    // By the range as estimated: by the one measured, what errs to the near side would count more
-    // than what errs to the far side, and the map would shrink.
+    // Takes the sigmas at the estimated range. With the measured range, detections that are too
+    // near would have more weight than those that are too far, and the map would shrink.
     const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
     const double range =
         (T_world_cam.inverse() * problem.objects[sighting.object].pose.position).norm();
@@ -84,8 +84,8 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
     sigmas.lateral *= options.correlation;
     sigmas.vertical *= options.correlation;
     sigmas.yaw *= options.correlation;
-    // Detectors take front for back now and then, so even a car's heading is only trusted up to
-    // half a turn here.
+    // Detectors sometimes confuse front and back, so even a car's heading counts only modulo half a
+    // turn.
     const double period = problem.objects[sighting.object].symmetry == Symmetry::kFull ? 0. : M_PI;
     const ObjectResidual residual{sighting.T_cam_object, sigmas, period, problem.gravity};
     ceres_.AddResidualBlock(new ObjectCost(residual), options.loss_scale > 0 ? &loss_ : nullptr,
@@ -125,7 +125,7 @@ void BaTerms::AddSlopes(const BaProblem& problem) {
   for (const BaOdometry& edge : problem.odometry) {
     const double path = std::exp(problem.log_scale) * edge.T_from_to.translation().norm();  // [m]
     if (path <= 0) continue;
-    // Cameras on one slope share what is known of it.
+    // Cameras on the same slope share its prior.
     const double sigma =
         problem.slope.sigma_rad * std::sqrt(std::max(1., problem.slope.length_m / path));
     const SlopeResidual residual{up_in_cam, sigma};
@@ -153,7 +153,7 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
     ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
   }
   if (!cameras_.empty() && (problem.prior.empty() || problem.hold_first)) {
-    // The gauge: the world is where the first camera says it is; next to a prior, roughly.
+    // The gauge: the first camera defines the world; with a prior only weakly.
     const double looser = problem.prior.empty() ? 1 : kLooserGauge;
     const PosePrior gauge{problem.cameras.front().T_world_cam, kGaugeMetres * looser,
                           kGaugeRad * looser};

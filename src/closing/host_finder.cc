@@ -25,7 +25,7 @@ void CheckMatches(const std::vector<std::pair<int, int>>& matches, std::size_t l
                                          std::to_string(globals) + " global ones");
 }
 
-// The last frame at `path_m` of path or before; none where the path begins after it.
+// The last frame at or before `path_m` of path; none if the path starts later.
 const FrameRecord* LastUntil(const FrameStore& frames, double path_m) {
   const auto after =
       std::upper_bound(frames.begin(), frames.end(), path_m,
@@ -54,7 +54,7 @@ class HostFinder : public LoopFinder {
     if (!answer) return std::nullopt;
     FoundLoop found;
     if (answer->matches.empty()) {
-      // Images tie the newest camera, and were asked when it was the query.
+      // Images only give the pose of the newest camera, which was queried before.
       if (window.lag_m < options_.lag_m) return std::nullopt;
       found.loop = MeasureImages(input.state, *answer, old->frame);
     } else {
@@ -76,7 +76,7 @@ class HostFinder : public LoopFinder {
   bool CanLookBack() const override { return false; }
 
  private:
-  // Two images tie two cameras: the newest one and an old one.
+  // Two images give the relative pose of the newest camera and an old one.
   LoopMeasurement MeasureImages(const MapState& state, const PlaceAnswer& answer,
                                 int old_frame) const {
     const FrameStore& frames = state.frames;

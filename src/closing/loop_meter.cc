@@ -24,7 +24,7 @@ constexpr double kSeenFrom = 10.;
 constexpr double kLevelReach = 20.;
 constexpr double kLeastTilt = 1e-9;  // below it the axis of a tilt is round-off [rad]
 
-// Where on the path the first and the last of the common objects were seen. [m]
+// Path lengths of the first and the last common object. [m]
 std::pair<double, double> SeenBetween(const CommonObjects& common) {
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const auto& pair : common.pairs) {
@@ -109,7 +109,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
-  // Before or after the common objects were in sight the camera stands where odometry has it.
+  // Outside of the range of the common objects the camera pose depends on odometry.
   const auto [first_m, last_m] = SeenBetween(common);
   const int in_sight = frames_.AtPath(std::clamp(frames_[query].travelled, first_m, last_m));
   if (query != in_sight) {
@@ -119,7 +119,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   return loop;
 }
 
-// Among the frames of the passes on which the matched old objects were seen; -1: none.
+// Searches the frames of the passes that saw the matched old objects; -1: none.
 int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const {
   std::set<LandmarkId> ids;
   for (const auto& pair : common.pairs) ids.insert(pair.second);
@@ -141,7 +141,8 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
   return best;
 }
 
-// How far odometry may have moved what was seen at `seen_m` of the path, relative to a frame. [m]
+// Standard deviation of the odometry drift between a frame and an object seen at `seen_m` of path.
+// [m]
 double LoopMeter::OdometrySigma(int frame, double seen_m) const {
   const Pose step =
       frames_[frame].T_odom_cam.inverse() * frames_[frames_.AtPath(seen_m)].T_odom_cam;
@@ -150,7 +151,7 @@ double LoopMeter::OdometrySigma(int frame, double seen_m) const {
                     sigmas.rotation * (0.5 * step.translation().norm() + kSeenFrom));
 }
 
-// Turns the world about a camera so that the cameras around it stand upright on average.
+// Rotates the world about a camera so that the cameras around it are upright on average.
 Pose LoopMeter::LevelFrame(int frame) const {
   const Vec3 up_in_cam = frames_.front().T_world_cam.so3().inverse() * gravity_.up;
   Vec3 up = Vec3::Zero();

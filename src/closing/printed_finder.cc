@@ -14,7 +14,7 @@ namespace {
 // The paper prints no covariance: 0.1 m and 0.1 rad, set by hand. [m^2, rad^2]
 constexpr double kVariance = 0.01;
 
-// Positions as the paper compares them: in the world, heights included.
+// The paper compares positions in the world, including heights.
 PassLayout InWorld(PassLayout layout, const GravityFrame& gravity) {
   for (std::size_t i = 0; i < layout.objects.size(); ++i)
     layout.objects[i].position = gravity.Basis().transpose() * layout.places[i].position;

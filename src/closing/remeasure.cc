@@ -12,7 +12,7 @@
 namespace sslcd {
 namespace {
 
-// The loop as the refined map measures it; none where its objects fix it too badly.
+// Measures the loop in the refined map; none if its objects do not determine it well enough.
 std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& passes,
                                         const LoopAttempt& attempt, const LoopOptions& options) {
   if (attempt.found.sigma_m <= 0) return std::nullopt;

@@ -14,8 +14,8 @@
 namespace sslcd {
 namespace {
 
-// The evidence of a fit is against poses anywhere on the map; a track leaves about this much of
-// them: 1.5 m about the pose and .35 rad of heading. [m^2 rad]
+// The evidence of a fit is against poses anywhere in the map. A track restricts them to about this
+// volume: 1.5 m around the pose and .35 rad of heading. [m^2 rad]
 constexpr double kTrackVolume = 2.5;
 
 class TrackFinder : public LoopFinder {
@@ -54,10 +54,10 @@ class TrackFinder : public LoopFinder {
   void UpdateTracks(const FinderInput& input, const PassLayout& local, const LayoutIndex& index) {
     const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood);
     PoseSearchOptions search = options_.match.search;
-    // the tracks of earlier attempts need not be found again
+    // fewer, since the tracks keep the poses of earlier attempts
     search.refine = std::min(search.refine, options_.tracks.max_tracks);
     std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
-    PoseHypothesis no_drift;  // the camera may stand where the trajectory has it
+    PoseHypothesis no_drift;  // the current pose of the trajectory as hypothesis
     no_drift.fit = likelihood.Refine(no_drift.pose, kRefineRounds);
     if (static_cast<int>(no_drift.fit.matches.size()) >= search.min_matches)
       found.insert(found.begin(), no_drift);

@@ -28,7 +28,7 @@ ImageSize ReadImageSize(const std::string& path) {
     const bool frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (frame) {
-      byte();  // bits per sample per sample per sample per sample
+      byte();  // bits per sample per sample per sample per sample per sample
       const int height = number(2), width = number(2);
       return file ? ImageSize{width, height} : ImageSize{};
     }

@@ -16,7 +16,7 @@ Identities FindIdentities(const std::vector<MapObject>& objects,
     if (object.state != LandmarkState::kConfirmed) continue;
     ++result.landmarks;
     std::vector<std::pair<int, int>>
-        votes;  // (identity, count), in the order of first sightinginginging
+        votes;  // (identity, count), in the order of first sightinginginginging
     for (const Observation& observation : object.observations) {
       const std::optional<int> identity = identity_of_row(observation.detection_row);
       if (!identity) continue;

@@ -13,13 +13,13 @@
 namespace sslcd {
 namespace {
 
-// Standard deviations of what the fit has to explain. With them errors are 0.6 to 0.95 of what the
-// fit says of itself (HALV-sim, rendered, case 1; docs/notes, "Cuboids from stereo images").
+// Standard deviations of the measurements and the model. With these, errors are 0.6 to 0.95 of the
+// sigmas of the fit (rendered HALV-sim, case 1; docs/notes, "Cuboids from stereo images").
 constexpr double kDisparitySigma = 0.3;  // [px] of one column of pixels on the object
-constexpr double kDisparityBias = 0.05;  // [px] that all columns of an object share
-constexpr double kShapeSigma = 0.06;     // [m] that the body's shape adds to the sides of its box
-constexpr double kGroundSigma = 0.04;    // [m] of the ground under an object against the plane
-constexpr double kSlopeSigma = 0.003;    // [rad] of the plane's slope
+constexpr double kDisparityBias = 0.05;  // [px] common to all columns of an object
+constexpr double kShapeSigma = 0.06;     // [m] shape of the body, added to the sides of its box
+constexpr double kGroundSigma = 0.04;    // [m] height of the ground under an object over the plane
+constexpr double kSlopeSigma = 0.003;    // [rad] slope of the plane
 constexpr double kCauchy = 2;  // [sigmas] a point of the scan that is off by this counts half
 // The fit starts from this many headings, over half a turn. Set by hand.
 constexpr int kStarts = 12, kIterations = 15;
@@ -32,15 +32,15 @@ constexpr double kLeastDepth = 0.3;  // [m] of a corner in the image
 constexpr double kLeastRange = 0.5;  // [m] of the centre, for what its shape covers in the image
 constexpr double kParallel = 1e-9;   // a ray's share across a side, at least
 
-/// What is solved for. x, z: centre on the ground, right of and before the camera; base: ground
-/// over the plane.
+/// The unknowns. x, z: centre on the ground, right and ahead of the camera; base: height of the
+/// ground over the plane.
 enum Parameter { kX, kZ, kYaw, kLength, kWidth, kHeight, kBase, kBias, kParameters };
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
 using Normal = Eigen::Matrix<double, kParameters, kParameters>;
 
-/// Corners of the image of a body of sheet metal, as shares of length, width, height from the
-/// middle of the bottom, for one of four symmetric quarters: tyre, bumper, side, roof. A cuboid's
-/// own corners stand out by decimetres. Set by hand.
+/// Outline points of a car body for one of four symmetric quarters: tyre, bumper, side, roof. They
+/// are shares of length, width and height from the middle of the bottom. The corners of a cuboid
+/// would lie decimetres outside of the body. Set by hand.
 std::array<Vec3, 6> Quarter(const ClassPrior& prior) {
   const bool wheels = prior.overhang > 0;
   const double sill = wheels ? 0.14 : 0;
@@ -69,7 +69,7 @@ class Problem {
 
   int residuals() const { return static_cast<int>(rays_.size()) + 4 + 5; }
 
-  /// Whitened; robust ones are weighted by `Weight` later.
+  /// Whitened residuals. `Weight` weights the robust ones later.
   void Residuals(const Parameters& p, Eigen::VectorXd& out) const {
     int row = 0;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -95,7 +95,7 @@ class Problem {
     out[row++] = p[kBias] / kDisparityBias;
   }
 
-  /// Cauchy's for the scan, whose outliers are glass, wheel arches and what stands in front.
+  /// Cauchy's weight for the scan, whose outliers are glass, wheel arches and occluders.
   double Weight(int row, double residual) const {
     return row < static_cast<int>(rays_.size())
                ? 1 / (1 + residual * residual / (kCauchy * kCauchy))
@@ -112,7 +112,7 @@ class Problem {
     return cost;
   }
 
-  /// With the middle of the contour on the near side of the object.
+  /// Start with the middle of the contour on the near side of the object.
   Parameters Start(double yaw) const {
     std::vector<double> depths;
     for (const ScanPoint& point : input_.scan) depths.push_back(bf_ / point.disparity);
@@ -128,7 +128,7 @@ class Problem {
     return p;
   }
 
-  /// Two things do not stand in one place.
+  /// Penalty of overlap with occupied ground.
   double Crowding(const Parameters& p) const {
     constexpr int kAlong = 9, kAcross = 5;  // points of the footprint that are asked
     // Of a footprint that is all taken. Set by hand.
@@ -148,8 +148,8 @@ class Problem {
   }
 
  private:
-  /// Where the ray (right, forward; 1 along the optical axis) meets the footprint, else the corner
-  /// nearest to it.
+  /// The point where the ray (right, forward; 1 along the optical axis) hits the footprint,
+  /// otherwise the corner nearest to the ray.
   double Depth(const Parameters& p, const Vec2& ray) const {
     const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
     const Vec2 direction(c * ray.x() + s * ray.y(), -s * ray.x() + c * ray.y());
@@ -274,8 +274,8 @@ Pose PoseOf(const Parameters& p, const GroundFrame& ground) {
           ground.ToCamera({p[kX], p[kBase] + 0.5 * p[kHeight], p[kZ]})};
 }
 
-/// The best one's covariance and the scatter of all that explain what is seen nearly as well, by
-/// their likelihood.
+/// The covariance of the best fit plus the scatter of all fits of similar cost, weighted by
+/// likelihood.
 Normal Covariance(const std::vector<Solution>& solutions) {
   const Solution& best = solutions.front();
   Normal scatter = Normal::Zero();

@@ -25,7 +25,7 @@ struct FitInput {
 };
 
 struct CuboidFit {
-  Pose T_cam_object;  ///< in the left camera's frame's frame's frame's frame
+  Pose T_cam_object;  ///< in the left camera's frame's frame's frame's frame's frame
   Vec3 dims{0, 0, 0};
   Footprint footprint;
   std::vector<ScanPoint> scan;  ///< scan points of the fit

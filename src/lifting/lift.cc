@@ -28,16 +28,16 @@ double Overlap(double low_a, double high_a, double low_b, double high_b) {
   return std::max(0., std::min(high_a, high_b) - std::max(low_a, low_b));
 }
 
-/// Sides at the image's border, and those where a box begins that stands nearer.
+/// Opens the sides at the image's border and at the edges of nearer boxes.
 BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const ImageView& image,
                    const Box2d& sigmas) {
-  constexpr double kShare = 0.25;  // of a side, hidden; set by hand
+  constexpr double kShare = 0.25;  // smallest occluded share of a side; set by hand
   BoxSides open;
   open.left_open = box.left < sigmas.left;
   open.top_open = box.top < sigmas.top;
   open.right_open = box.right > image.width - 1 - sigmas.right;
   open.bottom_open = box.bottom > image.height - 1 - sigmas.bottom;
-  // What lies beyond the left or right border is nearer, maybe: it would reach further up and down.
+  // The part beyond the left or right border may be nearer and thus extend farther up and down.
   if (open.left_open || open.right_open) open.top_open = open.bottom_open = true;
   for (const Nearer& object : nearer) {
     const Box2d& other = object.box;
@@ -55,20 +55,19 @@ BoxSides OpenSides(const Box2d& box, const std::vector<Nearer>& nearer, const Im
   return open;
 }
 
-/// Fine for what is small in the image, coarse for what is large: about as many pixels for each
-/// box.
+/// Scales small boxes up and large ones down, so that all have a similar number of pixels.
 DisparityPatch Match(const GreyPair& grey, const Box2d& box, double max_disparity) {
   const double height = box.bottom - box.top;
-  // [px] Heights of boxes from where on half the resolution tells as much, and up to where twice
-  // the columns, interpolated, tell more. Not tuned.
+  // [px] Heights of boxes above which half the resolution suffices, and below which twice the
+  // columns, interpolated, give more. Not tuned.
   constexpr double kLarge = 240, kSmall = 80;
-  constexpr double kPad = 4;                       // [px] what matching needs beside the box
+  constexpr double kPad = 4;                       // [px] margin of the matcher beside the box
   const double scale = height > kLarge ? 0.5 : 1;  // half the resolution, or all of it
   return MatchInside(grey, {box.left - kPad, box.top - kPad, box.right + kPad, box.bottom + kPad},
                      max_disparity, height < kSmall ? 2 : scale, scale);
 }
 
-/// Below the glass, above what lies on the ground; no deeper than a side seen at an angle.
+/// Range of heights between clutter on the ground and glass; depth of a side seen at an angle.
 ScanRules RulesFor(const ClassPrior& prior) {
   // Shares of the height, chosen for cars: bumpers begin at 0.12, glass at 0.62. Other classes use
   // the same. Not tuned.
@@ -98,7 +97,7 @@ LiftedBox Finish(const CuboidFit& fit, const ImageDetection& image, const Stereo
   return lifted;
 }
 
-/// What all boxes of a frame share.
+/// Data of a frame that all boxes use.
 struct Scene {
   const ImageView& image;
   const GreyPair& grey;
@@ -107,7 +106,7 @@ struct Scene {
   const LiftOptions& options;
 };
 
-/// What can be said against a box before its pixels are looked at.
+/// Checks of a box that need no pixels.
 std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& box,
                                   const LiftOptions& options) {
   if (options.classes.count(detection.label) == 0) return LiftStatus::kUnknownLabel;
@@ -118,7 +117,7 @@ std::optional<LiftStatus> Refusal(const ImageDetection& detection, const Box2d& 
 
 /// Standard deviations of the sides of a box.
 Box2d SigmasOf(const Box2d& box, const LiftOptions& options) {
-  // [px] Of a good detector: figures hold with 2 px of noise on each side (docs/notes,
+  // [px] for a good detector; the published figures have 2 px of noise on each side (docs/notes,
   // "Cuboids from stereo images").
   constexpr double kTight = 2;
   const double x = std::hypot(kTight, options.box_sigma_share * (box.right - box.left));
@@ -126,7 +125,7 @@ Box2d SigmasOf(const Box2d& box, const LiftOptions& options) {
   return {x, y, x, y};
 }
 
-/// As far as the object of a coarse box may reach.
+/// Enlarges a coarse box to the possible extent of its object.
 Box2d Around(const Box2d& box, const Box2d& sigmas, const ImageView& image) {
   constexpr double kSigmas = 2;  // 95 % of a Gaussian
   return Clipped({box.left - kSigmas * sigmas.left, box.top - kSigmas * sigmas.top,
@@ -134,7 +133,7 @@ Box2d Around(const Box2d& box, const Box2d& sigmas, const ImageView& image) {
                  image);
 }
 
-/// Two measurements of a side become one.
+/// Fuses two measurements of a side.
 void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
   const double weight = 1 / (sigma_px * sigma_px),
                side_weight = 1 / (side_sigma_px * side_sigma_px);
@@ -142,8 +141,8 @@ void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
   side_sigma_px = 1 / std::sqrt(weight + side_weight);
 }
 
-/// Where the box is coarse, the ends of the contour tell of its sides, too. Of a contour with gaps,
-/// the part that has most points in the box is the object's.
+/// Refines the sides of a coarse box by the ends of the contour. If the contour has gaps, the part
+/// with most points in the box belongs to the object.
 void TakeSidesOfContour(const Box2d& around, FitInput& input) {
   // Shares of the box's width. A gap: what is seen through, or without texture; and the standard
   // deviation of the ends of a contour. Set by hand.
@@ -167,7 +166,7 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
     first = next;
   }
   input.scan = {best_first, best_last};
-  // A contour that goes on to where nothing was looked at has no end.
+  // A contour that reaches the border of the searched area has no known end.
   const double left = input.scan.front().u, right = input.scan.back().u, sigma = kSigma * width;
   if (!input.sides.left_open && left > around.left + sigma)
     Merge(left, sigma, input.box.left, input.sigmas.left);
@@ -175,7 +174,7 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
     Merge(right, sigma, input.box.right, input.sigmas.right);
 }
 
-/// A cuboid for a box, or why not.
+/// Lifts a box, or returns the reason of the failure.
 LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer,
                 const ClassPrior& prior, CuboidFit& answer) {
   // The cost of a column that is not the object's; a fit that is off by more is none [sigmas]. Set
@@ -241,7 +240,7 @@ std::vector<LiftedBox> LiftBoxes(const StereoView& images, const StereoCamera& c
   }
   const GroundFrame ground(EstimateGround(grey, camera, objects, options.ground));
   const Scene scene{images.left, grey, camera, ground, options};
-  // The nearest first, on flat ground the lowest: what is known of it tells what it hides.
+  // Nearest first (lowest in the image on flat ground), since near objects occlude far ones.
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return clipped[a].bottom > clipped[b].bottom;
   });

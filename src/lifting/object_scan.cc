@@ -14,7 +14,7 @@ struct Column {
   double u_sum = 0, v_sum = 0;
 };
 
-/// The scan's point nearest to the column, if any is near.
+/// The point of the scan nearest to the column, if there is one nearby.
 const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_px) {
   const auto after = std::lower_bound(scan.begin(), scan.end(), u,
                                       [](const ScanPoint& p, double at) { return p.u < at; });
@@ -79,7 +79,7 @@ struct Weighed {
 };
 
 std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
-  constexpr std::size_t kFewest = 4;  // pixels in a column; set by hand
+  constexpr std::size_t kFewest = 4;  // smallest number of pixels in a column; set by hand
   std::vector<Weighed> medians;
   for (Column& column : columns) {
     if (column.disparities.size() < kFewest) continue;
@@ -91,7 +91,7 @@ std::vector<Weighed> Medians(std::vector<Column> columns, double bf) {
   return medians;
 }
 
-/// Takes the stretch of depth that has most pixels out of `all`.
+/// Moves the depth interval with most pixels out of `all`.
 std::vector<ScanPoint> TakeStretch(std::vector<Weighed>& all, double length) {
   double most = 0, nearest = 0;
   for (const Weighed& start : all) {

@@ -10,32 +10,33 @@
 
 namespace sslcd {
 
-/// The contour of an object, as a laser scanner would see it: the disparity of its lower body,
-/// column by column.
+/// One point of the contour of an object: the disparity of its lower body in one column, like a
+/// point of a laser scan.
 struct ScanPoint {
-  double u = 0, v = 0;   ///< the middle of the pixels it is made of [px]
-  double disparity = 0;  ///< their median [px]
+  double u = 0, v = 0;   ///< mean of its pixels [px]
+  double disparity = 0;  ///< median of its pixels [px]
 };
 
 struct ScanRules {
-  /// heights above the ground that are looked at: below glass, above the shadow
+  /// range of heights above the ground: below glass, above the shadow
   double low_m = 0, high_m = 0;
-  double depth_m = 0;      ///< the visible side of an object spans no more than this
-  double columns = 40;     ///< points, at most; set by hand
-  std::size_t fewest = 4;  ///< points, at least; set by hand
+  double depth_m = 0;      ///< largest depth of the visible side of an object
+  double columns = 40;     ///< largest number of points; set by hand
+  std::size_t fewest = 4;  ///< smallest number of points; set by hand
 };
 
-/// What stands nearer, and may hide some of the object.
+/// A nearer object, which may occlude the object.
 struct Nearer {
   Box2d box;
-  std::vector<ScanPoint> scan;         ///< by `u`; empty: not known
-  std::optional<Footprint> footprint;  ///< none: not known
+  std::vector<ScanPoint> scan;         ///< by `u`; empty: unknown
+  std::optional<Footprint> footprint;  ///< none: unknown
 };
 
-/// Without what is not the object: pixels as far away as the scan of a `nearer` object is there, or
-/// in its box where it has none; what lies behind, and what else stands in front. Each answer's
-/// points lie within `depth_m` of each other: the stretch of depth that has most pixels, then the
-/// one that has most of the others; at least `fewest` points in each.
+/// Extracts the candidate scans of an object. Drops the pixels of `nearer` objects: those at the
+/// depth of their scans, or in the box of one without a scan. Then drops background and other
+/// occluders: a candidate has points within `depth_m` of each other. The first candidate is the
+/// depth interval with most pixels, the second one has most of the rest; each has at least `fewest`
+/// points.
 std::vector<std::vector<ScanPoint>> ScanObject(const DisparityPatch& patch, const Box2d& box,
                                                const std::vector<Nearer>& nearer,
                                                const StereoCamera& camera,

@@ -13,9 +13,11 @@
 namespace sslcd {
 namespace {
 
-// Local pairs tried per object, those with the fewest equal pairs in the map first. Set by hand.
+// Number of local pairs per object, those with the fewest equal pairs in the map first. Set by
+// hand.
 constexpr int kPairsPerObject = 6;
-// Soft score of an object that falls on one of another label, share of a right one. Set by hand.
+// Soft score of an object that coincides with one of another label, share of a correct match. Set
+// by hand.
 constexpr float kOtherLabelScore = 0.3f;
 // Poses are the same whose shift, in whole metres, and whose yaw, in these units, are. Set by hand.
 constexpr double kSameYawRad = 0.1;
@@ -24,11 +26,10 @@ constexpr float kShareOfBest = 0.5f;
 
 struct LocalPair {
   ObjectPair pair;
-  int matches = 0;  // global pairs that may equal it
+  int matches = 0;  // number of possibly equal global pairs
 };
 
-// The local pairs to be laid on the map: long enough, few of their kind, every object in some of
-// them.
+// Selects the local pairs to align with the map: long and rare pairs that cover every object.
 std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
                                    const LayoutIndex& index) {
   std::vector<LocalPair> pairs;
@@ -67,8 +68,8 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
   return chosen;
 }
 
-/// What a point may gain at most, by where it falls: a picture of the map. One look into it takes
-/// the place of one at every object nearby.
+/// A grid with the upper bound of a point's gain by its position. One lookup replaces a search of
+/// the objects nearby.
 class GainBound {
  public:
   static constexpr int kOne = 250;   // a gain of 1, in the picture's units
@@ -81,7 +82,7 @@ class GainBound {
     const Eigen::Vector2f size = box.sizes() + Eigen::Vector2f::Constant(2 * inlier_);
     cell_ = std::max(kFinest, size.maxCoeff() / (kMaxSide - 4));
     per_cell_ = 1 / cell_;
-    // nothing gains anything on the rim
+    // no gain on the border
     low_ = box.min() - Eigen::Vector2f::Constant(inlier_ + 2 * cell_);
     last_column_ = std::floor(size.x() / cell_) + 3;
     last_row_ = std::floor(size.y() / cell_) + 3;
@@ -99,7 +100,7 @@ class GainBound {
             (pose.y - low_.y()) * per_cell_};
   }
 
-  /// What kAtOnce points may gain that stand at (x, y) before they are placed, and the sum.
+  /// Upper bounds of the gains of kAtOnce points at (x, y) before the transform, and their sum.
   /// Compilers vectorise the first loop.
   int Look(const Placing& at, const float* x, const float* y, std::uint8_t* bounds) const {
     int cells[kAtOnce], sum = 0;
@@ -115,9 +116,9 @@ class GainBound {
 
  private:
   void Paint(float x, float y) {
-    constexpr float kRounding = 0.01f;  // of coordinates, and more [m]
+    constexpr float kRounding = 0.01f;  // bound of the rounding of coordinates [m]
     const float reach = inlier_ + kRounding;
-    const auto apart = [&](float v, int i) {  // how far a coordinate is from a row of cells
+    const auto apart = [&](float v, int i) {  // distance of a coordinate from a row of cells
       const float from = static_cast<float>(i) * cell_ - kRounding,
                   to = from + cell_ + 2 * kRounding;
       return std::max({0.f, from - v, v - to});
@@ -139,10 +140,10 @@ class GainBound {
   float inlier_, cell_ = 1, per_cell_ = 1, last_column_ = 0, last_row_ = 0;
   Eigen::Vector2f low_;
   int shift_ = 0;
-  std::vector<std::uint8_t> bound_;  // by rows of 2^shift_ cells [1/kOne]
+  std::vector<std::uint8_t> bound_;  // rows of 2^shift_ cells [1/kOne]
 };
 
-/// Scores poses as they are proposed and keeps the best of each cell of poses.
+/// Scores proposed poses and keeps the best one of each cell of the pose space.
 class Contest {
  public:
   Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
@@ -159,7 +160,7 @@ class Contest {
       x_[i] = points[i].x;
       y_[i] = points[i].y;
     }
-    // Where triangles propose the poses, these are too few for a picture of the map.
+    // Triangles propose too few poses to justify a grid.
     if (index.triangles() == nullptr)
       bound_.emplace(index.points(), static_cast<float>(kCoarseInlierM));
   }
@@ -219,7 +220,7 @@ class Contest {
   float Score(const CoarsePose& pose) const {
     const std::vector<LayoutPoint>& map = index_.points();
     float score = 0;
-    int open = most_;  // what the other points may add
+    int open = most_;  // upper bound of the gain of the remaining points
     for (const Landed& landed : landed_) {
       const LayoutPoint& p = points_[landed.point];
       const float x = pose.cosine * p.x - pose.sine * p.y + pose.x,
@@ -248,7 +249,7 @@ class Contest {
 
   // What falls short of its share of the best score, or of the winners so far, is out.
   void RaiseBar(float score) {
-    constexpr int kNow = 256;  // every so often, the winners are counted
+    constexpr int kNow = 256;  // interval of selecting the best ones
     least_ = std::max(least_, kShareOfBest * score);
     if (++entered_ % kNow != 0 || cells_.size() <= winners_) return;
     std::vector<float> scores;
@@ -263,17 +264,17 @@ class Contest {
   };
   const std::vector<LayoutPoint>& points_;
   const LayoutIndex& index_;
-  std::vector<float> x_, y_;          // of the points, and a few zeros
-  std::vector<std::uint8_t> bounds_;  // on what they may gain
-  std::vector<Landed> landed_;        // of the pose that is looked at
-  int most_ = 0;                      // that these can gain
+  std::vector<float> x_, y_;          // coordinates of the points, padded with zeros
+  std::vector<std::uint8_t> bounds_;  // upper bounds of their gains
+  std::vector<Landed> landed_;        // of the current pose
+  int most_ = 0;                      // sum of these bounds
   std::optional<GainBound> bound_;
-  float inlier2_, least_ = 0;  // least score that can still matter
+  float inlier2_, least_ = 0;  // smallest score that is still relevant
   std::size_t winners_, entered_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
 };
 
-// Every chosen local pair on every global pair of equal distance.
+// Aligns every selected local pair with every global pair of equal distance.
 void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<LayoutPoint>& points,
                 const LayoutIndex& index, Contest& contest) {
   const std::vector<LayoutPoint>& map = index.points();

@@ -16,7 +16,7 @@ constexpr double kHeightUnit = 1e-9, kMostHeight2 = 1.;
 constexpr double kSamePoint2 = 1e-12;  // closer objects are one [m^2]
 // With more pairs, triangles are faster (docs/notes, "Loop detection against the size of the map").
 constexpr std::size_t kMaxPairs = 50000;
-// where more than one object in so many changes, all are built anew
+// rebuild if more than one object in this number changes
 constexpr std::size_t kFewOf = 32;
 
 bool SamePoint(const LayoutObject& a, const LayoutObject& b) {
@@ -52,7 +52,7 @@ void LayoutIndex::Build() {
   neighbours_ = height_sum_ = 0;
   points_.resize(objects_.size());
   for (int i = static_cast<int>(objects_.size()) - 1; i >= 0;
-       --i) {  // cells list the last one first
+       --i) {  // cells list the last object first
     Count(i, 1);
     Enter(i);
   }
@@ -146,7 +146,7 @@ void LayoutIndex::Put(const LayoutObject& object, Change& change) {
   if (moves) Enter(i);
 }
 
-// What does not depend on where an object is.
+// Updates the statistics that do not depend on positions.
 void LayoutIndex::Count(int i, int by) {
   const LayoutObject& object = objects_[i];
   const auto label = label_counts_.insert({object.label, 0}).first;
@@ -157,7 +157,7 @@ void LayoutIndex::Count(int i, int by) {
   headings_[object.symmetry == Symmetry::kPi][degree] += by;
 }
 
-// Puts an object where it can be found.
+// Adds an object to the cells.
 void LayoutIndex::Enter(int i) {
   const Vec3& p = objects_[i].position;
   points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
@@ -178,7 +178,7 @@ void LayoutIndex::Leave(int i) {
   CountNeighbours(i, -1);
 }
 
-// An object's share in density and height spread, while it is in no list itself.
+// Updates density and height spread by an object that is not in the cells.
 void LayoutIndex::CountNeighbours(int i, int by) {
   const Vec3& p = objects_[i].position;
   const int right = blocks_.Cell(p.x() + kSurroundings), top = blocks_.Cell(p.y() + kSurroundings);

@@ -16,28 +16,27 @@
 
 namespace sslcd {
 
-/// What scoring a pose has to know about an object.
+/// The data of an object for scoring poses.
 struct LayoutPoint {
   float x = 0, y = 0, z = 0;  ///< [m]
   int label = 0;
 };
 
-/// The global map, made searchable: which objects lie near a point, and where a few objects of a
-/// given arrangement are. Small maps list all pairs of objects by distance; those with more than 50
-/// 000 pairs have the triangles of neighbours in k-d trees instead.
+/// A search index of the global map: objects near a point, and places with a given arrangement of
+/// objects. Small maps have lists of all object pairs by distance. Maps with more than 50 000 pairs
+/// have the triangles of neighbours in k-d trees instead.
 class LayoutIndex {
  public:
-  /// Objects with a position that is not finite are left out. Pairs are kept up to `max_pair_m`;
-  /// points find what is within `reach_m`. O(objects + pairs) for small maps, O(n log n) for large
-  /// ones.
+  /// Ignores objects whose position is not finite. Keeps pairs up to `max_pair_m`; Near() finds
+  /// objects within `reach_m`. O(objects + pairs) for small maps, O(n log n) for large ones.
   LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
 
-  /// Objects have come, have changed, or (`removed`, ids) are gone. No two objects may have one id;
-  /// one that is not known is ignored in `removed`. Then answers as an index built of the objects
-  /// as they are now, in another order; indices may be others than before, and of neighbours
-  /// equally far either may count. In a large map this costs O(log^2 n) on average for each object
-  /// that has come, moved or gone. A small one, or one of which more than one object in 32 has
-  /// changed, is built anew, ordered by id; until then, a map that was large counts as large.
+  /// Adds or replaces the `changed` objects and removes those with the ids `removed`. Ids must be
+  /// unique; unknown ids in `removed` are ignored. The result equals a new index of the current
+  /// objects in another order: indices may change, and on a tie another neighbour may count. In a
+  /// large map this costs O(log^2 n) on average per object. A small map, or one with more than one
+  /// changed object in 32, is rebuilt and ordered by id; a map that was large counts as large until
+  /// then.
   void Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed);
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
@@ -45,14 +44,14 @@ class LayoutIndex {
   double max_pair() const { return max_pair_; }
   double reach() const { return reach_; }
 
-  /// Indices of the objects within `reach_m` of a point, and a few more.
+  /// Indices of the objects within `reach_m` of a point, and of a few farther ones.
   CellLists::Range Near(double x, double y) const {
     if (!std::isfinite(x) || !std::isfinite(y)) return near_.None();
     return near_.At(near_.Cell(x), near_.Cell(y));
   }
 
-  /// Calls visit(index) for the objects in a box, and for a few more. O(blocks of 10 m + objects
-  /// visited), and never more than O(objects).
+  /// Calls visit(index) for the objects in a box, and for a few outside of it. O(blocks of 10 m +
+  /// visited objects), at most O(objects).
   template <class Visitor>
   void VisitBox(const Vec2& low, const Vec2& high, Visitor&& visit) const {
     if (!low.allFinite() || !high.allFinite()) return;
@@ -72,29 +71,28 @@ class LayoutIndex {
         for (const int i : blocks_.At(column, row)) visit(i);
   }
 
-  /// Is the point among mapped objects, or does it lie beyond the map's rim (no object within 10 to
-  /// 20 m)?
+  /// Whether the point is inside the mapped area: there is an object within 10 to 20 m.
   bool Known(double x, double y) const;
 
   /// Pairs by labels and distance; none in large maps.
   const PairIndex& pairs() const { return pairs_; }
 
-  /// Triangles of neighbours; null in small maps, which have pairs.
+  /// Triangles of neighbours; null in small maps, which have pairs instead.
   const TriangleIndex* triangles() const { return triangles_ ? &*triangles_ : nullptr; }
 
-  /// Objects per square metre, as seen from an object: the density of its surroundings.
+  /// Mean density of objects around an object. [1/m^2]
   double density() const { return density_; }
-  /// Volume of the poses that put a point among the objects: their area times all headings.
-  /// [m^2 rad]
+  /// Volume of the poses that map a point into the area of the objects: this area times all
+  /// headings. [m^2 rad]
   double pose_volume() const;
-  /// How much the heights of neighbours differ (standard deviation). [m]
+  /// Standard deviation of the height differences of neighbours. [m]
   double height_spread() const { return height_spread_; }
 
-  /// How many objects have a label.
+  /// Number of objects by label.
   const std::map<int, int>& label_counts() const { return label_counts_; }
 
-  /// How many objects head into each direction, bins of one degree from 0 on; [0] of no symmetry,
-  /// [1] of a half turn.
+  /// Number of objects by heading, in bins of one degree from 0; [0]: objects without symmetry,
+  /// [1]: objects with kPi.
   using Headings = std::array<std::array<int, 360>, 2>;
   const Headings& headings() const { return headings_; }
 
@@ -111,14 +109,13 @@ class LayoutIndex {
 
   std::vector<LayoutObject> objects_;
   std::vector<LayoutPoint> points_;
-  std::unordered_map<int, int> index_of_;  // id -> index; filled by the first update
+  std::unordered_map<int, int> index_of_;  // index by id; filled by the first update
   double max_pair_, reach_;
-  // each object once; each object in every cell that its reach touches
+  // blocks_ has each object once; near_ has it in every cell within its reach
   CellLists blocks_, near_;
   PairIndex pairs_;
   std::optional<TriangleIndex> triangles_;
-  // pairs of objects in each other's surroundings; whole numbers, so that any order of updates adds
-  // up to the same
+  // pairs of neighbouring objects; integers, so that the order of updates does not change the sums
   std::int64_t neighbours_ = 0, height_sum_ = 0;
   double density_ = 0, height_spread_ = 0;
   std::map<int, int> label_counts_;

@@ -12,34 +12,34 @@
 namespace sslcd {
 namespace {
 
-// Standard deviations of one object's position between two maps, per axis. The likelihood sums
-// over them, so the data decide. They span the accuracy of maps from stereo to monocular boxes;
-// set by hand. [m]
+// Standard deviations of one object's position between two maps, per axis. The likelihood
+// marginalises over them. They span the accuracy of maps from stereo to monocular boxes; set by
+// hand. [m]
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
-// The hull of the local map reaches this far beyond its objects: those of a straight row would lie
-// on its edge. Set by hand. [m]
+// Margin of the hull of the local map around its objects, since objects of a straight row lie on
+// its edge. Set by hand. [m]
 constexpr double kHullMargin = 1.;
-constexpr double kGate = 3.;       // hard matches lie within this number of standard deviations
-constexpr double kMinGain = -1.5;  // a match with less evidence is none; set by hand [nats]
-// Refine's gate shrinks by this factor a round, down to a standard deviation. Set by hand. [m]
+constexpr double kGate = 3.;       // gate of hard matches in standard deviations
+constexpr double kMinGain = -1.5;  // smallest evidence of a match; set by hand [nats]
+// Refine() shrinks the gate by this factor per round, down to a standard deviation. Set by hand.
+// [m]
 constexpr double kGateShrinkage = 0.85, kLeastGateSigma = 0.33;
-constexpr int kSettleRounds = 2;  // of matches by the likelihood itself
-// Beta prior left for the next unmapped object, at least: the number of objects on the map is a
-// count at the start, and a match may lie beyond.
+constexpr int kSettleRounds = 2;  // rounds of matches by the likelihood
+// Lower bound of the Beta prior left for the next unmapped object: the number of objects in the
+// mapped area is counted at the start, and a match may lie outside of it.
 constexpr double kLeastUnmapped = 0.1;
-// Score of a pose before anything is known of it: below all others.
+// Initial score of a pose, below all others.
 constexpr double kNothing = -1e9;
-constexpr double kLeastSpread = 1e-3;  // of matches on one spot [m^2]
+constexpr double kLeastSpread = 1e-3;  // smallest variance of matches at the same place [m^2]
 
-// Standard deviation of height under a horizontal one: heights of boxes agree better, but for a
+// Standard deviation of height for a horizontal one: heights of boxes agree better, up to a
 // constant. Set by hand. [m]
 double HeightSigma(double sigma) {
   constexpr double kConstant = 0.06, kShare = 0.4;
   return kConstant + kShare * sigma;
 }
 
-// Probability of one sequence of `yes` and `no` outcomes whose rate is unknown: log of the
-// Beta-binomial.
+// Log probability of a sequence of `yes` and `no` outcomes of unknown rate: the Beta-binomial.
 double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
   const auto log_beta = [](double a, double b) {
     return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
@@ -95,7 +95,7 @@ void LayoutLikelihood::PrepareHull() {
   }
 }
 
-// How much better the headings agree than chance would have it.
+// Log likelihood ratio of the headings against chance.
 double LayoutLikelihood::HeadingGain(int i, const LayoutObject& global, double yaw) const {
   const LayoutObject& local = local_[i];
   if (!HasHeading(local) || !HasHeading(global) || local.symmetry != global.symmetry) return 0;
@@ -139,7 +139,7 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
   return candidates;
 }
 
-// Objects of the map among the local ones: they should have been seen.
+// Number of map objects in the area of the local ones, which should have been seen.
 int LayoutLikelihood::CountInView(const YawShift& pose) const {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   Eigen::AlignedBox2d box;
@@ -161,7 +161,7 @@ bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, doubl
   });
 }
 
-// Local objects that fall where the map knows the surroundings: about the others it says nothing.
+// Number of local objects inside the mapped area; the map gives no evidence about the others.
 int LayoutLikelihood::OnMap(const YawShift& pose) const {
   if (!options_.leave_map) return static_cast<int>(local_.size());
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
@@ -200,9 +200,9 @@ std::vector<LayoutLikelihood::Ranked> LayoutLikelihood::RankByGain(
   return ranked;
 }
 
-// Greedy one-to-one matches, the most telling first, as many as pay: every further one changes what
-// the shares of mapped and of seen objects say. One more match after n of N objects changes the
-// Beta-binomial by log((n + a) / (N - n - 1 + b)).
+// Greedy one-to-one matches in the order of evidence, as long as they increase the score: each
+// match changes the evidence of the shares of mapped and of seen objects. One more match after n of
+// N objects changes the Beta-binomial by log((n + a) / (N - n - 1 + b)).
 LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int in_view,
                                    int on_map, double sigma) const {
   const double n_local = on_map;
@@ -280,7 +280,7 @@ YawShift LayoutLikelihood::Align(const LayoutFit& fit) const {
   return AlignPoints(from, to);
 }
 
-// Matches by the likelihood, from where hard ones have led.
+// Matches by the likelihood, started at the pose of hard matches.
 LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
   Settled best{pose, Evaluate(pose)};
   for (int round = 0; round < kSettleRounds && best.fit.matches.size() >= 2; ++round) {
@@ -292,7 +292,7 @@ LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
   return best;
 }
 
-// Hard matches with a shrinking gate first, then the likelihood's own.
+// Hard matches with a shrinking gate, followed by matches by the likelihood.
 LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
   std::vector<Waypoint> way;
   std::shared_ptr<const Settled> end;

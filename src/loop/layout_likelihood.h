@@ -19,12 +19,11 @@ namespace sslcd {
 /// hand.
 inline constexpr int kRefineRounds = 4;
 
-/// How much better the local layout is explained by "this is the map, seen under this pose" than by
-/// "these are other objects, strewn at the map's density". A log likelihood ratio, in nats: it
-/// speaks the same language on dense lots and lonely poles, and knows rare labels from common ones.
-///
-/// Of one local layout on one map; refers to both, which have to outlive it. Positions are finite.
-/// It remembers what it has worked out, so not two threads at once.
+/// Options of the log likelihood ratio of two hypotheses about a local layout: it shows the map
+/// under a pose, or other objects at random places with the map's density. Its unit, nats, makes
+/// dense car parks and isolated poles comparable. Rare labels count more than frequent ones.
+/// Evaluates poses of one local layout in one map. Refers to both, which must outlive it. Positions
+/// must be finite. It has caches, so it is not thread-safe.
 class LayoutLikelihood {
  public:
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
@@ -33,7 +32,7 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local() const { return local_; }
   const LayoutIndex& index() const { return index_; }
 
-  /// Matches under `pose` and what they say.
+  /// Matches the objects under `pose` and scores the pose.
   LayoutFit Evaluate(const YawShift& pose) const;
 
   /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates
@@ -44,9 +43,9 @@ class LayoutLikelihood {
  private:
   struct Candidate {
     int local, global;
-    double d2, z2;         // squared distance, horizontal and vertical [m^2]
+    double d2, z2;         // squared horizontal and vertical distance [m^2]
     double semantic_gain;  // label, heading, appearance [nats]
-    bool in_view;          // the map's object lies among the local ones
+    bool in_view;          // the map's object is in the area of the local ones
   };
   struct Ranked {
     double gain;  // what the match tells by itself [nats]
@@ -54,7 +53,7 @@ class LayoutLikelihood {
   };
   struct Edge {  // of the hull
     Vec2 from, along;
-    double least;  // cross product with it of what is inside
+    double least;  // smallest cross product with a point inside
   };
   struct Settled {
     YawShift pose;
@@ -78,24 +77,24 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
-  // gain of each local object where its label is right; 0 if there is but one
+  // gain of each local object with a correct label; 0 if there is only one label
   std::vector<double> equal_label_;
-  double other_label_ = 0;              // ... and where it is wrong
+  double other_label_ = 0;              // gain with a wrong label
   std::vector<double> chance_heading_;  // ChanceHeadings
-  std::vector<Vec2> corners_;           // of the local objects' convex hull, counter-clockwise
+  std::vector<Vec2> corners_;           // convex hull of the local objects, counter-clockwise
   std::vector<Edge> hull_;
-  // log probability that none of so many is mapped
+  // log probability that none of n objects is mapped, by n
   std::vector<double> none_mapped_;
-  mutable std::map<std::pair<int, int>, double> appearance_;  // what was compared before
+  mutable std::map<std::pair<int, int>, double> appearance_;  // cache
   // where a way through a pose has led
   mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;
 };
 
-/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. At least two different points;
-/// else yaw 0.
+/// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. The yaw is 0 without two
+/// different points.
 YawShift AlignPoints(const std::vector<Vec3>& from, const std::vector<Vec3>& to);
 
-/// The point where a pose takes it.
+/// Applies a pose to a point.
 Vec3 Apply(const YawShift& pose, const Vec3& point);
 
 }  // namespace sslcd

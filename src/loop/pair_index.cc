@@ -10,7 +10,7 @@ namespace sslcd {
 namespace {
 
 constexpr double kBin = 0.25;            // of distances; of speed only [m]
-constexpr int kMaxLabels = 256;          // with lists of their own
+constexpr int kMaxLabels = 256;          // number of labels with separate lists
 constexpr double kNoDirection2 = 1e-12;  // squared distance of objects on one spot [m^2]
 
 struct Sorted {

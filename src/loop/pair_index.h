@@ -40,7 +40,7 @@ class PairIndex {
 
   std::vector<int> labels_;  // ascending
   int bins_ = 0;             // of distance
-  std::vector<int> start_;   // of each slot (label, label, distance) in pairs_
+  std::vector<int> start_;   // start of each slot (label, label, distance) in pairs_
   std::vector<ObjectPair> pairs_;
 };
 

@@ -84,7 +84,7 @@ std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points,
     for (int i = 0; i < kNeighbours && near[a][i] >= 0; ++i) {
       for (int j = i + 1; j < kNeighbours && near[a][j] >= 0; ++j) {
         const int b = near[a][i], c = near[a][j];
-        // Two or three of its corners may propose it: the first one does.
+        // Two or three of its corners may propose it; only the first one does.
         if (b < a && Contains(near[b], a) && Contains(near[b], c)) continue;
         if (c < a && Contains(near[c], a) && Contains(near[c], b)) continue;
         const ObjectTriangle triangle = MakeTriangle(points, a, b, c);
@@ -108,7 +108,8 @@ void Propose(int a, const Neighbours& near, std::vector<Vertices>& proposed) {
 
 Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) {
   const std::vector<LayoutPoint>& points = index.points();
-  const double start = std::sqrt(kNeighbours / (3. * index.density()));  // about twice as many
+  const double start =
+      std::sqrt(kNeighbours / (3. * index.density()));  // radius with about twice the number
   for (double radius = std::min(start, index.max_pair());;
        radius = std::min(2 * radius, index.max_pair())) {
     found.clear();
@@ -129,7 +130,7 @@ std::vector<Neighbours> NearestOfAll(const LayoutIndex& index) {
   return near;
 }
 
-/// What lies within a radius, unless it is too much.
+/// Finds the points within a radius, up to a limit.
 struct Within {
   float squared_radius;
   std::size_t limit;
@@ -159,12 +160,12 @@ std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& p
 
 struct TriangleIndex::State {
   using Forest = KdForest<float, ObjectTriangle>;
-  std::vector<LayoutPoint> points;               // as they were at the last update
-  std::vector<Neighbours> near;                  // ... and whose triangles there are
+  std::vector<LayoutPoint> points;               // points of the last update
+  std::vector<Neighbours> near;                  // neighbours that define the triangles
   std::map<std::array<int, 3>, Forest> forests;  // by labels
 
-  // Those whose neighbours may have changed, apart from the changed ones themselves: they are near
-  // where these were or near where they are.
+  // Points whose neighbours may have changed: those near the old or new positions of changed
+  // points.
   template <class Visitor>
   void VisitAffected(const LayoutIndex& index, int changed, const LayoutPoint& place,
                      Visitor&& visit) const {
@@ -178,7 +179,7 @@ struct TriangleIndex::State {
     });
   }
 
-  // Of the proposed ones those that there are.
+  // The proposed triangles that exist.
   std::vector<ObjectTriangle> Existing(const std::vector<Vertices>& proposed) const {
     std::vector<ObjectTriangle> triangles;
     for (const Vertices& v : proposed) {

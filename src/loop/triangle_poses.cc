@@ -14,18 +14,18 @@ namespace {
 
 // All set by hand, for maps of up to 100 000 objects (docs/notes, "Loop detection against the size
 // of the map").
-constexpr std::size_t kMaxTriangles = 400;  // of the local map that are looked up
-constexpr std::size_t kMinTriangles = 40;   // ... and where these have found enough poses, no more:
+constexpr std::size_t kMaxTriangles = 400;  // of the local map, largest number of searches
+constexpr std::size_t kMinTriangles = 40;   // number after which enough poses end the search
 constexpr std::size_t kEnoughPoses = 5000;
-constexpr std::size_t kMaxFound = 2000;  // by one triangle
-constexpr std::size_t kMaxPoses = 3000;  // that are scored
+constexpr std::size_t kMaxFound = 2000;  // largest number of results of one triangle
+constexpr std::size_t kMaxPoses = 3000;  // largest number of poses to score
 // The golden section: steps of this share of a list, modulo its length, spread any few of them over
 // it (Knuth, The Art of Computer Programming 3, 6.4).
 constexpr double kGoldenSection = 0.618;
 constexpr float kVoteMetres = 4.f;  // side of the cells in which poses are counted
 constexpr float kVoteTurn = 0.4f;   // ... and of the yaw's, as a point on the unit circle
 
-// Three points laid on three others; none if they do not fit to within `tolerance`.
+// Aligns three points with three others; none if an error exceeds `tolerance`.
 std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,
                                 const std::array<LayoutPoint, 3>& to, float tolerance) {
   LayoutPoint p, q;  // the centres
@@ -61,7 +61,7 @@ std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,
   return pose;
 }
 
-// All ways to lay `local` on `global` that respect labels and lengths.
+// All alignments of `local` with `global` that respect labels and lengths.
 void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points,
          const ObjectTriangle& global, const std::vector<LayoutPoint>& map, float tolerance,
          std::vector<CoarsePose>& poses) {
@@ -81,8 +81,8 @@ void Lay(const ObjectTriangle& local, const std::vector<LayoutPoint>& points,
   }
 }
 
-/// How many poses are near a pose: counters of cells hashed without regard to collisions, in two
-/// grids, so that neighbours on two sides of a cell's edge meet in one of them.
+/// Counts the poses near a pose: hashed counters of cells (collisions are ignored) in two shifted
+/// grids, so that neighbours on both sides of a cell's edge share a cell in one of them.
 class Votes {
  public:
   explicit Votes(std::size_t poses) {

@@ -7,7 +7,7 @@
 namespace sslcd {
 namespace {
 
-// Step of the logarithm of the scale per detection: some hundred detections for a factor of ten.
+// Step of the logarithm of the scale per detection: about a hundred detections for a factor of ten.
 // Set by hand.
 constexpr double kLearningRate = 0.03;
 constexpr double kMinScale = 0.5, kMaxScale = 40.;  // sanity bounds

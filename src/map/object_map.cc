@@ -22,7 +22,7 @@ namespace {
 // Sightings before a landmark's place is good enough to learn the noise from. Set by hand.
 constexpr int kLearnAfter = 3;
 
-// Bearing of the camera in the object frame: which side of the object is in view.
+// Bearing of the camera in the object frame, which defines the visible side.
 double Viewpoint(const Pose& T_cam_object) {
   const Vec3 camera_in_object = T_cam_object.inverse().translation();
   return std::atan2(camera_in_object.y(), camera_in_object.x());
@@ -104,7 +104,7 @@ std::vector<LandmarkId> ObjectMap::Match(double stamp, const Pose& T_world_cam,
   return matched;
 }
 
-// The landmark of each query among `ids`; -1 for none.
+// The landmark of each query among `ids`; -1: none.
 std::vector<int> ObjectMap::MatchIds(const std::vector<AssociationQuery>& queries,
                                      std::vector<int> ids, const View& view) const {
   std::vector<AssociationCandidate> candidates;
@@ -216,8 +216,8 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query, con
   landmark.last_seen = view.stamp;
   landmark.last_seen_at = view.travelled;
 
-  // Running estimate until bundle adjustment takes over: the motion test's own position, the mean
-  // of height and yaw.
+  // Running estimate before bundle adjustment: the position of the motion test, and the mean of
+  // height and yaw.
   const double share = 1. / landmark.sightings.size();
   const UprightPose seen = ToUpright(view.T_world_cam * detection.T_cam_object, gravity_);
   const bool driving = landmark.state == LandmarkState::kDynamic;
@@ -238,8 +238,8 @@ void ObjectMap::Judge(MapLandmark& landmark, MapUpdate& update) {
   const Motion motion =
       Movable(landmark) ? landmark.motion.Verdict(options_.motion) : Motion::kParked;
   if (landmark.state == LandmarkState::kDynamic) {
-    // A driving object that stands is a new object of the world: it may become part of the map,
-    // without its past.
+    // A driving object that stops becomes a new object without its history and may become part of
+    // the map.
     const double since = landmark.motion.StandingSince();
     if (landmark.motion.Stamp() - since < options_.motion.settle_s) return;
     landmark.motion.Restart();

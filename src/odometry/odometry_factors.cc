@@ -23,8 +23,8 @@ constexpr double kPriorSigma = 0.3;
 // Steps of the search for the log of a factor: from a factor of e to a few per cent.
 constexpr double kFirstStep = 1, kLastStep = 0.02;
 
-/// The odometry alone: its trajectory, its path, and of the step to each vertex the covariances and
-/// where up is.
+/// The odometry alone: its trajectory and path, and the covariances and the up direction of the
+/// step to each vertex.
 struct Chain {
   std::vector<Pose> poses;
   std::vector<double> travelled;
@@ -40,8 +40,8 @@ struct Loop {
   Mat6 covariance;
 };
 
-/// By how much a cycle misses its start, and the covariance of that: what does not depend on the
-/// factors, and what does, for factors of one.
+/// The closing error of a cycle and its covariance: a part that does not depend on the factors, and
+/// parts that do, for factors of one.
 struct Cycle {
   Vec6 error;
   Mat6 fixed = Mat6::Zero(), horizontal = Mat6::Zero(), heading = Mat6::Zero();
@@ -63,7 +63,7 @@ Chain ChainOf(const PoseGraph& graph, const Vec3& up) {
   return chain;
 }
 
-// Loops in the order of the path, each well behind the one before.
+// Loops in the order of the path, with a minimum path between them.
 std::vector<Loop> LoopsApart(const PoseGraph& graph, const Chain& chain) {
   std::vector<Loop> loops, apart;
   for (const PoseGraph::Edge& edge : graph.edges) {
@@ -86,7 +86,7 @@ std::vector<Loop> LoopsApart(const PoseGraph& graph, const Chain& chain) {
   return apart;
 }
 
-// What the steps from vertex `a` to `b`, in either order, add to a cycle that ends at `end`
+// The covariance that the steps between vertices `a` and `b` add to a cycle that ends at `end`
 // [odometry's world].
 void AddSteps(const Chain& chain, int a, int b, const Pose& T_end_world, Cycle& cycle) {
   for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
@@ -111,10 +111,11 @@ std::vector<Cycle> CyclesOf(const Chain& chain, const std::vector<Loop>& loops) 
   for (const Loop& loop : loops) {
     Cycle& cycle = cycles.emplace_back();
     const Pose T_now_world = chain.poses[loop.now].inverse();
-    const Pose T_now_old = loop.T_old_now.inverse() *
-                           chain.poses[loop.old].inverse();  // old vertex's world, by the loop
+    const Pose T_now_old =
+        loop.T_old_now.inverse() *
+        chain.poses[loop.old].inverse();  // world of the old vertex through the loop
     cycle.fixed = loop.covariance;
-    if (!before) {  // the path itself closes the first one
+    if (!before) {  // the path closes the first cycle
       cycle.error = (T_now_old * chain.poses[loop.now]).Log();
       AddSteps(chain, loop.old, loop.now, T_now_world, cycle);
     } else {
@@ -149,7 +150,7 @@ double LogPosterior(const std::vector<Cycle>& cycles, const std::array<double, 2
 OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up) {
   const Chain chain = ChainOf(graph, up);
   const std::vector<Cycle> cycles = CyclesOf(chain, LoopsApart(graph, chain));
-  // Pattern search: there are two numbers to find, to a few per cent.
+  // Pattern search over two numbers with an accuracy of a few per cent.
   std::array<double, 2> best{0, 0};
   double best_value = LogPosterior(cycles, best);
   for (double step = kFirstStep; step > kLastStep;) {

@@ -17,7 +17,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix67 = Eigen::Matrix<double, 6, 7, Eigen::RowMajor>;
 using Matrix76 = Eigen::Matrix<double, 7, 6, Eigen::RowMajor>;
 
-// A derivative in the tangent space as one in the seven numbers: PlusJacobian undoes the factor.
+// Converts a derivative in the tangent space to the seven parameters; PlusJacobian cancels the
+// factor.
 void StoreAmbient(const Matrix6& J, const double* pose, double* jacobian) {
   Matrix67 minus;
   PoseManifold().MinusJacobian(pose, minus.data());
@@ -35,8 +36,8 @@ PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph:
   PoseGraph::Edge edge = measured;
   if (freedom == PoseFreedom::kFull) return edge;
   const auto &R_from = T_world_from.so3(), &R_to = T_world_to.so3();
-  // The twist about up of the turn from `to` as measured to `to` as it stands is the measurement's
-  // yaw error.
+  // The rotation about up from the measured to the current `to` is the yaw error of the
+  // measurement.
   const auto q = (R_to * (R_from * measured.T_from_to.so3()).inverse()).unit_quaternion();
   const double yaw = 2 * std::atan2(q.vec().dot(up), q.w());
   edge.T_from_to.so3() = R_from.inverse() * lie::SO3<double>::Exp(-yaw * up) * R_to;
@@ -67,7 +68,7 @@ bool EdgeCost::Evaluate(double const* const* poses, double* residual, double** j
   Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residual);
   r = S * e;
   if (jacobians == nullptr) return true;
-  // e(d_to) = Log(E Exp(d_to)); moving `from` by d is moving `to` by -Adj(B^-1) d.
+  // e(d_to) = Log(E Exp(d_to)). A perturbation d of `from` equals -Adj(B^-1) d of `to`.
   const Matrix6 J_to = S.lazyProduct(Matrix6(Pose::RightJacobianInverse(e)));
   if (jacobians[0] != nullptr) {
     const Matrix6 J_from = -J_to.lazyProduct(Matrix6(B.inverse().Adj()));

@@ -14,12 +14,12 @@
 namespace sslcd {
 namespace {
 
-// Per weight update; the next one starts where this one ended and takes one or two.
+// Iterations per weight update. The next update starts at this solution and needs one or two.
 constexpr int kInnerIterations = 20;
 // Weight updates from each of two starts. They multiply mu by 4e14 at a factor of 1.4.
 constexpr int kMaxRounds = 100;
-constexpr int kMaxDecisions = 5;      // rounds of deciding on all loops; two are usual
-constexpr int kMaxWarmDecisions = 3;  // the same from a former solution
+constexpr int kMaxDecisions = 5;      // rounds of decisions on all loops; usually two
+constexpr int kMaxWarmDecisions = 3;  // the same with a previous solution
 // Of the limit on chi-square: less is no misfit to start from, where all loops agree.
 constexpr double kLeastMisfit = 1e-3;
 // Share of the loops, and one loop at least, that a solution from a former one may refuse anew;
@@ -41,7 +41,7 @@ double Weight(double chi2, double mu, double limit) {
   return std::sqrt(limit / chi2 * mu * (mu + 1)) - mu;
 }
 
-// Truncated least squares over the loops of a graph, from one start.
+// Truncated least squares over the loops of a graph with given initial values.
 class Gnc {
  public:
   Gnc(const PoseGraph& graph, const RobustPoseGraphOptions& options, double limit)
@@ -72,7 +72,7 @@ class Gnc {
     }
   }
 
-  /// No more misfit than that many true loops bring along, and no loop that stands out.
+  /// Whether the total chi2 is plausible for true loops and no single loop is an outlier.
   bool AllAgree() const {
     const auto loops = std::count_if(graph_.edges.begin(), graph_.edges.end(),
                                      [](const auto& e) { return e.loop; });
@@ -80,7 +80,7 @@ class Gnc {
     return Worst() <= limit_ && std::accumulate(chi2_.begin(), chi2_.end(), 0.) <= expected;
   }
 
-  /// What is minimised: a loop beyond the limit costs the limit.
+  /// The cost: a loop beyond the limit costs the limit.
   double Cost() const {
     double cost = 0;
     for (std::size_t e = 0; e < chi2_.size(); ++e)
@@ -116,9 +116,9 @@ class Gnc {
   int rounds_ = 0;
 };
 
-// Moves all vertices of a graph that starts at its trusted edges' geometry. GNC ends in a local
-// minimum at times, so it is run from all loops and from none, and the lower cost wins; where all
-// loops agree nothing needs deciding.
+// Optimises a graph that starts at the geometry of its trusted edges. GNC may end in a local
+// minimum, so it runs with all loops and with none, and the lower cost wins. If all loops agree,
+// there is nothing to decide.
 int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, double limit) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
   Gnc from_all(condensed.graph(), options, limit), from_none = from_all;
@@ -135,7 +135,7 @@ int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, doub
   return from_all.rounds() + from_none.rounds();
 }
 
-// Keeps the loops within the limit; false if these are the ones kept already.
+// Keeps the loops within the limit. False if these are the same as before.
 bool KeepConsistent(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
                     RobustPoseGraphSummary& summary) {
   bool changed = !summary.graph.usable;
@@ -161,13 +161,13 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
 
 namespace {
 
-// The chi2 by which a loop disagrees with the trusted edges from which it is ruled out.
+// The chi2 against the trusted edges above which a loop is ruled out.
 double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
   return chi2_limit * options.drift_factor * options.drift_factor;
 }
 
-// Judges all loops by where `work` stands, those that were ruled out, too, and solves with the ones
-// kept; a few times, until nothing changes. `graph` takes over what `work` has found.
+// Selects among all loops, including ruled-out ones, by the poses of `work` and solves with the
+// kept ones, repeatedly until nothing changes. `graph` gets the result of `work`.
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
             const std::vector<std::pair<int, int>>& ends, PoseGraph& graph,
             RobustPoseGraphSummary& summary) {
@@ -184,12 +184,12 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
   summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
 }
 
-// From where a former solve has left the vertices, with what it has kept. False if this refuses
-// more loops than a few new ones can be, or if the new ones bend the trusted edges more than one
-// true loop may: then everything has to be decided anew.
+// Starts at the poses and the kept loops of the previous solve. False if it refuses more loops than
+// the new ones explain, or if the new ones distort the trusted edges more than one true loop can:
+// then all loops must be decided again.
 bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
                const std::vector<double>& kept_before, RobustPoseGraphSummary& summary) {
-  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // its loops come first, in order
+  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // loops come first, in order
   std::vector<std::size_t> loops;
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
     if (graph.edges[e].loop) loops.push_back(e);
@@ -241,7 +241,8 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
   }
   summary.chi2_limit =
       Chi2Quantile(options.inlier_probability, DegreesOfFreedom(options.graph.freedom));
-  // measurements as the vertices' freedom allows them, so that a loop is judged by these alone
+  // measurements restricted to the freedom of the vertices, since only these components decide
+  // about a loop
   PoseGraph work = graph;
   for (std::size_t e = 0; e < work.edges.size(); ++e) {
     const auto [from, to] = index.ends[e];
@@ -254,7 +255,7 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
     return summary;
   }
   const TrustedTree tree(work, index.ends);
-  PoseGraph candidates;  // with the loops that odometry does not rule out
+  PoseGraph candidates;  // graph with the loops that odometry does not rule out
   candidates.vertices = work.vertices;
   for (std::size_t v = 0; v < work.vertices.size(); ++v)
     if (!work.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];

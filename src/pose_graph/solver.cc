@@ -28,7 +28,7 @@ double Chi2Of(const PoseGraph& graph, const Ends& ends, const std::vector<double
   return chi2;
 }
 
-// Fixed vertices, and the first vertex of each part that has none.
+// Fixed vertices, and the first vertex of each component without one.
 std::vector<bool> Anchors(const PoseGraph& graph, const std::vector<int>& component) {
   std::vector<bool> anchored(graph.vertices.size()), held(graph.vertices.size());
   for (std::size_t v = 0; v < anchored.size(); ++v)
@@ -60,7 +60,7 @@ ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
   ceres_options.function_tolerance = options.tolerance;
   ceres_options.logging_type = ceres::SILENT;
   ceres_options.num_threads = 1;
-  ceres_options.initial_trust_region_radius = 1e10;  // the first step is Gauss-Newton's
+  ceres_options.initial_trust_region_radius = 1e10;  // the first step is a Gauss-Newton step
   return ceres_options;
 }
 

@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// What the sightings of a landmark say about its pose in the world.
+// Fuses the sightings of a landmark to its pose in the world.
 struct Information {
   Eigen::Matrix3d position = Eigen::Matrix3d::Zero();
   double yaw = 0;
@@ -35,7 +35,7 @@ class Fusion {
     const Eigen::LDLT<Eigen::Matrix3d> both(a.position + b.position);
     const Vec3 step = both.solve(b.position * (dropped.pose.position - kept.pose.position));
     if (a.sightings + b.sightings > 0 && step.allFinite()) pose.position += step;
-    // Front and back may be mistaken for each other; a vote decides about that later.
+    // Front and back may be confused; a vote decides later.
     if (a.yaw + b.yaw > 0)
       pose.yaw = WrapAngle(pose.yaw +
                            b.yaw / (a.yaw + b.yaw) * WrapAngle(dropped.pose.yaw - pose.yaw, M_PI));
@@ -44,18 +44,17 @@ class Fusion {
     merged_[drop.value] = keep;
   }
 
-  // Could both be one object that the detector's errors have put in two places? Those errors turn
-  // with the viewing ray and are alike from frame to frame: a mean over sightings is off by as much
-  // as one of them.
+  // Whether the detector's errors explain the distance. They rotate with the viewing ray and
+  // correlate from frame to frame, so a mean over sightings has the error of a single one.
   bool InOnePlace(const MapLandmark& a, const MapLandmark& b) const {
-    constexpr double kChiSquare99 = 9.21;  // two components
+    constexpr double kChiSquare99 = 9.21;  // 2 degrees of freedom
     constexpr double kInside = 0.25;  // share of both widths: half of a mean width. Set by hand
     const GravityFrame& gravity = map_.gravity();
     const Vec3 apart = a.pose.position - b.pose.position;
     const Vec2 d(apart.dot(gravity.forward), apart.dot(gravity.left));
     if (!(d.norm() <= options_.refine.duplicate_m)) return false;
     const double room = kInside * (a.dims.head<2>().minCoeff() + b.dims.head<2>().minCoeff());
-    if (d.norm() < room) return true;  // one would stand inside the other
+    if (d.norm() < room) return true;  // the objects would overlap
     const Eigen::Matrix2d covariance = OneSighting(a) + OneSighting(b);
     return d.dot(covariance.ldlt().solve(Eigen::Vector2d(d))) <= kChiSquare99;
   }
@@ -76,7 +75,7 @@ class Fusion {
     return sum;
   }
 
-  // Horizontal covariance of a typical sighting, as cautious as association is.
+  // Horizontal covariance of a typical sighting, with the safety factor of association.
   Eigen::Matrix2d OneSighting(const MapLandmark& landmark) const {
     NoiseScale scale = map_.noise_scale();
     for (double* component : {&scale.radial, &scale.lateral, &scale.vertical})
@@ -94,14 +93,14 @@ class Fusion {
   MergedIds merged_;
 };
 
-// Of two landmarks that are one object, does `a` keep its id?
+// Whether `a` keeps its id when both are fused.
 bool KeepsItsName(const MapLandmark& a, const MapLandmark& b) {
   const bool a_confirmed = a.state == LandmarkState::kConfirmed;
   const bool b_confirmed = b.state == LandmarkState::kConfirmed;
   return a_confirmed != b_confirmed ? a_confirmed : a.sightings.size() >= b.sightings.size();
 }
 
-// The frames' matches follow: a landmark that was merged is found under the id it has now.
+// Replaces merged ids in the matches of the frames.
 void RenameMatches(FrameStore& frames, const MergedIds& merged) {
   for (int i = 0; i < frames.size(); ++i) {
     std::vector<LandmarkId> matched = frames[i].matched;

@@ -8,7 +8,7 @@
 
 namespace sslcd::render {
 
-/// Triangles, each with a part number that says how it is painted.
+/// Triangles, each with a part number that selects its paint.
 struct Mesh {
   std::vector<Vec3f> points;
   std::vector<std::array<int, 3>> triangles;
@@ -21,7 +21,7 @@ struct Mesh {
   void AddQuad(int a, int b, int c, int d, int part);  ///< counter-clockwise seen from outside
 };
 
-/// Faces with points of their own, so that their edges stay sharp.
+/// Adds faces with separate points, so that their edges stay sharp.
 void AddQuad(Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, int part);
 void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part);
 
@@ -34,8 +34,8 @@ struct Disc {
 /// Truncated and closed. Round, so its sides share points.
 void AddCone(Mesh& mesh, const Disc& from, const Disc& to, int sides, int part);
 
-/// Mean over the faces around a corner that lie within `crease_rad` of its own: round where the
-/// mesh is round.
+/// Computes the normal of each corner as the mean over the adjacent faces whose normals differ from
+/// its own by at most `crease_rad`.
 void ComputeNormals(Mesh& mesh, float crease_rad = 0.6f);
 
 }  // namespace sslcd::render

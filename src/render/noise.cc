@@ -14,7 +14,7 @@ float ValueNoise(float x, float y, std::uint32_t seed) {
 float Fractal(float x, float y, std::uint32_t seed, const Octaves& octaves, float footprint) {
   float sum = 0, amplitude = 1, frequency = octaves.frequency;
   for (int octave = 0; octave < octaves.count; ++octave) {
-    // an octave needs two pixels a period
+    // an octave needs two pixels per period
     const float left = Clamp01(1.5f - 2 * frequency * footprint);
     if (left <= 0) break;
     sum += left * amplitude * (2 * ValueNoise(x * frequency, y * frequency, seed + octave) - 1);

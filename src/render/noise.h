@@ -7,7 +7,7 @@
 
 namespace sslcd::render {
 
-/// A well-mixed 32-bit hash (the finaliser of MurmurHash3, public domain).
+/// A 32-bit hash (the finaliser of MurmurHash3, public domain).
 inline std::uint32_t Hash(std::uint32_t x) {
   x = (x ^ (x >> 16)) * 0x85EBCA6Bu;
   x = (x ^ (x >> 13)) * 0xC2B2AE35u;
@@ -24,8 +24,8 @@ inline std::uint32_t Hash(int x, int y, std::uint32_t seed) {
 /// In [0, 1).
 inline float Unit(std::uint32_t hash) { return static_cast<float>(hash >> 8) * 0x1p-24f; }
 
-/// Random numbers of one seed, one after the other. Where several are drawn in one expression,
-/// within braces: these are evaluated from left to right.
+/// A sequence of random numbers of one seed. Draw several in one expression only within braces,
+/// which are evaluated from left to right.
 class Draws {
  public:
   explicit Draws(std::uint32_t seed) : seed_(seed) {}
@@ -35,8 +35,7 @@ class Draws {
   std::uint32_t seed_, count_ = 0;
 };
 
-/// Random numbers of a lattice, blended: in [0, 1), features about 1 wide. (Perlin's "value
-/// noise".)
+/// Value noise: interpolated random numbers of a lattice, in [0, 1), with features about 1 wide.
 float ValueNoise(float x, float y, std::uint32_t seed);
 
 /// Octaves of value noise, each twice as fine as the one before.
@@ -50,8 +49,8 @@ struct Octaves {
 /// flickers far away.
 float Fractal(float x, float y, std::uint32_t seed, const Octaves& octaves, float footprint);
 
-/// Distance to the borders between the nearest of points strewn one a cell (Worley), about 0 to 1,
-/// and a random number for the cell.
+/// Worley noise: the distance to the borders of the cells of random points, about 0 to 1, and a
+/// random number of the cell.
 struct Cell {
   float border = 0, value = 0;
 };

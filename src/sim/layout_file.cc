@@ -18,7 +18,7 @@ double NumberOf(const JsonValue& car, const std::string& key) {
   return value.number;
 }
 
-/// A misspelt key would be ignored in silence.
+/// Refuses unknown keys, since a misspelt key would be ignored silently.
 void CheckKeys(const JsonValue& car) {
   static const std::set<std::string> kKnown{"x", "y", "z", "qx", "qy", "qz", "qw", "w", "label"};
   if (!car.IsObject()) car.Fail("expected a car as an object with keys x, y, z, qx, qy, qz, w");
@@ -49,8 +49,8 @@ Slot SlotOf(const JsonValue& car) {
   const double w = NumberOf(car, car.Find("qw") != nullptr ? "qw" : "w");
   if (std::abs(qx * qx + qy * qy + qz * qz + w * w - 1) > 0.02)
     car.Fail("'qx qy qz w' is no unit quaternion: its length must be 1");
-  // Seen from above with +y of the file ahead: its yaw counts from x against the clock, a heading
-  // from ahead with it.
+  // Seen from above with the file's +y ahead, the file's yaw counts counter-clockwise from x, and a
+  // heading clockwise from ahead.
   const double yaw = std::atan2(2 * (w * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz));
   return {x, y, 0.5 * M_PI - yaw, LabelOf(car)};
 }
@@ -75,7 +75,7 @@ std::vector<Slot> WithoutDoubles(const std::vector<Slot>& slots, double turn_rad
   return kept;
 }
 
-/// The direction most vehicles keep to, modulo a right angle.
+/// The most frequent direction of the vehicles, modulo a right angle.
 double Grain(const std::vector<Slot>& slots) {
   double sine = 0, cosine = 0;
   for (const Slot& slot : slots) {
@@ -85,7 +85,7 @@ double Grain(const std::vector<Slot>& slots) {
   return 0.25 * std::atan2(sine, cosine);
 }
 
-/// The lot seen by someone at (x, z) who looks towards `heading`.
+/// The lot in the frame of an observer at (x, z) with this heading.
 std::vector<Slot> SeenFrom(const std::vector<Slot>& slots, double x, double z, double heading) {
   const double sine = std::sin(heading), cosine = std::cos(heading);
   std::vector<Slot> seen = slots;
@@ -127,7 +127,7 @@ struct Legs {
 };
 
 Legs LegsOf(const HalvCourse& course) {
-  constexpr std::size_t kEvery = 5;  // of the course's points
+  constexpr std::size_t kEvery = 5;  // uses every fifth point of the course
   Legs legs;
   for (std::size_t i = 0; i < course.points.size(); i += kEvery) {
     const double s =
