@@ -57,7 +57,7 @@ void AddTableOptions(CLI::App& command, BenchArguments& a) {
       "Markdown document to put the tables into, between <!-- bench NAME --> and <!-- /bench -->");
 }
 
-// What tables are made of, besides what HALV-sim makes.
+// The inputs of tables besides HALV-sim.
 void AddInputOptions(CLI::App& command, BenchArguments& a) {
   command
       .add_option("--images", a.images,

@@ -98,8 +98,8 @@ Dataset LoadWithoutDetections(DatasetRequest& request) {
   return dataset;
 }
 
-// Throws Error(kUsage) where writing would replace what is read, or leave a ground truth of other
-// frames beside it.
+// Throws Error(kUsage) if the output would replace an input or leave a ground truth of other
+// frames.
 void CheckOutput(const DetectArguments& a, const Dataset& dataset) {
   const fs::path out = a.out;
   RefuseInput(out, dataset);
@@ -112,8 +112,8 @@ void CheckOutput(const DetectArguments& a, const Dataset& dataset) {
                     {(out / "detections.txt").string(), (out / "config.yaml").string()});
 }
 
-// Appends frames to `files` until there are no more, or ctrl-C, or an error, which is returned: the
-// frames before it are not lost.
+// Appends frames to `files` until the end, ctrl-C or an error. Returns the error, so that earlier
+// frames are kept.
 std::optional<Error> CollectFrames(ImageFrontend& frontend, int total, const Console& console,
                                    SequenceFiles& files) {
   std::optional<Error> failure;
@@ -130,14 +130,14 @@ std::optional<Error> CollectFrames(ImageFrontend& frontend, int total, const Con
   return failure;
 }
 
-// The configuration that maps what was written.
+// The configuration for mapping the written sequence.
 std::string ResolvedConfig(Configuration configuration, const ImageRequest& request) {
   if (MeasuresByStereo(request, configuration.vision))
     configuration.vision.odometry.calibrate = false;  // calib.txt has what CheckRig found
   return DumpConfig([&](FieldVisitor& v) { DescribeFields(v, configuration); }, false);
 }
 
-// What was written, and the command that maps it.
+// Prints the output and the command that maps it.
 std::string Written(const std::string& out, bool odometry_alone) {
   return "wrote " + out +
          (odometry_alone ? "; map it with detections: sslcd_run run "
@@ -148,7 +148,7 @@ std::string Written(const std::string& out, bool odometry_alone) {
 
 int Detect(DetectArguments& a, const Console& console) {
   a.images.AddTo(a.config);
-  const Configuration given = a.config.Load();  // wrong ones first
+  const Configuration given = a.config.Load();  // reports wrong options first
   const bool odometry_alone = MakesOdometryAlone(a, given.vision);
   if (odometry_alone && a.overlays)
     throw Error(ErrorKind::kUsage,

@@ -39,7 +39,7 @@ Pose Disturbed(const Pose& T, double off_m, std::mt19937& random) {
   return T * Pose::Exp(error);
 }
 
-// Of all pairs of a folder.
+// Errors of all pairs of a folder.
 struct Errors {
   std::vector<double> right, down, ahead;  // [m]
   std::vector<double> turn;                // [deg]
@@ -54,8 +54,7 @@ std::vector<double> PathOf(const std::vector<Pose>& poses, std::size_t count) {
   return path;
 }
 
-// The earlier frame whose view of the ground is nearest to that of frame `now`; `now` where none is
-// near.
+// The earlier frame whose view of the ground is nearest to frame `now`; `now` if none is near.
 std::size_t FindPartner(const std::vector<Pose>& truth, const std::vector<double>& path,
                         std::size_t now, const LoopViewOptions& views, double gap_m) {
   const auto spot = [&](std::size_t i) { return Vec3(truth[i] * Vec3(0, 0, views.ahead_m)); };

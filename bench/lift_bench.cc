@@ -142,9 +142,9 @@ void Print(const char* name, const std::vector<Judged>& judged, int boxes) {
 }
 
 constexpr double kNear = 25;                                 // [m]
-const std::vector<double> kEdges{0, 8, 12, 18, 25, 40, 80};  // of the bins of ranges [m]
+const std::vector<double> kEdges{0, 8, 12, 18, 25, 40, 80};  // limits of the bins of ranges [m]
 
-/// Boxes by their true range, and what became of them.
+/// Results of boxes by true range.
 struct Tally {
   std::vector<std::vector<Judged>> bins{kEdges.size() - 1};
   std::vector<int> counts = std::vector<int>(kEdges.size() - 1);

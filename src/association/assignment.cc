@@ -7,8 +7,8 @@
 namespace sslcd {
 namespace {
 
-// Every row gets a dummy column of its own at cost 0: "stays alone" is then always possible, and
-// never worse than a forbidden pair.
+// Every row gets a dummy column at cost 0, so that it can stay unassigned, which is never worse
+// than a forbidden pair.
 class Costs {
  public:
   explicit Costs(const Eigen::MatrixXd& scores) : scores_(scores) {}

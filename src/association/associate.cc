@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// What a belief counts less than the one before it. Set by hand.
+// Factor on the score of a belief relative to the previous one. Set by hand.
 constexpr double kLessPlausible = 0.5;
 
 SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate& candidate) {

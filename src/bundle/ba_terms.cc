@@ -19,10 +19,10 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
   return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
 }
 
-// A tie that is off by this many standard deviations counts half. Set by hand.
+// A tie with an error of this many standard deviations has half the weight. Set by hand.
 constexpr double kTieLoss = 3;
-// Where the first camera is: so certain that nothing moves it; next to a prior, which says where
-// the cameras are, this times less. Set by hand. [m, rad]
+// Standard deviations that fix the first camera; with a prior of the cameras they are larger by
+// this factor. Set by hand. [m, rad]
 constexpr double kGaugeMetres = 1e-3, kGaugeRad = 1e-4, kLooserGauge = 300;
 constexpr double kFullWeight = 1;
 

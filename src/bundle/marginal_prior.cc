@@ -61,10 +61,10 @@ bool MarginalPriorCost::Evaluate(double const* const* blocks, double* residuals,
 
 namespace {
 
-// Eigenvalues below these shares of the largest are zero: what the data leave free. In the states
-// that go; in the prior, which has the round-off of the first on top.
+// Eigenvalues below these shares of the largest one count as zero, since the data do not determine
+// their directions. First for the dropped states, then for the prior, which adds rounding errors.
 constexpr double kFreeOfDropped = 1e-12, kFreeOfPrior = 1e-10;
-constexpr double kLeastEigenvalue = 1e-12;  // of the largest one, where there are no data at all
+constexpr double kLeastEigenvalue = 1e-12;  // of the largest one, without any data
 
 double LargestOf(const Eigen::VectorXd& eigenvalues) {
   return std::max(kLeastEigenvalue, eigenvalues.cwiseAbs().maxCoeff());
@@ -102,24 +102,23 @@ void SquareRoot(const Quadratic& q, BaPrior& prior) {
   prior.r0 = inverse_root.asDiagonal() * eigen.eigenvectors().transpose() * q.b;
 }
 
-// Indices of the states that go.
+// Indices of the dropped states.
 struct Dropped {
   std::set<int> cameras, objects;
 };
 
-// The states that a prior is about, as Ceres sees them: those that go, the cameras and objects that
-// stay, the scale. Columns of the Jacobian are in this order.
+// The states of a prior in the order of the columns of the Jacobian: dropped states, remaining
+// cameras and objects, scale.
 struct States {
   std::vector<double*> blocks;
-  int dropped_columns = 0;          // of those that go
-  std::vector<int> object_columns;  // of each object that stays: 3 where it has no yaw
+  int dropped_columns = 0;          // columns of the dropped states
+  std::vector<int> object_columns;  // of each remaining object: 3 without yaw
 };
 
 int ColumnsOf(const BaObject& object) { return object.symmetry == Symmetry::kFull ? 3 : 4; }
 
-// Residuals that touch a state that goes, the scale's own prior, and the prior of an earlier
-// marginalisation. In the order in which they were added: the sums below are then the same in each
-// run.
+// Residuals of dropped states, the scale's prior, and the prior of an earlier marginalisation, in
+// the order of their addition, so that the sums below are deterministic.
 std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Dropped& dropped) {
   std::set<double*> gone;
   for (const int i : dropped.cameras) gone.insert(terms.camera(i));
@@ -139,7 +138,7 @@ std::vector<ceres::ResidualBlockId> SelectResiduals(BaTerms& terms, const Droppe
   return selected;
 }
 
-// Lists the states that the residuals touch, and names those that stay in `prior`.
+// Lists the states of the residuals, and enters the remaining ones into `prior`.
 States OrderStates(BaTerms& terms, const BaProblem& problem,
                    const std::vector<ceres::ResidualBlockId>& residuals, const Dropped& dropped,
                    BaPrior& prior) {
@@ -176,8 +175,7 @@ States OrderStates(BaTerms& terms, const BaProblem& problem,
   return states;
 }
 
-// Gauss-Newton: H = J^T J, b = J^T r, where the states are now; none where a residual cannot be
-// evaluated.
+// Gauss-Newton: H = J^T J, b = J^T r at the current states; none if a residual cannot be evaluated.
 std::optional<Quadratic> Linearise(BaTerms& terms, const std::vector<double*>& blocks,
                                    const std::vector<ceres::ResidualBlockId>& residuals) {
   ceres::Problem::EvaluateOptions evaluate;
@@ -194,8 +192,7 @@ std::optional<Quadratic> Linearise(BaTerms& terms, const std::vector<double*>& b
   return Quadratic{J.transpose() * J, J.transpose() * residual};
 }
 
-// Objects without yaw take part with three columns: gives them the fourth one, of zeros, that
-// BaPrior's layout has.
+// Objects without yaw have three columns; adds the fourth column of BaPrior's layout with zeros.
 void FillYawColumns(const std::vector<int>& object_columns, BaPrior& prior) {
   Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(
       prior.J.rows(), 6 * prior.cameras.size() + 4 * prior.objects.size() + 1);

@@ -93,7 +93,7 @@ BaSummary SolveBa(BaProblem& problem, const BaOptions& options) {
 
 NoiseScale EstimateNoiseScale(const BaProblem& problem) {
   constexpr double kMedianOfGaussian = 0.6745;          // median of |x|, x ~ N(0, 1)
-  constexpr std::size_t kFewest = 20;                   // errors that a median is taken of
+  constexpr std::size_t kFewest = 20;                   // smallest number of errors of a median
   constexpr double kLeastScale = 0.5, kMostScale = 40;  // sanity bounds, as ObjectMap has them
   std::vector<double> errors[4];
   for (const BaSighting& sighting : problem.sightings) {

@@ -12,7 +12,7 @@
 namespace sslcd {
 namespace {
 
-// Scatter of matched objects; a matcher does not say how well they agree. Set by hand. [m]
+// Standard deviation of matched objects, which a matcher does not provide. Set by hand. [m]
 constexpr double kSigma = 0.3;
 
 void CheckMatches(const std::vector<std::pair<int, int>>& matches, std::size_t locals,

@@ -11,18 +11,17 @@ namespace sslcd {
 namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
-// All set by hand; no search over them is recorded.
-// Standard deviation between the headings that two passes give one object. [rad]
+// All set by hand without a recorded search. Standard deviation between the headings that two
+// passes give one object. [rad]
 constexpr double kYawSigma = 0.2;
-// Where the common objects fix the heading badly, cameras further back on the path are tried, this
-// far apart. [m]
+// Path between two query cameras that are tried if the heading is too uncertain. [m]
 constexpr int kCamerasTried = 3;
 constexpr double kFurtherBack = 10.;
-// Range from which an object is seen: a turn of the odometry moves the object by it. [m]
+// Typical range of an object, by which a rotation of the odometry moves it. [m]
 constexpr double kSeenFrom = 10.;
-// Path on either side of a camera over which cameras stand upright on average. [m]
+// Path on either side of a camera over which cameras are upright on average. [m]
 constexpr double kLevelReach = 20.;
-constexpr double kLeastTilt = 1e-9;  // below it the axis of a tilt is round-off [rad]
+constexpr double kLeastTilt = 1e-9;  // a smaller tilt is rounding error [rad]
 
 // Path lengths of the first and the last common object. [m]
 std::pair<double, double> SeenBetween(const CommonObjects& common) {

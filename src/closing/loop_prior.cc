@@ -9,11 +9,10 @@
 namespace sslcd {
 namespace {
 
-// Standard deviations of a place at the end of the last loop, before any path. Set by hand. [m,
-// rad]
+// Standard deviations of the drift at path length 0. Set by hand. [m, rad]
 constexpr double kStartMetres = 1., kStartRad = 0.02;
-// The density of a Gaussian at its peak is that of all headings alike, 1 / (2 pi), where its sigma
-// is sqrt(2 pi) = 2.5: no heading becomes less likely than that. [rad]
+// At a sigma of sqrt(2 pi) = 2.5 the peak density of a Gaussian equals the uniform density 1 / (2
+// pi), so the sigma is limited to it. [rad]
 constexpr double kWidestYaw = 2.5;
 
 }  // namespace

@@ -56,7 +56,7 @@ void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledge
 
 void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, double scale,
                     const OdometryNoise& noise, LoopLedger& ledger) {
-  // From the loop to the tie, on both passes together: odometry adds its own error on the way. In
+  // Largest path from the loop to the tie on both passes together, since odometry adds errors. In
   // case 1, seed 5 of rendered HALV-sim fifteen loops have no tie within it (docs/notes, "From
   // images alone"). Set by hand. [m of path]
   constexpr double kNear = 30;

@@ -34,7 +34,7 @@ int SameSpot(const FrameStore& frames, int i, const PathGraph& path, double reac
 }
 
 bool IsMeasurement(const RelativePose& pose) {
-  constexpr double kLeastVariance = 1e-12;  // what is less is round-off [m^2, rad^2]
+  constexpr double kLeastVariance = 1e-12;  // a smaller variance is rounding error [m^2, rad^2]
   if (!pose.T_a_b.Log().allFinite() || !pose.covariance.allFinite()) return false;
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(pose.covariance);
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > kLeastVariance;

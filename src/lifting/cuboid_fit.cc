@@ -20,16 +20,16 @@ constexpr double kDisparityBias = 0.05;  // [px] common to all columns of an obj
 constexpr double kShapeSigma = 0.06;     // [m] shape of the body, added to the sides of its box
 constexpr double kGroundSigma = 0.04;    // [m] height of the ground under an object over the plane
 constexpr double kSlopeSigma = 0.003;    // [rad] slope of the plane
-constexpr double kCauchy = 2;  // [sigmas] a point of the scan that is off by this counts half
-// The fit starts from this many headings, over half a turn. Set by hand.
+constexpr double kCauchy = 2;  // [sigmas] a scan point with this error has half the weight
+// Number of initial headings over half a turn. Set by hand.
 constexpr int kStarts = 12, kIterations = 15;
-// At a start, the middle of the contour lies before the centre by this share of half the size along
-// the ray. Set by hand.
+// Initial offset of the contour's middle from the centre, share of half the size along the ray. Set
+// by hand.
 constexpr double kNearSide = 0.7;
-constexpr double kLeastSize = 0.1;  // [m] sanity bound
-constexpr double kNearest = 0.1;  // [m] of a point that a ray meets; where less, it would be behind
-constexpr double kLeastDepth = 0.3;  // [m] of a corner in the image
-constexpr double kLeastRange = 0.5;  // [m] of the centre, for what its shape covers in the image
+constexpr double kLeastSize = 0.1;   // [m] sanity bound
+constexpr double kNearest = 0.1;     // [m] smallest depth of a point on a ray
+constexpr double kLeastDepth = 0.3;  // [m] smallest depth of a corner
+constexpr double kLeastRange = 0.5;  // [m] smallest range of the centre for its extent in the image
 constexpr double kParallel = 1e-9;   // a ray's share across a side, at least
 
 /// The unknowns. x, z: centre on the ground, right and ahead of the camera; base: height of the
@@ -130,8 +130,8 @@ class Problem {
 
   /// Penalty of overlap with occupied ground.
   double Crowding(const Parameters& p) const {
-    constexpr int kAlong = 9, kAcross = 5;  // points of the footprint that are asked
-    // Of a footprint that is all taken. Set by hand.
+    constexpr int kAlong = 9, kAcross = 5;  // sample points of the footprint
+    // For a footprint on completely occupied ground. Set by hand.
     constexpr double kCost = 20;
     int taken = 0;
     const double c = std::cos(p[kYaw]), s = std::sin(p[kYaw]);
@@ -231,11 +231,11 @@ Normal NormalEquations(const Problem& problem, const Parameters& p,
 
 /// Levenberg-Marquardt.
 Solution Solve(const Problem& problem, Parameters p) {
-  // Damping: at the start, at least and at most; times this after a step that fails, by this after
-  // one that succeeds.
+  // Damping: initial, smallest and largest value; factor after a failed step, divisor after a
+  // successful one.
   constexpr double kDamping = 1e-2, kLeastDamping = 1e-6, kMostDamping = 1e6;
   constexpr double kMoreDamping = 8, kLessDamping = 5;
-  constexpr double kLeastGain = 1e-4;  // of the cost: less changes nothing that counts
+  constexpr double kLeastGain = 1e-4;  // share of the cost; a smaller gain is irrelevant
   Eigen::VectorXd residuals(problem.residuals()), tried(problem.residuals());
   problem.Residuals(p, residuals);
   Solution solution{p, Normal::Identity(), problem.Cost(residuals)};

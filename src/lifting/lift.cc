@@ -144,8 +144,8 @@ void Merge(double at, double sigma_px, double& side, double& side_sigma_px) {
 /// Refines the sides of a coarse box by the ends of the contour. If the contour has gaps, the part
 /// with most points in the box belongs to the object.
 void TakeSidesOfContour(const Box2d& around, FitInput& input) {
-  // Shares of the box's width. A gap: what is seen through, or without texture; and the standard
-  // deviation of the ends of a contour. Set by hand.
+  // Shares of the box's width: largest gap (windows, no texture), and standard deviation of the
+  // ends of a contour. Set by hand.
   constexpr double kGap = 0.25, kSigma = 0.05;
   const Box2d box = input.box;
   const double width = box.right - box.left;
@@ -177,8 +177,8 @@ void TakeSidesOfContour(const Box2d& around, FitInput& input) {
 /// Lifts a box, or returns the reason of the failure.
 LiftStatus Lift(const Scene& scene, const Box2d& box, const std::vector<Nearer>& nearer,
                 const ClassPrior& prior, CuboidFit& answer) {
-  // The cost of a column that is not the object's; a fit that is off by more is none [sigmas]. Set
-  // by hand.
+  // The cost of a column that does not belong to the object; limits of the errors of a fit
+  // [sigmas]. Set by hand.
   constexpr double kElsewhere = 1;
   constexpr double kBoxError = 5, kScanError = 2.5;
   const double max_disparity =

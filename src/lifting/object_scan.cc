@@ -28,10 +28,11 @@ const ScanPoint* At(const std::vector<ScanPoint>& scan, double u, double reach_p
 
 bool IsHidden(const std::vector<Nearer>& nearer, double u, double v, const Vec3& point,
               double depth, double bf) {
-  // Pixels are hidden that are no farther than a nearer object's contour there, and a little more,
-  // because disparities scatter: share of the range, and metres. Set by hand.
+  // Margin behind the contour of a nearer object within which pixels belong to it, because
+  // disparities scatter: share of the range, and metres. Set by hand.
   constexpr double kFartherShare = 1.03, kMargin = 0.2;
-  // A contour tells of columns this near to it: share of the box's width, and pixels. Set by hand.
+  // Largest distance of a column from a contour that covers it: share of the box's width, and
+  // pixels. Set by hand.
   constexpr double kReachShare = 0.1, kReachPx = 4;
   return std::any_of(nearer.begin(), nearer.end(), [&](const Nearer& other) {
     const Box2d& box = other.box;
@@ -125,7 +126,7 @@ std::vector<std::vector<ScanPoint>> ScanObject(const DisparityPatch& patch, cons
   const double bf = camera.baseline_m * camera.left.fx;
   std::vector<Weighed> all = Medians(Columns(patch, box, nearer, camera, ground, rules), bf);
   std::vector<std::vector<ScanPoint>> answers;
-  constexpr int kAnswers = 2;  // the object, and what stands before or behind it
+  constexpr int kAnswers = 2;  // the object, and another one before or behind it
   for (int i = 0; i < kAnswers; ++i) {
     std::vector<ScanPoint> points = TakeStretch(all, rules.depth_m);
     if (points.size() >= rules.fewest) answers.push_back(std::move(points));

@@ -19,9 +19,9 @@ constexpr int kPairsPerObject = 6;
 // Soft score of an object that coincides with one of another label, share of a correct match. Set
 // by hand.
 constexpr float kOtherLabelScore = 0.3f;
-// Poses are the same whose shift, in whole metres, and whose yaw, in these units, are. Set by hand.
+// Poses in the same cell are equal: cells of 1 m and of this yaw. Set by hand.
 constexpr double kSameYawRad = 0.1;
-// Poses of a lower score than this share of the best one's are not refined. Set by hand.
+// Smallest score of a refined pose, share of the best score. Set by hand.
 constexpr float kShareOfBest = 0.5f;
 
 struct LocalPair {
@@ -73,7 +73,7 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
 class GainBound {
  public:
   static constexpr int kOne = 250;   // a gain of 1, in the picture's units
-  static constexpr int kAtOnce = 8;  // points that one look takes, as a vector
+  static constexpr int kAtOnce = 8;  // points per vectorised lookup
 
   GainBound(const std::vector<LayoutPoint>& map, float inlier_m) : inlier_(inlier_m) {
     constexpr float kFinest = 0.5f, kMaxSide = 1024;  // [m], cells
@@ -247,7 +247,7 @@ class Contest {
     return static_cast<int>((least_ - score - kRoundOff) * GainBound::kOne) - 1;
   }
 
-  // What falls short of its share of the best score, or of the winners so far, is out.
+  // Raises the threshold to the share of the best score, and to the score of the last kept pose.
   void RaiseBar(float score) {
     constexpr int kNow = 256;  // interval of selecting the best ones
     least_ = std::max(least_, kShareOfBest * score);

@@ -8,10 +8,10 @@
 namespace sslcd {
 namespace {
 
-constexpr int kHeadings = 72;  // turns that are tried, bins of five degrees
+constexpr int kHeadings = 72;  // number of rotations to try, bins of five degrees
 using Background = std::array<double, kHeadings>;
 
-// log density of the map's headings, with one heading on top that may be any. [log 1/rad]
+// log density of the map's headings plus one uniform heading [log 1/rad]
 Background LogDensityOf(const LayoutIndex::Headings& map) {
   Background background{};
   int headings = 0;

@@ -17,10 +17,10 @@ const std::vector<double>& HeadingDensities(Symmetry symmetry);
 
 bool HasHeading(const LayoutObject& object);
 
-/// log density of each local object's heading, were the local objects others of the same kind: they
-/// then face as the map's objects do, as a whole under whatever turn makes that likeliest. Not
-/// under the turn of the pose that is weighed: a pose under which every car faces the wrong way has
-/// that against it. 0 for objects without a heading. [log 1/rad]
+/// Log density of each local object's heading by chance: other objects of the same kind have the
+/// headings of the map's objects, rotated by the most likely common angle. It does not use the
+/// rotation of the scored pose, so that a pose under which every car has a wrong heading gets a
+/// penalty. 0 for objects without a heading. [log 1/rad]
 std::vector<double> ChanceHeadings(const std::vector<LayoutObject>& local,
                                    const LayoutIndex::Headings& map);
 

@@ -8,12 +8,12 @@ namespace sslcd {
 namespace {
 
 constexpr double kBlock = 10.;  // side of the cells that hold each object once [m]
-// Radius in which density and heights are judged. Set by hand. [m]
+// Radius of the neighbourhood for density and heights. Set by hand. [m]
 constexpr double kSurroundings = 15.;
-// Squared differences of heights are added up in this unit, and up to this: a slope or an outlier
-// counts no more. [m^2]
+// Unit and limit of the summed squared height differences; the limit bounds slopes and outliers.
+// [m^2]
 constexpr double kHeightUnit = 1e-9, kMostHeight2 = 1.;
-constexpr double kSamePoint2 = 1e-12;  // closer objects are one [m^2]
+constexpr double kSamePoint2 = 1e-12;  // squared distance of equal points [m^2]
 // With more pairs, triangles are faster (docs/notes, "Loop detection against the size of the map").
 constexpr std::size_t kMaxPairs = 50000;
 // rebuild if more than one object in this number changes
@@ -65,8 +65,8 @@ void LayoutIndex::Build() {
   pairs_ = PairIndex(objects_, pairs, max_pair_);
 }
 
-// One update: the indices whose objects have moved; and whether all lists are rebuilt at its end,
-// so that none is kept up to date meanwhile.
+// One update: the indices of changed objects, and whether it ends with a rebuild, so that lists
+// need no updates.
 struct LayoutIndex::Change {
   bool rebuild = false;
   std::vector<int> touched;
@@ -100,7 +100,7 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
   }
 }
 
-// The last object takes the place of the one that goes.
+// The last object takes the place of the removed one.
 void LayoutIndex::Remove(int id, Change& change) {
   const auto known = index_of_.find(id);
   if (known == index_of_.end()) return;
@@ -123,7 +123,7 @@ void LayoutIndex::Remove(int id, Change& change) {
   points_.pop_back();
 }
 
-// Adds an object, or replaces the one of its id.
+// Adds an object or replaces the one with its id.
 void LayoutIndex::Put(const LayoutObject& object, Change& change) {
   const auto [place, is_new] = index_of_.insert({object.id, static_cast<int>(objects_.size())});
   const int i = place->second;

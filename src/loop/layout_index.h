@@ -98,7 +98,7 @@ class LayoutIndex {
 
  private:
   void Build();
-  struct Change;  // what an update has touched
+  struct Change;  // changes of an update
   void Remove(int id, Change& change);
   void Put(const LayoutObject& object, Change& change);
   void Count(int object, int by);

@@ -172,7 +172,7 @@ int LayoutLikelihood::OnMap(const YawShift& pose) const {
       }));
 }
 
-// Candidates that are worth a match, the most telling first. With the horizontal distance d and the
+// Candidates with sufficient gain, largest gain first. With the horizontal distance d and the
 // vertical one z between the objects, the map's density rho and the share w of wrong heights:
 //   gain = log(N2(d; sigma) / rho) + log(w + (1 - w) N(z; sigma_z) / N(z; background_z)) + semantic
 std::vector<LayoutLikelihood::Ranked> LayoutLikelihood::RankByGain(

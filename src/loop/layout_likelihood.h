@@ -15,7 +15,7 @@
 
 namespace sslcd {
 
-/// Rounds of LayoutLikelihood::Refine with hard matches: the gate then is half as wide. Set by
+/// Rounds of LayoutLikelihood::Refine with hard matches, which halve the width of the gate. Set by
 /// hand.
 inline constexpr int kRefineRounds = 4;
 
@@ -48,7 +48,7 @@ class LayoutLikelihood {
     bool in_view;          // the map's object is in the area of the local ones
   };
   struct Ranked {
-    double gain;  // what the match tells by itself [nats]
+    double gain;  // evidence of the match alone [nats]
     const Candidate* candidate;
   };
   struct Edge {  // of the hull

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kBin = 0.25;            // of distances; of speed only [m]
 constexpr int kMaxLabels = 256;          // number of labels with separate lists
-constexpr double kNoDirection2 = 1e-12;  // squared distance of objects on one spot [m^2]
+constexpr double kNoDirection2 = 1e-12;  // squared distance of objects at the same place [m^2]
 
 struct Sorted {
   double along, x, y, z;
   int label, object;
 };
 
-// By their place along the longer side.
+// Sorted by position along the longer side.
 std::vector<Sorted> SortAlong(const std::vector<LayoutObject>& objects) {
   Eigen::AlignedBox2d box;
   for (const LayoutObject& object : objects) box.extend(object.position.head<2>());

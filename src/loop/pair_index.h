@@ -15,22 +15,22 @@ struct ObjectPair {
   float dz = 0;          ///< height of b over a [m]
 };
 
-/// Pairs of objects that are at most `max_pair_m` apart, but not on one spot, always in the same
-/// order. The search ends once `most` are found. A sweep along the longer side of the layout:
-/// O(n log n + pairs in a strip of that width).
+/// Finds pairs of objects at different places that are at most `max_pair_m` apart, in a
+/// deterministic order. Stops after `most` pairs. A sweep along the longer side of the layout: O(n
+/// log n + pairs in a strip of that width).
 std::vector<ObjectPair> FindPairs(const std::vector<LayoutObject>& objects, double max_pair_m,
                                   std::size_t most);
 
-/// Pairs of objects, listed by their labels and their distance.
+/// Pairs of objects by labels and distance.
 class PairIndex {
  public:
   PairIndex() = default;
-  /// `found`: pairs of `objects`, at most `max_pair_m` apart. O(objects + pairs).
+  /// `found` has pairs of `objects`, at most `max_pair_m` apart. O(objects + pairs).
   PairIndex(const std::vector<LayoutObject>& objects, const std::vector<ObjectPair>& found,
             double max_pair_m);
 
   /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset,
-  /// by bins; of more than 256 labels, the rarer ones may share a list.
+  /// by bins; with more than 256 labels, rare ones may share a list.
   std::vector<ObjectPair>::const_iterator Begin(int label_a, int label_b, double from_m) const;
   std::vector<ObjectPair>::const_iterator End(int label_a, int label_b, double to_m) const;
 

@@ -18,14 +18,14 @@ Vec3 CentreOf(const std::vector<LayoutObject>& local) {
   return centre;
 }
 
-// Do two poses take a point to about the same place, under about the same yaw?
+// Whether two poses map a point to nearly the same place with nearly the same yaw.
 bool AreNear(const YawShift& a, const YawShift& b, const Vec3& point, double distance_m,
              double angle_rad) {
   return (Apply(a, point) - Apply(b, point)).head<2>().norm() < distance_m &&
          std::abs(WrapAngle(a.yaw - b.yaw)) < angle_rad;
 }
 
-// How many different objects the local maps of some attempts had.
+// Number of different objects in the local maps of several attempts.
 double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
   std::vector<int> all;
   for (const PoseTrack::Vote& vote : votes)
@@ -41,15 +41,15 @@ void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
                "attempts farther back on the path than this do not count for a track");
 }
 
-// One attempt: what all its tracks share, and the tracks so far.
+// One attempt: the data common to all tracks, and the tracks so far.
 struct PoseTracks::Attempt {
   double path_m;
-  std::vector<int> objects;  // of the local map, by id
-  Vec3 centre;               // of the local map; poses are compared there
+  std::vector<int> objects;  // ids of the local map's objects
+  Vec3 centre;               // of the local map, where poses are compared
   const PoseSearchOptions& search;
   const Prior& prior;
-  // Tracks that are as old have seen the same local maps: by the first vote and the number of
-  // votes, how many different objects these had.
+  // Number of different objects by first vote and number of votes: tracks of the same age have the
+  // same local maps.
   std::map<std::pair<double, std::size_t>, double> different_since;
   std::vector<PoseTrack> tracks;
 

@@ -55,7 +55,7 @@ class PoseTracks {
 
  private:
   struct Attempt;
-  /// The track goes on, or begins, at `pose`; not where a track of this attempt is already.
+  /// Continues or starts a track at `pose`, unless the attempt already has a track there.
   void AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit, Attempt& attempt) const;
 
   PoseTrackOptions options_;

@@ -12,9 +12,9 @@
 namespace sslcd {
 namespace {
 
-// Enough for triangles that are left when one neighbour of five is missed. Set by hand.
+// Number of neighbours: enough triangles remain if one of five is missed. Set by hand.
 constexpr int kNeighbours = 6;
-// The longest side at least, for the sake of the yaw. Set by hand. [m]
+// Smallest length of the longest side, which determines the yaw. Set by hand. [m]
 constexpr float kShortest = 4.f;
 
 using Neighbours = std::array<int, kNeighbours>;  // -1: none

@@ -19,11 +19,11 @@ constexpr std::size_t kMinTriangles = 40;   // number after which enough poses e
 constexpr std::size_t kEnoughPoses = 5000;
 constexpr std::size_t kMaxFound = 2000;  // largest number of results of one triangle
 constexpr std::size_t kMaxPoses = 3000;  // largest number of poses to score
-// The golden section: steps of this share of a list, modulo its length, spread any few of them over
-// it (Knuth, The Art of Computer Programming 3, 6.4).
+// The golden section: steps of this share of a list, modulo its length, spread any subset over it
+// (Knuth, The Art of Computer Programming 3, 6.4).
 constexpr double kGoldenSection = 0.618;
 constexpr float kVoteMetres = 4.f;  // side of the cells in which poses are counted
-constexpr float kVoteTurn = 0.4f;   // ... and of the yaw's, as a point on the unit circle
+constexpr float kVoteTurn = 0.4f;   // the same for the yaw as a point on the unit circle
 
 // Aligns three points with three others; none if an error exceeds `tolerance`.
 std::optional<CoarsePose> Align(const std::array<LayoutPoint, 3>& from,

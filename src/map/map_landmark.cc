@@ -8,10 +8,9 @@
 namespace sslcd {
 namespace {
 
-// Sizes scatter twice as much at this range as at 0, from LiDAR and from stereo images alike. Set
-// by hand. [m]
+// Sizes of LiDAR and stereo scatter twice as much at this range as at 0. Set by hand. [m]
 constexpr double kTwiceAt = 20.;
-// A size that is off by this share of the median counts half (Cauchy's weight). Set by hand.
+// A size that differs by this share from the median has half the weight (Cauchy). Set by hand.
 constexpr double kHalfWeightOff = 0.15;
 
 struct Weighted {

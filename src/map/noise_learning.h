@@ -7,11 +7,11 @@
 
 namespace sslcd {
 
-/// Moves each component of `scale` a little towards where half of all detections are off by more
-/// than the median of a Gaussian of that scale, and half by less (Robbins and Monro, A stochastic
-/// approximation method, 1951). `noise`: the detector's noise for a scale of 1. The error is that
-/// of `detection`, seen from T_world_cam, against the landmark's pose; in yaw modulo half a turn,
-/// and none in yaw for a landmark without one.
+/// Updates each component of `scale` so that the median of the absolute errors converges to that of
+/// a Gaussian with this scale (Robbins and Monro, A stochastic approximation method, 1951). `noise`
+/// is the detector's noise for a scale of 1. The error is the difference of `detection`, seen from
+/// T_world_cam, and the landmark's pose, with the yaw modulo half a turn and without a yaw for
+/// symmetric landmarks.
 void LearnNoise(const MapLandmark& landmark, const Detection& detection, const Pose& T_world_cam,
                 const GravityFrame& gravity, const DetectionNoise& noise, NoiseScale& scale);
 

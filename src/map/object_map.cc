@@ -19,7 +19,7 @@ struct ObjectMap::View {
 
 namespace {
 
-// Sightings before a landmark's place is good enough to learn the noise from. Set by hand.
+// Sightings of a landmark before its position is used to learn the noise. Set by hand.
 constexpr int kLearnAfter = 3;
 
 // Bearing of the camera in the object frame, which defines the visible side.

@@ -14,7 +14,7 @@ namespace {
 
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-// Path between the loops of a cycle, so that cycles tell different things. Set by hand. [m]
+// Smallest path between the loops of a cycle, so that cycles are different. Set by hand. [m]
 constexpr double kApart = 40;
 // Standard deviation of the log of a factor about 0. Chosen on Victoria Park, poles 00, 02 and 05,
 // and HALV-sim, seeds 1-10: 1 is better on Victoria Park and worse on HALV-sim (docs/notes,

@@ -34,7 +34,7 @@ CondensedGraph::CondensedGraph(const PoseGraph& graph, const std::vector<std::pa
   }
   const std::vector<int> component = Components(vertex_count, ends, trusted);
   for (int v = 0, parts = 0; v < vertex_count; ++v) {
-    if (component[v] == parts) {  // the first of its part
+    if (component[v] == parts) {  // the first vertex of its component
       keep[v] = true;
       ++parts;
     }

@@ -26,7 +26,7 @@ void StoreAmbient(const Matrix6& J, const double* pose, double* jacobian) {
   ambient = J.lazyProduct(minus);
 }
 
-// Information of what the vertices cannot change, above any measurement's. [1/m^2, 1/rad^2]
+// Information of the fixed components, larger than that of any measurement. [1/m^2, 1/rad^2]
 constexpr double kCertain = 1e8;
 
 }  // namespace

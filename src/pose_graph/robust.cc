@@ -20,10 +20,10 @@ constexpr int kInnerIterations = 20;
 constexpr int kMaxRounds = 100;
 constexpr int kMaxDecisions = 5;      // rounds of decisions on all loops; usually two
 constexpr int kMaxWarmDecisions = 3;  // the same with a previous solution
-// Of the limit on chi-square: less is no misfit to start from, where all loops agree.
+// Share of the chi-square limit; with a smaller chi-square all loops agree.
 constexpr double kLeastMisfit = 1e-3;
-// Share of the loops, and one loop at least, that a solution from a former one may refuse anew;
-// more asks for a solution from the start. Set by hand.
+// Largest share of the loops (at least one loop) that a warm start may additionally refuse; with
+// more, everything is solved again. Set by hand.
 constexpr double kShareOfNew = 0.02;
 
 double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,

@@ -64,8 +64,9 @@ ceres::Solver::Options CeresOptions(const PoseGraphOptions& options) {
   return ceres_options;
 }
 
-// The graph's poses; or those of the chordal relaxation, where it is asked for, or where the
-// graph's are far from the measurements and it is nearer to them. Fills in how it started.
+// Returns the graph's poses, or those of the chordal relaxation if it is requested, or if the
+// graph's poses are far from the measurements and it is closer. Sets the kind of start in the
+// summary.
 std::vector<Pose> StartPoses(const PoseGraph& graph, const Ends& ends,
                              const std::vector<double>& weights, const std::vector<bool>& anchored,
                              const PoseGraphOptions& options, PoseGraphSummary& summary) {
@@ -83,7 +84,7 @@ std::vector<Pose> StartPoses(const PoseGraph& graph, const Ends& ends,
 }
 
 // argmin over `poses` of sum_e w_e e^T I_e e, e = Log(T_from_to^-1 T_world_from^-1 T_world_to),
-// with the anchored poses held.
+// with fixed anchored poses.
 ceres::Solver::Summary MinimiseChi2(const PoseGraph& graph, const Ends& ends,
                                     const std::vector<double>& weights,
                                     const std::vector<bool>& anchored,

@@ -118,8 +118,8 @@ LandmarkId Resolve(LandmarkId id, const MergedIds& merged) {
 }
 
 bool SeenTogether(const MapLandmark& a, const MapLandmark& b) {
-  // Share of the sightings of the one that has fewer: a detector makes two boxes of one object now
-  // and then. Set by hand.
+  // Share of the smaller number of sightings, since a detector sometimes makes two boxes of one
+  // object. Set by hand.
   constexpr double kSlip = 0.1;
   std::size_t together = 0;
   for (auto i = a.sightings.begin(), j = b.sightings.begin();

@@ -25,13 +25,13 @@ struct Mesh {
 void AddQuad(Mesh& mesh, const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d, int part);
 void AddBox(Mesh& mesh, const Vec3f& low, const Vec3f& high, int part);
 
-/// One end of a cone: a disc, across the cone's axis.
+/// One end of a cone: a disc perpendicular to the axis.
 struct Disc {
   Vec3f centre;
   float radius = 0;  ///< [m]
 };
 
-/// Truncated and closed. Round, so its sides share points.
+/// Adds a closed truncated cone, whose sides share points for smooth shading.
 void AddCone(Mesh& mesh, const Disc& from, const Disc& to, int sides, int part);
 
 /// Computes the normal of each corner as the mean over the adjacent faces whose normals differ from

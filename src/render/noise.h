@@ -40,13 +40,13 @@ float ValueNoise(float x, float y, std::uint32_t seed);
 
 /// Octaves of value noise, each twice as fine as the one before.
 struct Octaves {
-  float frequency = 1;  ///< of the first [1/m]
+  float frequency = 1;  ///< frequency of the first octave [1/m]
   int count = 1;
-  float fall = 0.5f;  ///< each is this times as strong as the one before
+  float fall = 0.5f;  ///< ratio of the amplitudes of successive octaves
 };
 
-/// Sum of octaves, about -1 to 1. What is finer than `footprint` [m] fades out, so that nothing
-/// flickers far away.
+/// Sum of octaves, about -1 to 1. Details finer than `footprint` [m] fade out, so that far surfaces
+/// do not flicker.
 float Fractal(float x, float y, std::uint32_t seed, const Octaves& octaves, float footprint);
 
 /// Worley noise: the distance to the borders of the cells of random points, about 0 to 1, and a

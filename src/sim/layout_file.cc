@@ -115,13 +115,13 @@ Box BoxOf(const Places& places) {
 }
 
 bool Near(const Slot& slot, const std::vector<Path::Point>& points) {
-  constexpr double kNear = 14;  // [m]; a parked car is seen well from here. Set by hand.
+  constexpr double kNear = 14;  // [m] range within which a parked car is seen well. Set by hand.
   return std::any_of(points.begin(), points.end(), [&](const Path::Point& point) {
     return std::hypot(slot.x - point.x, slot.z - point.z) < kNear;
   });
 }
 
-/// Points of two parts of the course: the way out, and the last leg, which closes the loop.
+/// Points of two parts of the course: the outward pass, and the last leg, which closes the loop.
 struct Legs {
   std::vector<Path::Point> way_out, last_leg;
 };
@@ -138,7 +138,7 @@ Legs LegsOf(const HalvCourse& course) {
   return legs;
 }
 
-/// Cars that are seen from both legs, less those that stand in the way.
+/// Number of cars seen from both legs minus the cars on the path.
 int CountUseful(const std::vector<Slot>& placed, const HalvCourse& course, const Legs& legs) {
   int score = 0;
   for (const Slot& slot : placed) {
@@ -151,12 +151,12 @@ int CountUseful(const std::vector<Slot>& placed, const HalvCourse& course, const
   return score;
 }
 
-/// The placement with most useful cars, over turns by right angles and a grid of shifts; none where
-/// no placement has any.
+/// The placement with most useful cars, over rotations by right angles and a grid of shifts; none
+/// if no placement has any.
 std::optional<std::vector<Slot>> SearchPlacement(const std::vector<Slot>& slots,
                                                  const HalvCourse& course, const Box& driven) {
   constexpr double kBeyond = 12;  // the course may leave the lot by this much [m]
-  // Of the grid: its step [m], and the most steps along a side. A wider lot gets wider steps.
+  // Step of the grid [m] and largest number of steps along a side. A wider lot gets wider steps.
   constexpr double kGrid = 2, kMaxSteps = 150;
   const Legs legs = LegsOf(course);
   std::optional<std::vector<Slot>> best;
