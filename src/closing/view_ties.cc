@@ -12,20 +12,20 @@ namespace sslcd {
 namespace {
 
 /// The ground point at `ahead_m` ahead of a camera.
-Vec3 Spot(const FrameRecord& frame, double ahead_m) {
+Vec3 GroundPointAhead(const FrameRecord& frame, double ahead_m) {
   return frame.T_world_cam * Vec3(0, 0, ahead_m);
 }
 
 /// The earlier camera of another pass whose ground point is nearest to that of frame `i`; -1: none.
 /// `reach_m` is the largest path between them with closed loops as shortcuts.
-int SameSpot(const FrameStore& frames, int i, const PathGraph& path, double reach_m,
-             const LoopViewOptions& options) {
-  const Vec3 spot = Spot(frames[i], options.ahead_m);
+int FindOverlappingView(const FrameStore& frames, int i, const PathGraph& path, double reach_m,
+                        const LoopViewOptions& options) {
+  const Vec3 ground_point = GroundPointAhead(frames[i], options.ahead_m);
   const PathGraph::Distances drift = path.From(frames[i].travelled);
   double nearest = options.apart_m;
   int found = -1;
   for (int k = 0; k < i && frames[i].travelled - frames[k].travelled >= options.gap_m; ++k) {
-    const double apart = (Spot(frames[k], options.ahead_m) - spot).norm();
+    const double apart = (GroundPointAhead(frames[k], options.ahead_m) - ground_point).norm();
     if (apart > nearest || drift.To(frames[k].travelled) > reach_m) continue;
     nearest = apart;
     found = k;
@@ -42,7 +42,7 @@ bool IsMeasurement(const RelativePose& pose) {
 
 }  // namespace
 
-double PathUntilOff(const OdometryNoise& noise, double off_m) {
+double PathUntilDrift(const OdometryNoise& noise, double off_m) {
   constexpr double kStep = 5, kLongest = 10000;  // resolution and end of the answer [m]
   double path = 0;
   // A random walk of the heading of s per sqrt(m) moves the camera by s L^1.5 / sqrt(3) after L
@@ -59,13 +59,13 @@ std::vector<ViewTie> TieViews(const FrameStore& frames, const PathGraph& path,
                               const ViewAligner& align, const LoopOptions& loop_options) {
   const LoopViewOptions& options = loop_options.views;
   const double reach_m =
-      std::max(options.reach_m, PathUntilOff(loop_options.odometry, options.guess_m));
+      std::max(options.reach_m, PathUntilDrift(loop_options.odometry, options.guess_m));
   std::vector<ViewTie> tried;
   std::vector<ViewPair> pairs;
   double last_m = -options.every_m;
   for (int i = 0; i < frames.size(); ++i) {
     if (frames[i].travelled - last_m < options.every_m) continue;
-    const int old = SameSpot(frames, i, path, reach_m, options);
+    const int old = FindOverlappingView(frames, i, path, reach_m, options);
     if (old < 0) continue;
     last_m = frames[i].travelled;
     tried.push_back({old, i, {}});

@@ -24,6 +24,6 @@ std::vector<ViewTie> TieViews(const FrameStore& frames, const PathGraph& path,
 std::vector<ViewTie> AgreeingTies(const std::vector<ViewTie>& ties, const FrameStore& frames);
 
 /// The path length after which the standard deviation of this odometry is `off_m`. [m]
-double PathUntilOff(const OdometryNoise& noise, double off_m);
+double PathUntilDrift(const OdometryNoise& noise, double off_m);
 
 }  // namespace sslcd

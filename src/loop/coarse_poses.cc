@@ -72,8 +72,8 @@ std::vector<LocalPair> ChoosePairs(const std::vector<LayoutObject>& local,
 /// the objects nearby.
 class GainBound {
  public:
-  static constexpr int kOne = 250;   // a gain of 1, in the picture's units
-  static constexpr int kAtOnce = 8;  // points per vectorised lookup
+  static constexpr int kOne = 250;  // a gain of 1, in the picture's units
+  static constexpr int kBatch = 8;  // points per vectorised lookup
 
   GainBound(const std::vector<LayoutPoint>& map, float inlier_m) : inlier_(inlier_m) {
     constexpr float kFinest = 0.5f, kMaxSide = 1024;  // [m], cells
@@ -92,25 +92,25 @@ class GainBound {
   }
 
   /// A pose in cells.
-  struct Placing {
+  struct GridPose {
     float c, s, x, y;
   };
-  Placing Place(const CoarsePose& pose) const {
+  GridPose ToGrid(const CoarsePose& pose) const {
     return {pose.cosine * per_cell_, pose.sine * per_cell_, (pose.x - low_.x()) * per_cell_,
             (pose.y - low_.y()) * per_cell_};
   }
 
-  /// Upper bounds of the gains of kAtOnce points at (x, y) before the transform, and their sum.
+  /// Upper bounds of the gains of kBatch points at (x, y) before the transform, and their sum.
   /// Compilers vectorise the first loop.
-  int Look(const Placing& at, const float* x, const float* y, std::uint8_t* bounds) const {
-    int cells[kAtOnce], sum = 0;
-    for (int i = 0; i < kAtOnce; ++i) {
+  int BoundGains(const GridPose& at, const float* x, const float* y, std::uint8_t* bounds) const {
+    int cells[kBatch], sum = 0;
+    for (int i = 0; i < kBatch; ++i) {
       const float column = at.c * x[i] - at.s * y[i] + at.x, row = at.s * x[i] + at.c * y[i] + at.y;
       const float inner_column = std::min(std::max(column, 0.f), last_column_);
       const float inner_row = std::min(std::max(row, 0.f), last_row_);
       cells[i] = (static_cast<int>(inner_row) << shift_) + static_cast<int>(inner_column);
     }
-    for (int i = 0; i < kAtOnce; ++i) sum += bounds[i] = bound_[cells[i]];
+    for (int i = 0; i < kBatch; ++i) sum += bounds[i] = bound_[cells[i]];
     return sum;
   }
 
@@ -144,15 +144,15 @@ class GainBound {
 };
 
 /// Scores proposed poses and keeps the best one of each cell of the pose space.
-class Contest {
+class TopPoses {
  public:
-  Contest(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
-          const PoseSearchOptions& options)
+  TopPoses(const std::vector<LayoutPoint>& points, const LayoutIndex& index,
+           const PoseSearchOptions& options)
       : points_(points),
         index_(index),
         inlier2_(static_cast<float>(kCoarseInlierM * kCoarseInlierM)),
-        winners_(options.refine) {
-    const std::size_t padded = points.size() + GainBound::kAtOnce;
+        capacity_(options.refine) {
+    const std::size_t padded = points.size() + GainBound::kBatch;
     x_.resize(padded, 0.f);
     y_.resize(padded, 0.f);
     bounds_.resize(padded, GainBound::kOne);
@@ -165,27 +165,27 @@ class Contest {
       bound_.emplace(index.points(), static_cast<float>(kCoarseInlierM));
   }
 
-  void Enter(CoarsePose pose) {
-    pose.score = MayWin(pose) ? Score(pose) : 0;
-    if (!(pose.score >= least_)) return;
+  void Propose(CoarsePose pose) {
+    pose.score = CanReachThreshold(pose) ? Score(pose) : 0;
+    if (!(pose.score >= threshold_)) return;
     const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
     const std::int64_t cell = key(std::atan2(pose.sine, pose.cosine) / kSameYawRad) << 40 |
                               key(pose.x) << 20 | key(pose.y);
     CoarsePose& kept = cells_[cell];
     if (pose.score > kept.score) kept = pose;
-    RaiseBar(pose.score);
+    RaiseThreshold(pose.score);
   }
 
   std::vector<CoarsePose> Best() const {
     std::vector<CoarsePose> coarse;
     for (const auto& [cell, pose] : cells_)
-      if (pose.score >= least_) coarse.push_back(pose);
+      if (pose.score >= threshold_) coarse.push_back(pose);
     const auto better = [](const CoarsePose& a, const CoarsePose& b) {
       if (a.score != b.score) return a.score > b.score;
       if (a.x != b.x) return a.x < b.x;
       return a.y != b.y ? a.y < b.y : a.sine < b.sine;
     };
-    const std::size_t keep = std::min(coarse.size(), winners_);
+    const std::size_t keep = std::min(coarse.size(), capacity_);
     std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep),
                       coarse.end(), better);
     coarse.resize(keep);
@@ -193,25 +193,25 @@ class Contest {
   }
 
  private:
-  // Could the pose reach least_? Leaves the points behind that gain something.
-  bool MayWin(const CoarsePose& pose) {
+  // Could the pose reach threshold_? Leaves the points behind that gain something.
+  bool CanReachThreshold(const CoarsePose& pose) {
     if (bound_ && !BoundPoints(pose)) return false;
-    most_ = 0;
-    landed_.clear();
+    total_bound_ = 0;
+    candidates_.clear();
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
-      most_ += bounds_[i];
-      if (bounds_[i] > 0) landed_.push_back({i, bounds_[i]});
+      total_bound_ += bounds_[i];
+      if (bounds_[i] > 0) candidates_.push_back({i, bounds_[i]});
     }
     return true;
   }
 
   bool BoundPoints(const CoarsePose& pose) {
-    const int needed = Needed(0), count = static_cast<int>(points_.size());
-    const GainBound::Placing at = bound_->Place(pose);
+    const int needed = NeededGain(0), count = static_cast<int>(points_.size());
+    const GainBound::GridPose at = bound_->ToGrid(pose);
     int most = 0;
-    for (int first = 0; first < count; first += GainBound::kAtOnce) {
-      const int others = std::max(0, count - first - GainBound::kAtOnce);
-      most += bound_->Look(at, &x_[first], &y_[first], &bounds_[first]);
+    for (int first = 0; first < count; first += GainBound::kBatch) {
+      const int others = std::max(0, count - first - GainBound::kBatch);
+      most += bound_->BoundGains(at, &x_[first], &y_[first], &bounds_[first]);
       if (most + GainBound::kOne * others < needed) return false;
     }
     return true;
@@ -220,9 +220,9 @@ class Contest {
   float Score(const CoarsePose& pose) const {
     const std::vector<LayoutPoint>& map = index_.points();
     float score = 0;
-    int open = most_;  // upper bound of the gain of the remaining points
-    for (const Landed& landed : landed_) {
-      const LayoutPoint& p = points_[landed.point];
+    int open = total_bound_;  // upper bound of the gain of the remaining points
+    for (const BoundedPoint& candidate : candidates_) {
+      const LayoutPoint& p = points_[candidate.point];
       const float x = pose.cosine * p.x - pose.sine * p.y + pose.x,
                   y = pose.sine * p.x + pose.cosine * p.y + pose.y;
       float gain = 0;
@@ -234,49 +234,50 @@ class Contest {
                         (1 - d2 / inlier2_) * (map[j].label == p.label ? 1.f : kOtherLabelScore));
       }
       score += gain;
-      open -= landed.bound;
-      if (open < Needed(score)) return 0;
+      open -= candidate.bound;
+      if (open < NeededGain(score)) return 0;
     }
     return score;
   }
 
-  // What has to come on top of a score to reach least_; a little less, for the sake of rounding.
-  // [1/GainBound::kOne]
-  int Needed(float score) const {
+  // What has to come on top of a score to reach threshold_; a little less, for the sake of
+  // rounding. [1/GainBound::kOne]
+  int NeededGain(float score) const {
     constexpr float kRoundOff = 1e-3f;
-    return static_cast<int>((least_ - score - kRoundOff) * GainBound::kOne) - 1;
+    return static_cast<int>((threshold_ - score - kRoundOff) * GainBound::kOne) - 1;
   }
 
   // Raises the threshold to the share of the best score, and to the score of the last kept pose.
-  void RaiseBar(float score) {
+  void RaiseThreshold(float score) {
     constexpr int kNow = 256;  // interval of selecting the best ones
-    least_ = std::max(least_, kShareOfBest * score);
-    if (++entered_ % kNow != 0 || cells_.size() <= winners_) return;
+    threshold_ = std::max(threshold_, kShareOfBest * score);
+    if (++proposed_ % kNow != 0 || cells_.size() <= capacity_) return;
     std::vector<float> scores;
     for (const auto& [cell, pose] : cells_) scores.push_back(pose.score);
-    const auto last = scores.begin() + static_cast<std::ptrdiff_t>(winners_) - 1;
+    const auto last = scores.begin() + static_cast<std::ptrdiff_t>(capacity_) - 1;
     std::nth_element(scores.begin(), last, scores.end(), std::greater<>());
-    least_ = std::max(least_, *last);
+    threshold_ = std::max(threshold_, *last);
   }
 
-  struct Landed {
+  struct BoundedPoint {
     int point, bound;
   };
   const std::vector<LayoutPoint>& points_;
   const LayoutIndex& index_;
-  std::vector<float> x_, y_;          // coordinates of the points, padded with zeros
-  std::vector<std::uint8_t> bounds_;  // upper bounds of their gains
-  std::vector<Landed> landed_;        // of the current pose
-  int most_ = 0;                      // sum of these bounds
+  std::vector<float> x_, y_;              // coordinates of the points, padded with zeros
+  std::vector<std::uint8_t> bounds_;      // upper bounds of their gains
+  std::vector<BoundedPoint> candidates_;  // of the current pose
+  int total_bound_ = 0;                   // sum of these bounds
   std::optional<GainBound> bound_;
-  float inlier2_, least_ = 0;  // smallest score that is still relevant
-  std::size_t winners_, entered_ = 0;
+  float inlier2_, threshold_ = 0;  // smallest score that is still relevant
+  std::size_t capacity_, proposed_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
 };
 
 // Aligns every selected local pair with every global pair of equal distance.
-void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<LayoutPoint>& points,
-                const LayoutIndex& index, Contest& contest) {
+void ProposePairPoses(const std::vector<LayoutObject>& local,
+                      const std::vector<LayoutPoint>& points, const LayoutIndex& index,
+                      TopPoses& top_poses) {
   const std::vector<LayoutPoint>& map = index.points();
   const float tolerance = static_cast<float>(kPairNoiseM);
   for (const LocalPair& chosen : ChoosePairs(local, index)) {
@@ -299,7 +300,7 @@ void EnterPairs(const std::vector<LayoutObject>& local, const std::vector<Layout
         pose.x = (qa.x + qb.x) / 2 - (c * mx - s * my);
         pose.y = (qa.y + qb.y) / 2 - (s * mx + c * my);
         pose.z = (qa.z + qb.z) / 2 - (pa.z + pb.z) / 2;
-        contest.Enter(pose);
+        top_poses.Propose(pose);
       }
     }
   }
@@ -314,12 +315,12 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
     const Eigen::Vector3f p = (object.position - centre).cast<float>();
     points.push_back({p.x(), p.y(), p.z(), object.label});
   }
-  Contest contest(points, index, options);
+  TopPoses top_poses(points, index, options);
   if (index.triangles() == nullptr)
-    EnterPairs(local, points, index, contest);
+    ProposePairPoses(local, points, index, top_poses);
   else
-    for (const CoarsePose& pose : TrianglePoses(points, index)) contest.Enter(pose);
-  return contest.Best();
+    for (const CoarsePose& pose : TrianglePoses(points, index)) top_poses.Propose(pose);
+  return top_poses.Best();
 }
 
 }  // namespace sslcd

@@ -56,7 +56,7 @@ void LayoutIndex::Build() {
     Count(i, 1);
     Enter(i);
   }
-  Judge();
+  UpdateDensity();
   std::vector<ObjectPair> pairs = FindPairs(objects_, max_pair_, kMaxPairs + 1);
   if (pairs.size() > kMaxPairs) {
     triangles_.emplace(*this);
@@ -95,7 +95,7 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
                      [](const LayoutObject& a, const LayoutObject& b) { return a.id < b.id; });
     Build();
   } else {
-    Judge();
+    UpdateDensity();
     triangles_->Update(*this, std::move(change.touched));
   }
 }
@@ -195,7 +195,7 @@ void LayoutIndex::CountNeighbours(int i, int by) {
   }
 }
 
-void LayoutIndex::Judge() {
+void LayoutIndex::UpdateDensity() {
   const double n = static_cast<double>(std::max<std::size_t>(1, objects_.size()));
   const double near = static_cast<double>(neighbours_),
                heights = static_cast<double>(height_sum_) * kHeightUnit;
@@ -203,7 +203,7 @@ void LayoutIndex::Judge() {
   height_spread_ = near > 0 ? std::sqrt(heights / near / 2) : 0.;
 }
 
-bool LayoutIndex::Known(double x, double y) const {
+bool LayoutIndex::IsMapped(double x, double y) const {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
   const int middle = blocks_.Cell(x), row = blocks_.Cell(y);
   for (int i = 0; i < 9; ++i)

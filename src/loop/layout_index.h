@@ -72,7 +72,7 @@ class LayoutIndex {
   }
 
   /// Whether the point is inside the mapped area: there is an object within 10 to 20 m.
-  bool Known(double x, double y) const;
+  bool IsMapped(double x, double y) const;
 
   /// Pairs by labels and distance; none in large maps.
   const PairIndex& pairs() const { return pairs_; }
@@ -105,7 +105,7 @@ class LayoutIndex {
   void Enter(int object);
   void Leave(int object);
   void CountNeighbours(int object, int by);
-  void Judge();
+  void UpdateDensity();
 
   std::vector<LayoutObject> objects_;
   std::vector<LayoutPoint> points_;

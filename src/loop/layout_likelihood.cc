@@ -24,7 +24,7 @@ constexpr double kMinGain = -1.5;  // smallest evidence of a match; set by hand 
 // Refine() shrinks the gate by this factor per round, down to a standard deviation. Set by hand.
 // [m]
 constexpr double kGateShrinkage = 0.85, kLeastGateSigma = 0.33;
-constexpr int kSettleRounds = 2;  // rounds of matches by the likelihood
+constexpr int kLikelihoodRounds = 2;  // rounds of matches by the likelihood
 // Lower bound of the Beta prior left for the next unmapped object: the number of objects in the
 // mapped area is counted at the start, and a match may lie outside of it.
 constexpr double kLeastUnmapped = 0.1;
@@ -110,7 +110,7 @@ double LayoutLikelihood::Appearance(int i, int j) const {
         return !local.appearance[row.cue].empty() && !global.appearance[row.cue].empty();
       });
   if (!comparable) return 0;
-  const auto [known, fresh] = appearance_.try_emplace({i, j}, 0.);
+  const auto [known, fresh] = appearance_cache_.try_emplace({i, j}, 0.);
   if (fresh) known->second = AppearanceGain(local, global, options_.appearance);
   return known->second;
 }
@@ -162,13 +162,14 @@ bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, doubl
 }
 
 // Number of local objects inside the mapped area; the map gives no evidence about the others.
-int LayoutLikelihood::OnMap(const YawShift& pose) const {
+int LayoutLikelihood::CountInMappedArea(const YawShift& pose) const {
   if (!options_.leave_map) return static_cast<int>(local_.size());
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   return static_cast<int>(
       std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
         const Vec3& p = object.position;
-        return index_.Known(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y());
+        return index_.IsMapped(c * p.x() - s * p.y() + pose.t.x(),
+                               s * p.x() + c * p.y() + pose.t.y());
       }));
 }
 
@@ -245,7 +246,7 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
 LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const std::vector<Candidate> candidates = Candidates(pose, true);
   const int in_view = CountInView(pose);
-  const int on_map = OnMap(pose);
+  const int on_map = CountInMappedArea(pose);
   const double searched = index_.pose_volume();
   LayoutFit best;
   best.score = best.evidence = kNothing;
@@ -281,9 +282,9 @@ YawShift LayoutLikelihood::Align(const LayoutFit& fit) const {
 }
 
 // Matches by the likelihood, started at the pose of hard matches.
-LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
-  Settled best{pose, Evaluate(pose)};
-  for (int round = 0; round < kSettleRounds && best.fit.matches.size() >= 2; ++round) {
+LayoutLikelihood::RefinedPose LayoutLikelihood::RefineByLikelihood(const YawShift& pose) const {
+  RefinedPose best{pose, Evaluate(pose)};
+  for (int round = 0; round < kLikelihoodRounds && best.fit.matches.size() >= 2; ++round) {
     const YawShift moved = Align(best.fit);
     LayoutFit better = Evaluate(moved);
     if (better.score <= best.fit.score) break;
@@ -294,20 +295,20 @@ LayoutLikelihood::Settled LayoutLikelihood::Settle(const YawShift& pose) const {
 
 // Hard matches with a shrinking gate, followed by matches by the likelihood.
 LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
-  std::vector<Waypoint> way;
-  std::shared_ptr<const Settled> end;
+  std::vector<RefineKey> way;
+  std::shared_ptr<const RefinedPose> end;
   double sigma = index_.reach() / kGate;
   for (int round = 0; round < rounds && end == nullptr; ++round) {
-    const LayoutFit fit = Assign(Candidates(pose, false), 0, OnMap(pose), sigma);
+    const LayoutFit fit = Assign(Candidates(pose, false), 0, CountInMappedArea(pose), sigma);
     if (fit.matches.size() < 2) break;
     pose = Align(fit);
     sigma = std::max(kLeastGateSigma, kGateShrinkage * sigma);
     way.push_back({double(rounds), double(round), pose.yaw, pose.t.x(), pose.t.y(), pose.t.z()});
-    const auto known = been_here_.find(way.back());
-    if (known != been_here_.end()) end = known->second;
+    const auto known = refine_cache_.find(way.back());
+    if (known != refine_cache_.end()) end = known->second;
   }
-  if (end == nullptr) end = std::make_shared<Settled>(Settle(pose));
-  for (const Waypoint& waypoint : way) been_here_.insert({waypoint, end});
+  if (end == nullptr) end = std::make_shared<RefinedPose>(RefineByLikelihood(pose));
+  for (const RefineKey& waypoint : way) refine_cache_.insert({waypoint, end});
   pose = end->pose;
   return end->fit;
 }

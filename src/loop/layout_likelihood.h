@@ -55,19 +55,19 @@ class LayoutLikelihood {
     Vec2 from, along;
     double least;  // smallest cross product with a point inside
   };
-  struct Settled {
+  struct RefinedPose {
     YawShift pose;
     LayoutFit fit;
   };
-  using Waypoint = std::array<double, 6>;  // rounds asked for, round, pose
+  using RefineKey = std::array<double, 6>;  // rounds asked for, round, pose
   std::vector<Candidate> Candidates(const YawShift& pose, bool with_view) const;
-  Settled Settle(const YawShift& pose) const;
+  RefinedPose RefineByLikelihood(const YawShift& pose) const;
   YawShift Align(const LayoutFit& fit) const;
   void PrepareLabels();
   void PrepareHull();
   double HeadingGain(int local, const LayoutObject& global, double yaw) const;
   double Appearance(int local, int global) const;
-  int OnMap(const YawShift& pose) const;
+  int CountInMappedArea(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
   std::vector<Ranked> RankByGain(const std::vector<Candidate>& candidates, double sigma) const;
@@ -85,9 +85,9 @@ class LayoutLikelihood {
   std::vector<Edge> hull_;
   // log probability that none of n objects is mapped, by n
   std::vector<double> none_mapped_;
-  mutable std::map<std::pair<int, int>, double> appearance_;  // cache
+  mutable std::map<std::pair<int, int>, double> appearance_cache_;  // cache
   // where a way through a pose has led
-  mutable std::map<Waypoint, std::shared_ptr<const Settled>> been_here_;
+  mutable std::map<RefineKey, std::shared_ptr<const RefinedPose>> refine_cache_;
 };
 
 /// Least-squares pose of matched points: p_to ~ Rz(yaw) p_from + t. The yaw is 0 without two

@@ -87,9 +87,9 @@ TEST(TieViews, AGoodOdometryNeedsNoLoop) {
   OdometryNoise noise;
   noise.translation_floor_m = noise.translation_walk = 0;
   noise.rotation_walk = 1e-3;
-  EXPECT_NEAR(PathUntilOff(noise, 0.3), std::pow(0.3 * std::sqrt(3.) / 1e-3, 2 / 3.), 5);
+  EXPECT_NEAR(PathUntilDrift(noise, 0.3), std::pow(0.3 * std::sqrt(3.) / 1e-3, 2 / 3.), 5);
   noise.translation_floor_m = 1;
-  EXPECT_EQ(PathUntilOff(noise, 0.3), 0);
+  EXPECT_EQ(PathUntilDrift(noise, 0.3), 0);
   LoopOptions options;
   options.odometry = noise;
   options.odometry.translation_floor_m = 0;

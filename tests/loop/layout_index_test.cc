@@ -78,12 +78,12 @@ TEST(LayoutIndex, VisitsABoxOnce) {
 
 TEST(LayoutIndex, KnowsItsRim) {
   const LayoutIndex index({ObjectAt({5, 5, 0}), ObjectAt({-205, 5, 0})}, 50, 2);
-  EXPECT_TRUE(index.Known(5, 5));
-  EXPECT_TRUE(index.Known(-4, 14));
-  EXPECT_TRUE(index.Known(-210, 12));
-  EXPECT_FALSE(index.Known(26, 5));
-  EXPECT_FALSE(index.Known(-100, 5));
-  EXPECT_FALSE(index.Known(NAN, 5));
+  EXPECT_TRUE(index.IsMapped(5, 5));
+  EXPECT_TRUE(index.IsMapped(-4, 14));
+  EXPECT_TRUE(index.IsMapped(-210, 12));
+  EXPECT_FALSE(index.IsMapped(26, 5));
+  EXPECT_FALSE(index.IsMapped(-100, 5));
+  EXPECT_FALSE(index.IsMapped(NAN, 5));
 }
 
 TEST(LayoutIndex, ManyLabelsCostNoPair) {
@@ -145,7 +145,7 @@ void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double
       }
       EXPECT_EQ(Ids(kept, near[0]), Ids(fresh, near[1]));
       EXPECT_EQ(Ids(kept, box[0]), Ids(fresh, box[1]));
-      EXPECT_EQ(kept.Known(x, y), fresh.Known(x, y));
+      EXPECT_EQ(kept.IsMapped(x, y), fresh.IsMapped(x, y));
     }
   }
   if (fresh.triangles() == nullptr) return;
