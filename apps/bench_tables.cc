@@ -5,15 +5,13 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "bench_kitti.h"
+#include "bench_writer.h"
 #include "benchmark/foreign.h"
 #include "benchmark/halv_tables.h"
 #include "benchmark/results.h"
-#include "formats/atomic_file.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
@@ -60,17 +58,16 @@ class Bench {
     CheckOptions();
     for (const auto& [name, run] : all)
       if (Asked(name)) (this->*run)();
-    if (!arguments_.docs.empty()) WriteDocument();
+    writer_.WriteDocument();
   }
 
  private:
-  bool Asked(const std::string& table) const {
-    return arguments_.name == "all" || arguments_.name == table;
-  }
+  bool Asked(const std::string& table) const { return arguments_.Asks(table); }
+  void Write(Table table) { writer_.Write(std::move(table), arguments_.cases); }
 
   // Reports mistakes at once, not after hours of runs.
   void CheckOptions() {
-    if (!arguments_.docs.empty()) ReadDocument();
+    writer_.CheckDocument();
     if (Asked("viewpoint")) AddViewpoints();
     if (!Asked("table2") && !Asked("pr") && !Asked("viewpoint")) return;
     for (const Method& method : Chosen())
@@ -98,8 +95,7 @@ class Bench {
     }
     Table table = KittiTable(arguments_.kitti, arguments_.detections, {}, Interrupted);
     if (table.rows.empty()) throw BenchStopped();
-    table.note = Provenance({});
-    Write(std::move(table));
+    writer_.Write(std::move(table), {});
   }
 
   void Table2() {
@@ -138,9 +134,7 @@ class Bench {
       trial.method = benchmark::Methods()[0];
       trial.method.key += "-timed";
     }
-    Table table = StageTable(RunAll(trials, 1));
-    table.note = Provenance({1});
-    Write(std::move(table));
+    writer_.Write(StageTable(RunAll(trials, 1)), {1});
   }
 
   void Attempts() {
@@ -152,13 +146,13 @@ class Bench {
           AttemptsTable(results, key, "sslcd: keyframes recognised and loops, " + TitleOf(place)));
       all.push_back(results);
     }
-    WriteCsv(LoopTable(all));
+    writer_.WriteCsv(LoopTable(all));
   }
 
   void Pr() {
     const std::vector<MethodResults> results = Answers({Places()[0]});
     Write(PrecisionRecallTable(results));
-    WriteCsv(PrecisionRecallCurves(results));
+    writer_.WriteCsv(PrecisionRecallCurves(results));
   }
 
   // The four cases, and small loops whose passes meet at angles that the cases seldom have.
@@ -166,7 +160,7 @@ class Bench {
     const std::vector<MethodResults> results = Answers(viewpoints_);
     const std::string key = arguments_.images.empty() ? "viewpoint" : "viewpoint_images";
     Write(ViewpointTable(results, key));
-    WriteCsv(ViewpointCurves(results, key));
+    writer_.WriteCsv(ViewpointCurves(results, key));
   }
 
   void Ablation() { Write(AblationTable(Results({Places()[0]}, benchmark::Ablations(), false))); }
@@ -259,63 +253,13 @@ class Bench {
     return std::move(*results);
   }
 
-  void Write(Table table) {
-    if (table.note.empty()) table.note = Provenance(arguments_.cases);
-    WriteFileAtomically(folder_.path() + "/" + table.key + ".md", ToMarkdown(table));
-    WriteFileAtomically(folder_.path() + "/" + table.key + ".json", ToJson(table));
-    WriteCsv(table);
-    console_.Say(ToMarkdown(table));
-    tables_.push_back(std::move(table));
-  }
-
-  void WriteCsv(const Table& table) const {
-    WriteFileAtomically(folder_.path() + "/" + table.key + ".csv", ToCsv(table));
-  }
-
-  // The note below a table: commit, seeds, cases and options. No cases: the table is not about
-  // HALV-sim.
-  std::string Provenance(const std::vector<int>& cases) const {
-    std::string note = "Commit " + std::string(SSLCD_COMMIT);
-    if (!cases.empty()) note += ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases ";
-    for (const int c : cases) note += (c == cases[0] ? "" : ", ") + std::to_string(c);
-    note += ": `sslcd_run bench " + arguments_.name;
-    const auto add = [&](const char* option, const std::string& value) {
-      if (!value.empty())
-        note +=
-            std::string(" --") + option + " " + std::filesystem::path(value).filename().string();
-    };
-    if (cases.empty()) add("kitti", arguments_.kitti);
-    if (!arguments_.methods.empty()) note += " --methods ...";
-    if (Asked("viewpoint") && arguments_.viewpoints != benchmark::ViewpointRanges())
-      note += " --viewpoints ...";
-    add("images", arguments_.images);
-    add("matches", arguments_.matches);
-    add("baselines", arguments_.baselines);
-    return note + "`.";
-  }
-
-  std::string ReadDocument() const {
-    std::ifstream file(arguments_.docs, std::ios::binary);
-    if (!file)
-      throw Error(ErrorKind::kBadInput, {arguments_.docs},
-                  "cannot be read: check the path of --docs");
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  void WriteDocument() const {
-    WriteFileAtomically(arguments_.docs,
-                        benchmark::ReplaceTables(ReadDocument(), arguments_.docs, tables_));
-  }
-
   const BenchArguments& arguments_;
   const Console& console_;
   baselines::BaselineOptions baselines_;
   benchmark::ResultFolder folder_;
   // the car park, and the small loops if requested
   std::vector<Place> viewpoints_ = {Places()[0]};
-  std::vector<Table> tables_;
+  TableWriter writer_{arguments_, console_};
 };
 
 }  // namespace

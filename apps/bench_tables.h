@@ -15,6 +15,8 @@ struct BenchArguments {
   std::vector<int> cases = {1, 2, 3, 4};
   std::vector<std::string> methods, trajectories, detections,
       viewpoints = benchmark::ViewpointRanges();
+
+  bool Asks(const std::string& table) const { return name == "all" || name == table; }
 };
 
 /// Ends a benchmark that ctrl-C has stopped.

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench_writer.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "benchmark/results.h"
+#include "formats/atomic_file.h"
+#include "sslcd/core/error.h"
+#include "sslcd_commit.h"
+
+namespace sslcd::apps {
+
+void TableWriter::Write(benchmark::Table table, const std::vector<int>& cases) {
+  table.note = Provenance(cases);
+  const std::string path = arguments_.out + "/" + table.key;
+  WriteFileAtomically(path + ".md", ToMarkdown(table));
+  WriteFileAtomically(path + ".json", ToJson(table));
+  WriteCsv(table);
+  console_.Say(ToMarkdown(table));
+  tables_.push_back(std::move(table));
+}
+
+void TableWriter::WriteCsv(const benchmark::Table& table) const {
+  WriteFileAtomically(arguments_.out + "/" + table.key + ".csv", ToCsv(table));
+}
+
+std::string TableWriter::Provenance(const std::vector<int>& cases) const {
+  std::string note = "Commit " + std::string(SSLCD_COMMIT);
+  if (!cases.empty()) note += ", seeds 1 to " + std::to_string(arguments_.seeds) + ", cases ";
+  for (const int c : cases) note += (c == cases[0] ? "" : ", ") + std::to_string(c);
+  note += ": `sslcd_run bench " + arguments_.name;
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty())
+      note += std::string(" --") + option + " " + std::filesystem::path(value).filename().string();
+  };
+  if (cases.empty()) add("kitti", arguments_.kitti);
+  if (!arguments_.methods.empty()) note += " --methods ...";
+  if (arguments_.Asks("viewpoint") && arguments_.viewpoints != benchmark::ViewpointRanges())
+    note += " --viewpoints ...";
+  add("images", arguments_.images);
+  add("matches", arguments_.matches);
+  add("baselines", arguments_.baselines);
+  return note + "`.";
+}
+
+std::string TableWriter::ReadDocument() const {
+  std::ifstream file(arguments_.docs, std::ios::binary);
+  if (!file)
+    throw Error(ErrorKind::kBadInput, {arguments_.docs},
+                "cannot be read: check the path of --docs");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+void TableWriter::CheckDocument() const {
+  if (!arguments_.docs.empty()) ReadDocument();
+}
+
+void TableWriter::WriteDocument() const {
+  if (arguments_.docs.empty()) return;
+  WriteFileAtomically(arguments_.docs,
+                      benchmark::ReplaceTables(ReadDocument(), arguments_.docs, tables_));
+}
+
+}  // namespace sslcd::apps

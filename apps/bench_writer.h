@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench_tables.h"
+#include "benchmark/table.h"
+
+namespace sslcd::apps {
+
+/// Prints the tables of a benchmark, and writes them into its result folder and a document. Refers
+/// to both arguments.
+class TableWriter {
+ public:
+  TableWriter(const BenchArguments& arguments, const Console& console)
+      : arguments_(arguments), console_(console) {}
+
+  /// As Markdown, JSON and CSV, with its provenance below. `cases` of HALV-sim that were run; none:
+  /// the table is not about HALV-sim.
+  void Write(benchmark::Table table, const std::vector<int>& cases);
+  void WriteCsv(const benchmark::Table& table) const;
+
+  /// Throws Error(kBadInput) if there is a document (--docs) that cannot be read.
+  void CheckDocument() const;
+  /// Puts all tables written so far into the document, if there is one.
+  void WriteDocument() const;
+
+ private:
+  std::string Provenance(const std::vector<int>& cases) const;
+  std::string ReadDocument() const;
+
+  const BenchArguments& arguments_;
+  const Console& console_;
+  std::vector<benchmark::Table> tables_;
+};
+
+}  // namespace sslcd::apps
