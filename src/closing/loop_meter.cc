@@ -52,7 +52,7 @@ std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, d
     const int query = frames_.AtPath(
         std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
     const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
-    auto now = match < 0 ? std::nullopt : MeasureBetween(query, match, common);
+    auto now = MeasureBetween(query, match, common);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.acceptance.max_heading_sigma_rad) break;
   }
@@ -118,26 +118,22 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   return loop;
 }
 
-// Searches the frames of the passes that saw the matched old objects; -1: none.
+// Searches the frames of the passes that saw the matched old objects.
 int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const {
-  std::set<LandmarkId> ids;
-  for (const auto& pair : common.pairs) ids.insert(pair.second);
-  int best = -1;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const LandmarkId id : ids) {
-    for (const int i : passes_.PassesOf(id)) {
+  std::set<int> candidates;
+  for (const auto& pair : common.pairs) {
+    for (const int i : passes_.PassesOf(pair.second)) {
       const PassObject& pass = passes_.passes()[i];
       if (pass.last_m >= common.old_until_m) continue;
-      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
-        const double distance =
-            (frames_[f].T_world_cam.translation() - T_world_cam.translation()).norm();
-        if (distance >= nearest) continue;
-        nearest = distance;
-        best = f;
-      }
+      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f)
+        candidates.insert(f);
     }
   }
-  return best;
+  const auto distance = [&](int frame) {
+    return (frames_[frame].T_world_cam.translation() - T_world_cam.translation()).norm();
+  };
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [&](int a, int b) { return distance(a) < distance(b); });
 }
 
 // Standard deviation of the odometry drift between a frame and an object seen at `seen_m` of path.
