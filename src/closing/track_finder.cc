@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +12,6 @@
 
 namespace sslcd {
 namespace {
-
-// The evidence of a fit is against poses anywhere in the map. A track restricts them to about this
-// volume: 1.5 m around the pose and .35 rad of heading. [m^2 rad]
-constexpr double kTrackVolume = 2.5;
 
 class TrackFinder : public LoopFinder {
  public:
@@ -55,7 +50,7 @@ class TrackFinder : public LoopFinder {
     const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood);
     PoseSearchOptions search = options_.match.search;
     // fewer, since the tracks keep the poses of earlier attempts
-    search.refine = std::min(search.refine, options_.tracks.max_tracks);
+    search.refine = options_.tracks.max_tracks;
     std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
     PoseHypothesis no_drift;  // the current pose of the trajectory as hypothesis
     no_drift.fit = likelihood.Refine(no_drift.pose, kRefineRounds);
@@ -71,8 +66,8 @@ class TrackFinder : public LoopFinder {
     TrackEvidence evidence;
     evidence.evidence = best.evidence;
     evidence.margin = tracks_.Margin(0);
-    evidence.second_margin = tracks_.tracks().size() > 1 ? tracks_.Margin(1) : -evidence.margin;
-    evidence.own_evidence = best.fit.evidence + std::log(searched / kTrackVolume);
+    evidence.second_margin = tracks_.Margin(1);
+    evidence.own_evidence = EvidenceOnTrack(best.fit.evidence, searched);
     evidence.heading_sigma_rad = loop.heading_sigma;
     evidence.apart_m = loop.row.T_match_query.translation().norm();
     const TrackVerdict verdict = DecideTrack(evidence, options_.acceptance);

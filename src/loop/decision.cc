@@ -66,6 +66,12 @@ LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t ma
   return verdict;
 }
 
+double EvidenceOnTrack(double evidence, double searched) {
+  // 1.5 m about the pose and .35 rad of heading; set by hand. [m^2 rad]
+  constexpr double kTrackVolume = 2.5;
+  return evidence + std::log(searched / kTrackVolume);
+}
+
 TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions& options) {
   TrackVerdict verdict;
   LoopVerdict& loop = verdict.loop;

@@ -24,12 +24,17 @@ LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t ma
 struct TrackEvidence {
   double evidence = 0;       ///< evidence of all its attempts against chance [nats]
   double margin = 0;         ///< log odds against all other tracks and "nowhere" [nats]
-  double second_margin = 0;  ///< the same for the second best track
+  double second_margin = 0;  ///< the same for the second best track, or for "nowhere"
   /// evidence of the objects of this attempt alone, at the track's pose [nats]
   double own_evidence = 0;
   double heading_sigma_rad = 0;  ///< standard deviation of the heading of the measured loop
   double apart_m = 0;            ///< distance between query and match camera
 };
+
+/// Evidence of the objects of one attempt at its track's pose. `evidence`: of the fit, against
+/// poses anywhere in the `searched` volume of the map [m^2 rad]; the track leaves far fewer of
+/// them.
+double EvidenceOnTrack(double evidence, double searched);
 
 struct TrackVerdict {
   LoopVerdict loop;

@@ -13,8 +13,9 @@
 namespace sslcd {
 namespace {
 
-// Evidence of the mirror image of the local map. Coarse poses give most of it, so only a few are
-// refined.
+constexpr int kRefinedMirrorPoses = 10;  // coarse poses give most of the evidence; set by hand
+
+// Evidence of the mirror image of the local map.
 double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
                       const LayoutMatchOptions& options) {
   for (LayoutObject& object : local) {
@@ -22,7 +23,7 @@ double MirrorEvidence(std::vector<LayoutObject> local, const LayoutIndex& index,
     object.yaw *= -1;
   }
   PoseSearchOptions search = options.search;
-  search.refine = std::max(1, search.refine / 10);
+  search.refine = kRefinedMirrorPoses;
   const std::vector<PoseHypothesis> found =
       SearchPoses(LayoutLikelihood(local, index, options.likelihood), search);
   return found.empty() ? -std::numeric_limits<double>::infinity() : found[0].fit.evidence;

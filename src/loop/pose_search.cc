@@ -9,9 +9,6 @@
 namespace sslcd {
 
 void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options) {
-  visitor.Integer("refine", options.refine, 1, 100000,
-                  "coarse poses that are refined, the best ones; loop.finder: tracks refines 20 at "
-                  "most, because its tracks keep earlier ones");
   visitor.Everyday("higher: fewer loops, and more certain ones")
       .Integer("min_matches", options.min_matches, 3, 1000,
                "objects that have to fit for a pose to count");

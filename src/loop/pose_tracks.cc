@@ -109,10 +109,12 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
 }
 
 double PoseTracks::Margin(std::size_t track) const {
-  std::vector<double> rivals = {0.};  // "nowhere" has evidence 0
-  for (std::size_t i = 0; i < tracks_.size(); ++i)
-    if (i != track) rivals.push_back(tracks_[i].evidence);
-  return tracks_[track].evidence - LogSumExp(rivals);
+  std::vector<double> evidence = {0.};  // of "nowhere", then of the tracks
+  for (const PoseTrack& each : tracks_) evidence.push_back(each.evidence);
+  const std::size_t subject = track < tracks_.size() ? track + 1 : 0;
+  const double own = evidence[subject];
+  evidence.erase(evidence.begin() + static_cast<std::ptrdiff_t>(subject));
+  return own - LogSumExp(evidence);
 }
 
 void PoseTracks::Move(const YawShift& change) {

@@ -44,7 +44,8 @@ class PoseTracks {
   /// Best first.
   const std::vector<PoseTrack>& tracks() const { return tracks_; }
 
-  /// Log odds of a track against all others and against "nowhere". [nats]
+  /// Log odds of a track against all others and against "nowhere"; those of "nowhere" against all
+  /// tracks where there is no track of that number. At least one track. [nats]
   double Margin(std::size_t track) const;
 
   /// Transforms the tracks after a change of the local map's coordinates: new = change(old).

@@ -136,6 +136,7 @@ TEST(TrackFinder, TheSecondScoreIsOfTheSecondBestPlace) {
   EXPECT_GT(row.score, 0);
   EXPECT_LT(row.second_score, 0);
   EXPECT_LT(row.score + row.second_score, -1e-9) << "'nowhere' is a rival of both";
+  EXPECT_GT(row.score + row.second_score, -2 * std::log(2)) << "and less likely than both";
 }
 
 TEST(TrackFinder, ACloneGoesItsOwnWay) {

@@ -88,6 +88,13 @@ LoopAcceptanceOptions Acceptance() {
   return options;
 }
 
+// Where nothing but the track's own 2.5 m^2 rad was searched, the fit's evidence is the track's.
+TEST(EvidenceOnTrack, IsThatOfTheFitWithoutTheRestOfTheMap) {
+  EXPECT_NEAR(EvidenceOnTrack(-3, 2.5), -3, 1e-12);
+  // On a map twice as large the same fit has log 2 less evidence, and the same on its track.
+  EXPECT_NEAR(EvidenceOnTrack(-3 - std::log(2), 2000), EvidenceOnTrack(-3, 1000), 1e-12);
+}
+
 TEST(DecideTrack, AcceptsWhatEverythingSpeaksFor) {
   const TrackVerdict verdict = DecideTrack(GoodTrack(), Acceptance());
   EXPECT_EQ(verdict.loop.decision, LoopDecision::kAccepted);

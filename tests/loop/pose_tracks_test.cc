@@ -274,5 +274,15 @@ TEST(PoseTracks, TheBestOnesAreFollowed) {
     EXPECT_EQ(two.tracks.tracks()[i].evidence, all.tracks.tracks()[i].evidence);
 }
 
+TEST(PoseTracks, NowhereHasAMarginToo) {
+  Attempts attempts(Strewn(60, 80, 1));
+  attempts.Update(attempts.SeenAt(10, 5), 100);
+  const std::vector<PoseTrack>& tracks = attempts.tracks.tracks();
+  ASSERT_FALSE(tracks.empty());
+  double sum = 0;
+  for (const PoseTrack& track : tracks) sum += std::exp(track.evidence);
+  EXPECT_NEAR(attempts.tracks.Margin(tracks.size()), -std::log(sum), 1e-9);
+}
+
 }  // namespace
 }  // namespace sslcd

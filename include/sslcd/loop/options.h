@@ -35,7 +35,7 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options);
 
 /// How poses of one layout in another one are searched.
 struct PoseSearchOptions {
-  int refine = 100;     ///< number of the best coarse poses that are refined
+  int refine = 100;     ///< no key: number of the best coarse poses that are refined; set by hand
   int min_matches = 4;  ///< smallest number of matched objects; three match somewhere in any map
   /// no key: two poses are equal if they map the local map's centre to points closer than
   /// `distinct_m` and their yaws differ by less than `distinct_rad`. Set by hand to the accuracy of
