@@ -16,12 +16,13 @@ class Costs {
   int real_columns() const { return static_cast<int>(scores_.cols()); }
   int columns() const { return real_columns() + rows(); }
   double operator()(int row, int column) const {
-    if (column >= real_columns()) return column - real_columns() == row ? 0. : 1.;
+    if (column >= real_columns()) return column - real_columns() == row ? 0. : kForbidden;
     assert(scores_(row, column) == scores_(row, column));
-    return scores_(row, column) > 0 ? -scores_(row, column) : 1.;
+    return scores_(row, column) > 0 ? -scores_(row, column) : kForbidden;
   }
 
  private:
+  static constexpr double kForbidden = 1;  // more than the dummy costs: never part of a minimum
   const Eigen::MatrixXd& scores_;
 };
 
@@ -29,10 +30,10 @@ class Costs {
 // j are matched. Rows and columns count from 1: index 0 is a sentinel.
 struct Matching {
   explicit Matching(const Costs& costs)
-      : row_potential(costs.rows() + 1, 0.),
-        column_potential(costs.columns() + 1, 0.),
-        row_of(costs.columns() + 1, 0),
-        previous(costs.columns() + 1, 0) {}
+      : row_potential(costs.rows() + 1),
+        column_potential(costs.columns() + 1),
+        row_of(costs.columns() + 1),
+        previous(costs.columns() + 1) {}
   std::vector<double> row_potential, column_potential;
   std::vector<int> row_of;    // of a column; 0: free
   std::vector<int> previous;  // column before it on the shortest path
@@ -98,7 +99,7 @@ std::vector<int> MaximumAssignment(const Eigen::MatrixXd& scores) {
   std::vector<int> column_of(costs.rows(), -1);
   for (int j = 1; j <= costs.real_columns(); ++j) {
     const int row = matching.row_of[j];
-    if (row > 0 && scores(row - 1, j - 1) > 0) column_of[row - 1] = j - 1;
+    if (row > 0) column_of[row - 1] = j - 1;
   }
   return column_of;
 }
