@@ -38,6 +38,14 @@ struct MapLandmark {
   double last_seen_at = 0;          ///< path length at that time [m]
 };
 
+/// Whether objects of its kind move at all: those round about the vertical (trees, poles) do not.
+inline bool CanMove(const MapLandmark& landmark) { return landmark.symmetry != Symmetry::kFull; }
+
+/// The part of a point or vector of the world in the horizontal plane: (forward, left). [m]
+inline Vec2 Horizontal(const Vec3& world, const GravityFrame& gravity) {
+  return {world.dot(gravity.forward), world.dot(gravity.left)};
+}
+
 /// Fuses the sizes of the sightings: the weighted median of each dimension, followed by one robust
 /// mean around it. Weights decrease with range, like the precision of detections. Needs at least
 /// one sighting.

@@ -3,21 +3,15 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
-#include "association/associate.h"
-#include "association/spatial_index.h"
-#include "map/map_landmark.h"
+#include "map/association_inputs.h"
+#include "map/landmark_store.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/map/options.h"
 
 namespace sslcd {
-
-/// Gates and the motion test use larger sigmas than the learnt ones. kNoiseCaution is a factor on
-/// them: errors vary with range and viewpoint, so successive errors correlate. kLongTailScale is
-/// added in quadrature: errors of good detectors have long tails. Both were set by hand without a
-/// recorded search.
-inline constexpr double kNoiseCaution = 1.5, kLongTailScale = 3.;
 
 /// The landmarks of a run and the association of detections with them; the state of the mapping
 /// stage.
@@ -39,52 +33,34 @@ class ObjectMap {
                                 const std::vector<Detection>& detections, const Camera* camera,
                                 const std::function<bool(const MapLandmark&)>& may = {}) const;
 
-  const std::map<int, MapLandmark>& landmarks() const { return landmarks_; }
-  const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id.value); }
   const GravityFrame& gravity() const { return gravity_; }
   const NoiseScale& noise_scale() const { return noise_scale_; }
-
-  /// Counts replaced sightings and fused landmarks. A change invalidates data that was computed
-  /// from landmarks by id.
-  int rewrites() const { return rewrites_; }
-
-  /// Sets the result of an optimisation.
-  void SetPose(LandmarkId id, const UprightPose& pose);
-  void SetState(LandmarkId id, LandmarkState state);
   void SetNoiseScale(const NoiseScale& scale) { noise_scale_ = scale; }
 
-  /// Merges `drop` into `keep` with its sightings and galleries. If both were seen in the same
-  /// frame, `keep`'s sighting stays.
-  void Fuse(LandmarkId keep, LandmarkId drop);
-
-  /// Replaces a landmark's sightings, e.g. after a new association. An empty list removes the
-  /// landmark.
-  void SetSightings(LandmarkId id, std::vector<Sighting> sightings);
-
-  /// Adds an existing landmark, e.g. of a loaded map. Returns its new id.
-  LandmarkId Insert(MapLandmark landmark);
-
-  /// Ids of landmarks within a horizontal distance of a point, ascending.
-  std::vector<LandmarkId> Near(const Vec3& point_world, double radius_m) const;
+  // The landmarks: see LandmarkStore.
+  const std::map<int, MapLandmark>& landmarks() const { return landmarks_.all(); }
+  const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id); }
+  int rewrites() const { return landmarks_.rewrites(); }
+  LandmarkId Insert(MapLandmark landmark) { return landmarks_.Insert(std::move(landmark)); }
+  void SetPose(LandmarkId id, const UprightPose& pose) { landmarks_.SetPose(id, pose); }
+  void SetState(LandmarkId id, LandmarkState state) { landmarks_.SetState(id, state); }
+  void SetSightings(LandmarkId id, std::vector<Sighting> sightings) {
+    landmarks_.SetSightings(id, std::move(sightings));
+  }
+  void Fuse(LandmarkId keep, LandmarkId drop) { landmarks_.Fuse(keep, drop); }
+  std::vector<LandmarkId> Near(const Vec3& point_world, double radius_m) const {
+    return landmarks_.Near(Horizontal(point_world, gravity_), radius_m);
+  }
 
  private:
-  struct View;  // data common to all detections of a frame
-  AssociationQuery QueryOf(const Detection& detection, const View& view) const;
-  AssociationCandidate CandidateOf(const MapLandmark& landmark, const View& view) const;
-  std::vector<int> CandidateIds(const std::vector<AssociationQuery>& queries) const;
-  std::vector<int> MatchIds(const std::vector<AssociationQuery>& queries, std::vector<int> ids,
-                            const View& view) const;
   std::vector<AssociationQuery> QueriesOf(const std::vector<Detection>& detections,
-                                          const View& view) const;
-  void Create(const AssociationQuery& query, const View& view);
-  void Update(MapLandmark& landmark, const AssociationQuery& query, const View& view);
+                                          const FrameView& view) const;
+  std::vector<LandmarkId> CandidateIds(const std::vector<AssociationQuery>& queries) const;
+  std::vector<LandmarkId> MatchIds(const std::vector<AssociationQuery>& queries,
+                                   const std::vector<LandmarkId>& ids, const FrameView& view) const;
+  LandmarkId Create(const AssociationQuery& query, const FrameView& view);
+  void Update(MapLandmark& landmark, const AssociationQuery& query, const FrameView& view);
   void Judge(MapLandmark& landmark, MapUpdate& update);
-  void Retire(double stamp);
-  void Reindex(const MapLandmark& landmark, double stamp);
-  Vec2 Horizontal(const Vec3& world) const {
-    return {world.dot(gravity_.forward), world.dot(gravity_.left)};
-  }
-  bool Movable(const MapLandmark& landmark) const { return landmark.symmetry != Symmetry::kFull; }
 
   GravityFrame gravity_;
   LabelTable labels_;
@@ -92,11 +68,7 @@ class ObjectMap {
   AssociationOptions association_;
   MapOptions options_;
   NoiseScale noise_scale_;
-  std::map<int, MapLandmark> landmarks_;
-  std::vector<int> open_;  ///< tentative and driving landmarks: the only ones that can become stale
-  SpatialIndex index_;
-  int next_id_ = 1;
-  int rewrites_ = 0;
+  LandmarkStore landmarks_;
 };
 
 }  // namespace sslcd

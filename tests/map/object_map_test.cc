@@ -123,21 +123,6 @@ TEST_F(ObjectMapTest, LearnsHowGoodTheDetectorIs) {
   EXPECT_LT(map.noise_scale().vertical, before * 2);
 }
 
-TEST_F(ObjectMapTest, FuseKeepsEverySightingOnce) {
-  ObjectMap map = Make();
-  for (int frame = 0; frame < 6; ++frame)
-    map.AddFrame(frame, 0.1 * frame, Camera(frame),
-                 {See(frame, {3, 1, 20}), See(frame, {-30, 1, 20})}, nullptr);
-  map.AddFrame(6, 0.6, Camera(6), {See(6, {-30, 1, 20})}, nullptr);
-  map.Fuse({1}, {2});
-  ASSERT_EQ(map.landmarks().size(), 1u);
-  EXPECT_EQ(map.at({1}).sightings.size(), 7u);
-  EXPECT_EQ(map.at({1}).sightings[0].detection_row, 0)
-      << "where both were seen the kept one's stays";
-  EXPECT_EQ(map.at({1}).sightings[6].frame, 6);
-  EXPECT_TRUE(map.Near({-30, 1, 20}, 5).empty());
-}
-
 TEST_F(ObjectMapTest, LandmarksRememberEachCueAndKeepItWhenFused) {
   for (const CueRow& row : kCueRows) {
     SCOPED_TRACE(row.name);
