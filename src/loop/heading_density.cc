@@ -12,7 +12,7 @@ constexpr int kHeadings = 72;  // number of rotations to try, bins of five degre
 using Background = std::array<double, kHeadings>;
 
 // log density of the map's headings plus one uniform heading [log 1/rad]
-Background LogDensityOf(const LayoutIndex::Headings& map) {
+Background LogDensityOf(const LayoutCounts::Headings& map) {
   Background background{};
   int headings = 0;
   for (const Symmetry symmetry : {Symmetry::kNone, Symmetry::kPi}) {
@@ -57,12 +57,8 @@ const std::vector<double>& HeadingDensities(Symmetry symmetry) {
   return symmetry == Symmetry::kPi ? kHalfTurn : kFullTurn;
 }
 
-bool HasHeading(const LayoutObject& object) {
-  return object.symmetry != Symmetry::kFull && std::isfinite(object.yaw);
-}
-
 std::vector<double> ChanceHeadings(const std::vector<LayoutObject>& local,
-                                   const LayoutIndex::Headings& map) {
+                                   const LayoutCounts::Headings& map) {
   const Background background = LogDensityOf(map);
   const auto under = [&](const LayoutObject& object, int turn) {
     const int bin =

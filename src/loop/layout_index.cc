@@ -47,13 +47,12 @@ void LayoutIndex::Build() {
   near_ = CellLists(reach_);
   triangles_.reset();
   index_of_.clear();
-  label_counts_.clear();
-  headings_ = {};
+  counts_ = {};
   neighbours_ = height_sum_ = 0;
   points_.resize(objects_.size());
   for (int i = static_cast<int>(objects_.size()) - 1; i >= 0;
        --i) {  // cells list the last object first
-    Count(i, 1);
+    counts_.Count(objects_[i], 1);
     Enter(i);
   }
   UpdateDensity();
@@ -108,7 +107,7 @@ void LayoutIndex::Remove(int id, Change& change) {
   index_of_.erase(known);
   change.touched.push_back(place);
   if (!change.rebuild) {
-    Count(place, -1);
+    counts_.Count(objects_[place], -1);
     Leave(place);
   }
   if (place != last) {
@@ -138,23 +137,12 @@ void LayoutIndex::Put(const LayoutObject& object, Change& change) {
     return;
   }
   if (!is_new) {
-    Count(i, -1);
+    counts_.Count(objects_[i], -1);
     if (moves) Leave(i);
   }
   objects_[i] = object;
-  Count(i, 1);
+  counts_.Count(object, 1);
   if (moves) Enter(i);
-}
-
-// Updates the statistics that do not depend on positions.
-void LayoutIndex::Count(int i, int by) {
-  const LayoutObject& object = objects_[i];
-  const auto label = label_counts_.insert({object.label, 0}).first;
-  if ((label->second += by) == 0) label_counts_.erase(label);
-  if (object.symmetry == Symmetry::kFull || !std::isfinite(object.yaw)) return;
-  const int degree =
-      static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * 360 + 0.5)) % 360;
-  headings_[object.symmetry == Symmetry::kPi][degree] += by;
 }
 
 // Adds an object to the cells.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "loop/cell_lists.h"
+#include "loop/layout_counts.h"
 #include "loop/pair_index.h"
 #include "loop/triangle_index.h"
 #include "sslcd/core/layout.h"
@@ -88,20 +87,14 @@ class LayoutIndex {
   /// Standard deviation of the height differences of neighbours. [m]
   double height_spread() const { return height_spread_; }
 
-  /// Number of objects by label.
-  const std::map<int, int>& label_counts() const { return label_counts_; }
-
-  /// Number of objects by heading, in bins of one degree from 0; [0]: objects without symmetry,
-  /// [1]: objects with kPi.
-  using Headings = std::array<std::array<int, 360>, 2>;
-  const Headings& headings() const { return headings_; }
+  /// Frequencies of labels and headings.
+  const LayoutCounts& counts() const { return counts_; }
 
  private:
   void Build();
   struct Change;  // changes of an update
   void Remove(int id, Change& change);
   void Put(const LayoutObject& object, Change& change);
-  void Count(int object, int by);
   void Enter(int object);
   void Leave(int object);
   void CountNeighbours(int object, int by);
@@ -118,8 +111,7 @@ class LayoutIndex {
   // pairs of neighbouring objects; integers, so that the order of updates does not change the sums
   std::int64_t neighbours_ = 0, height_sum_ = 0;
   double density_ = 0, height_spread_ = 0;
-  std::map<int, int> label_counts_;
-  Headings headings_{};
+  LayoutCounts counts_;
 };
 
 }  // namespace sslcd

@@ -64,7 +64,7 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
     : local_(local),
       index_(index),
       options_(options),
-      chance_heading_(ChanceHeadings(local, index.headings())) {
+      chance_heading_(ChanceHeadings(local, index.counts().headings)) {
   PrepareLabels();
   PrepareHull();
   for (std::size_t n = 0; n <= local.size(); ++n)
@@ -74,7 +74,7 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
 
 void LayoutLikelihood::PrepareLabels() {
   std::map<int, double> share;
-  for (const auto& [label, count] : index_.label_counts()) share[label] = count;
+  for (const auto& [label, count] : index_.counts().labels) share[label] = count;
   for (const LayoutObject& object : local_) share[object.label] += 0;
   const double total = static_cast<double>(index_.objects().size() + share.size());
   const bool tells = share.size() > 1;

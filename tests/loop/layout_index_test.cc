@@ -132,8 +132,8 @@ void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double
   ASSERT_EQ(kept.triangles() == nullptr, fresh.triangles() == nullptr);
   EXPECT_EQ(kept.density(), fresh.density());
   EXPECT_EQ(kept.height_spread(), fresh.height_spread());
-  EXPECT_EQ(kept.label_counts(), fresh.label_counts());
-  EXPECT_EQ(kept.headings(), fresh.headings());
+  EXPECT_EQ(kept.counts().labels, fresh.counts().labels);
+  EXPECT_EQ(kept.counts().headings, fresh.counts().headings);
   const double step = half_side_m / 12;
   for (double x = -half_side_m; x < half_side_m; x += step) {
     for (double y = -half_side_m; y < half_side_m; y += step) {
