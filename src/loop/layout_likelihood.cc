@@ -6,8 +6,6 @@
 #include <iterator>
 
 #include "core/math.h"
-#include "loop/convex_hull.h"
-#include "loop/heading_density.h"
 
 namespace sslcd {
 namespace {
@@ -16,9 +14,6 @@ namespace {
 // marginalises over them. They span the accuracy of maps from stereo to monocular boxes; set by
 // hand. [m]
 constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
-// Margin of the hull of the local map around its objects, since objects of a straight row lie on
-// its edge. Set by hand. [m]
-constexpr double kHullMargin = 1.;
 constexpr double kGate = 3.;       // gate of hard matches in standard deviations
 constexpr double kMinGain = -1.5;  // smallest evidence of a match; set by hand [nats]
 // Refine() shrinks the gate by this factor per round, down to a standard deviation. Set by hand.
@@ -64,55 +59,11 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
     : local_(local),
       index_(index),
       options_(options),
-      chance_heading_(ChanceHeadings(local, index.counts().headings)) {
-  PrepareLabels();
-  PrepareHull();
+      semantics_(local, index, options),
+      view_(local) {
   for (std::size_t n = 0; n <= local.size(); ++n)
     none_mapped_.push_back(
         LogBetaBinomial(0, static_cast<double>(n), options_.mapped_prior, options_.unmapped_prior));
-}
-
-void LayoutLikelihood::PrepareLabels() {
-  std::map<int, double> share;
-  for (const auto& [label, count] : index_.counts().labels) share[label] = count;
-  for (const LayoutObject& object : local_) share[object.label] += 0;
-  const double total = static_cast<double>(index_.objects().size() + share.size());
-  const bool tells = share.size() > 1;
-  if (tells) other_label_ = std::log(options_.wrong_label);
-  for (const LayoutObject& object : local_) {
-    const double expected = (share[object.label] + 1) / total;
-    equal_label_.push_back(tells ? std::log((1 - options_.wrong_label) / expected) : 0.);
-  }
-}
-
-void LayoutLikelihood::PrepareHull() {
-  std::vector<Vec2> points;
-  for (const LayoutObject& object : local_) points.push_back(object.position.head<2>());
-  corners_ = ConvexHull(points);
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vec2 along = corners_[(i + 1) % corners_.size()] - corners_[i];
-    hull_.push_back({corners_[i], along, -kHullMargin * along.norm()});
-  }
-}
-
-// Log likelihood ratio of the headings against chance.
-double LayoutLikelihood::HeadingGain(int i, const LayoutObject& global, double yaw) const {
-  const LayoutObject& local = local_[i];
-  if (!HasHeading(local) || !HasHeading(global) || local.symmetry != global.symmetry) return 0;
-  return std::log(HeadingDensity(WrapAngle(local.yaw + yaw) - global.yaw, global.symmetry)) -
-         chance_heading_[i];
-}
-
-double LayoutLikelihood::Appearance(int i, int j) const {
-  const LayoutObject &local = local_[i], &global = index_.objects()[j];
-  const bool comparable =
-      std::any_of(std::begin(kCueRows), std::end(kCueRows), [&](const CueRow& row) {
-        return !local.appearance[row.cue].empty() && !global.appearance[row.cue].empty();
-      });
-  if (!comparable) return 0;
-  const auto [known, fresh] = appearance_cache_.try_emplace({i, j}, 0.);
-  if (fresh) known->second = AppearanceGain(local, global, options_.appearance);
-  return known->second;
 }
 
 std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose,
@@ -130,8 +81,7 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       const double d2 = dx * dx + dy * dy;
       if (d2 >= reach2) continue;
       const int local = static_cast<int>(i);
-      const double label = local_[i].label == object.label ? equal_label_[i] : other_label_;
-      const double gain = label + HeadingGain(local, object, pose.yaw) + Appearance(local, j);
+      const double gain = semantics_.Gain(local, j, pose.yaw);
       candidates.push_back(
           {local, j, d2, dz * dz, gain, with_view && InView(object.position, pose.t, c, s)});
     }
@@ -142,23 +92,16 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
 // Number of map objects in the area of the local ones, which should have been seen.
 int LayoutLikelihood::CountInView(const YawShift& pose) const {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  Eigen::AlignedBox2d box;
-  for (const Vec2& p : corners_)
-    box.extend(Vec2(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y()));
+  const Eigen::AlignedBox2d box = view_.BoxUnder(pose);
   int count = 0;
-  const Vec2 margin(kHullMargin, kHullMargin);
-  index_.VisitBox(box.min() - margin, box.max() + margin,
+  index_.VisitBox(box.min(), box.max(),
                   [&](int j) { count += InView(index_.objects()[j].position, pose.t, c, s); });
   return count;
 }
 
 bool LayoutLikelihood::InView(const Vec3& global, const Vec3& t, double c, double s) const {
   const double dx = global.x() - t.x(), dy = global.y() - t.y();
-  const double x = c * dx + s * dy, y = -s * dx + c * dy;
-  return std::all_of(hull_.begin(), hull_.end(), [&](const Edge& edge) {
-    return !(edge.along.x() * (y - edge.from.y()) - edge.along.y() * (x - edge.from.x()) <
-             edge.least);
-  });
+  return view_.Contains(c * dx + s * dy, -s * dx + c * dy);
 }
 
 // Number of local objects inside the mapped area; the map gives no evidence about the others.

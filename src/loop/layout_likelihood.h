@@ -4,11 +4,11 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
-#include "loop/appearance_likelihood.h"
 #include "loop/layout_index.h"
+#include "loop/semantic_evidence.h"
+#include "loop/view_hull.h"
 #include "sslcd/core/layout.h"
 #include "sslcd/loop/layout_match.h"
 #include "sslcd/loop/options.h"
@@ -19,11 +19,11 @@ namespace sslcd {
 /// hand.
 inline constexpr int kRefineRounds = 4;
 
-/// Options of the log likelihood ratio of two hypotheses about a local layout: it shows the map
-/// under a pose, or other objects at random places with the map's density. Its unit, nats, makes
-/// dense car parks and isolated poles comparable. Rare labels count more than frequent ones.
-/// Evaluates poses of one local layout in one map. Refers to both, which must outlive it. Positions
-/// must be finite. It has caches, so it is not thread-safe.
+/// The log likelihood ratio of two hypotheses about a local layout: it shows the map under a pose,
+/// or other objects at random places with the map's density. Its unit, nats, makes dense car parks
+/// and isolated poles comparable. Rare labels count more than frequent ones. Evaluates poses of one
+/// local layout in one map. Refers to both, which must outlive it. Positions must be finite. It has
+/// caches, so it is not thread-safe.
 class LayoutLikelihood {
  public:
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
@@ -51,10 +51,6 @@ class LayoutLikelihood {
     double gain;  // evidence of the match alone [nats]
     const Candidate* candidate;
   };
-  struct Edge {  // of the hull
-    Vec2 from, along;
-    double least;  // smallest cross product with a point inside
-  };
   struct RefinedPose {
     YawShift pose;
     LayoutFit fit;
@@ -63,10 +59,6 @@ class LayoutLikelihood {
   std::vector<Candidate> Candidates(const YawShift& pose, bool with_view) const;
   RefinedPose RefineByLikelihood(const YawShift& pose) const;
   YawShift Align(const LayoutFit& fit) const;
-  void PrepareLabels();
-  void PrepareHull();
-  double HeadingGain(int local, const LayoutObject& global, double yaw) const;
-  double Appearance(int local, int global) const;
   int CountInMappedArea(const YawShift& pose) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
@@ -77,15 +69,10 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
-  // gain of each local object with a correct label; 0 if there is only one label
-  std::vector<double> equal_label_;
-  double other_label_ = 0;              // gain with a wrong label
-  std::vector<double> chance_heading_;  // ChanceHeadings
-  std::vector<Vec2> corners_;           // convex hull of the local objects, counter-clockwise
-  std::vector<Edge> hull_;
+  SemanticEvidence semantics_;
+  ViewHull view_;
   // log probability that none of n objects is mapped, by n
   std::vector<double> none_mapped_;
-  mutable std::map<std::pair<int, int>, double> appearance_cache_;  // cache
   // where a way through a pose has led
   mutable std::map<RefineKey, std::shared_ptr<const RefinedPose>> refine_cache_;
 };
