@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "closing/pass_layout.h"
 #include "closing/pass_map.h"
 #include "loop/pose_tracks.h"
 #include "sim/random.h"
@@ -144,11 +145,11 @@ class Run {
 
   const std::vector<LayoutObject>& objects() const { return objects_; }
   PassLayout Recent(double path_m) const {
-    return passes_.Recent(state_, travelled() - path_m, kMinSightings);
+    return PassLayouts(passes_, state_).Recent(travelled() - path_m, kMinSightings);
   }
   /// Time since the last call.
   LayoutChanges ChangesBefore(double path_m) {
-    return passes_.ChangesBefore(state_, travelled() - path_m, kMinSightings, mark_);
+    return PassLayouts(passes_, state_).ChangesBefore(travelled() - path_m, kMinSightings, mark_);
   }
 
   void Drive() {
@@ -192,7 +193,7 @@ class Run {
   std::size_t next_ = 0;
   MapState state_{ObjectMap(GravityFrame(), LabelTable(), {}, {}, {}), {}};
   PassMap passes_{{}, 30.};
-  PassMap::Mark mark_;
+  PassLayouts::Mark mark_;
 };
 
 void MeasureAttempts(int count, bool streets) {

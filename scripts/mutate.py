@@ -30,7 +30,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 # The code that decides: subject -> source, target and gtest filter of the tests that should notice.
 SUBJECTS = {
-    "decision": [("src/loop/decision.cc", "sslcd_loop_tests", "Decide*:ApplyGraphVerdict*:IsWithdrawn*:MatchLayouts*"),
+    "decision": [("src/loop/decision.cc", "sslcd_loop_tests", "Decide*:EvidenceOnTrack*:ApplyGraphVerdict*:IsWithdrawn*"),
                  ("src/loop/layout_match.cc", "sslcd_loop_tests", "MatchLayouts*")],
     "likelihood": [("src/loop/layout_likelihood.cc", "sslcd_loop_tests",
                     "LayoutLikelihood*:AlignPoints*"),
@@ -48,7 +48,12 @@ SUBJECTS = {
                 ("src/closing/loop_corrector.cc", "sslcd_closing_tests",
                  "*Loop*:CorrectTrajectory*:FuseMatched*:LayoutChange*"),
                 ("src/closing/loop_meter.cc", "sslcd_closing_tests", "*LoopMeter*:Viewpoint*"),
-                ("src/closing/track_finder.cc", "sslcd_closing_tests", "TrackFinder*")],
+                ("src/closing/track_finder.cc", "sslcd_closing_tests", "TrackFinder*"),
+                ("src/closing/loop_prior.cc", "sslcd_closing_tests", "OdometryPrior*"),
+                ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*"),
+                ("src/closing/mean_place.cc", "sslcd_closing_tests", "Drive*"),
+                ("src/closing/remeasure.cc", "sslcd_closing_tests",
+                 "ReviewLoops*:ByViews*:LearnOdometry*")],
     "fusion": [("src/refine/fuse.cc", "sslcd_refine_tests", "Fuse*:SeenTogether*:PathSegments*")],
 }
 

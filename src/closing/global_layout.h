@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "closing/pass_layout.h"
 #include "closing/pass_map.h"
 #include "loop/layout_index.h"
 #include "sslcd/closing/options.h"
@@ -25,7 +26,7 @@ class GlobalLayout {
  private:
   double max_pair_m_, reach_m_;
   int min_sightings_;
-  PassMap::Mark mark_;
+  PassLayouts::Mark mark_;
   std::optional<LayoutIndex> index_;
 };
 

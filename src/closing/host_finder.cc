@@ -7,6 +7,7 @@
 
 #include "closing/global_layout.h"
 #include "closing/loop_finder.h"
+#include "closing/pass_layout.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -44,8 +45,9 @@ class HostFinder : public LoopFinder {
     const SearchWindow& window = input.window;
     const FrameStore& frames = input.state.frames;
     const double old_until = window.OldUntil(options_.layout.gap_m);
-    const PassLayout local = input.passes.Recent(input.state, window.here_m - window.local_m,
-                                                 options_.layout.min_sightings);
+    const PassLayout local =
+        PassLayouts(input.passes, input.state)
+            .Recent(window.here_m - window.local_m, options_.layout.min_sightings);
     const LayoutIndex& global = global_.Update(input.state, input.passes, old_until);
     const FrameRecord* old = LastUntil(frames, old_until);
     if (old == nullptr) return std::nullopt;

@@ -64,8 +64,8 @@ std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
   for (const auto& [i, old] : common.pairs) {
     DriftPair& pair = pairs.emplace_back();
     pair.T_world_local = ToPose(common.local.places[i], gravity_);
-    const auto place =
-        passes_.PlaceBefore(state_, old, common.old_until_m, options_.layout.min_sightings);
+    const auto place = PassLayouts(passes_, state_)
+                           .PlaceBefore(old, common.old_until_m, options_.layout.min_sightings);
     pair.T_world_global = ToPose(place.value(), gravity_);
     pair.symmetry = common.local.objects[i].symmetry;
     pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;

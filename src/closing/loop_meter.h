@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "closing/pass_layout.h"
 #include "closing/pass_map.h"
 #include "loop/drift.h"
 #include "loop/layout_index.h"

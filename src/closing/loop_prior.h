@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "closing/pass_map.h"
+#include "closing/pass_layout.h"
 #include "closing/path_graph.h"
 #include "loop/pose_tracks.h"
 #include "sslcd/closing/options.h"

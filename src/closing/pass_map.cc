@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The life cycle of passes. Their layouts are in pass_layout.cc.
 #include "closing/pass_map.h"
 
 #include <algorithm>
@@ -105,6 +104,10 @@ void PassMap::Rename(const std::map<int, LandmarkId>& merged) {
     if (!is_new) other->second = std::max(other->second, index);
   }
   open_ = std::move(open);
+}
+
+int PassMap::LabelNumber(const std::string& label) const {
+  return labels_.insert({label, static_cast<int>(labels_.size())}).first->second;
 }
 
 const std::vector<int>& PassMap::PassesOf(LandmarkId id) const {

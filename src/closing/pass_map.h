@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +9,6 @@
 #include "association/gallery.h"
 #include "map/map_state.h"
 #include "sslcd/core/cue.h"
-#include "sslcd/core/layout.h"
 
 namespace sslcd {
 
@@ -31,37 +27,9 @@ struct PassObject {
   PerCue<Gallery> appearance;  ///< what it looked like on this pass
 };
 
-/// The objects of a layout with their poses in the world, in the same order. The height of a layout
-/// object is relative to the camera nearest to it, so that odometry drift of height and tilt
-/// cancels.
-struct PassLayout {
-  std::vector<LayoutObject> objects;
-  std::vector<UprightPose> places;
-  std::vector<double> seen_m;  ///< mean path length of the sightings of the last pass
-};
-
-/// The changes of the objects that PassMap::Before lists.
-struct LayoutChanges {
-  /// everything may have changed; `objects` is the complete list
-  bool all = false;
-  std::vector<LayoutObject> objects;  ///< changed objects with current values, by id
-  std::vector<int> gone;              ///< ids that may have been listed before and are not any more
-};
-
-struct MeanSighting;
-
-/// The passes of a run and their layouts. Has no references: each call gets the map and the frames.
-/// Copyable.
+/// The passes of a run. Has no references: each call gets the map and the frames. Copyable.
 class PassMap {
  public:
-  /// The state of a reader of ChangesBefore at its last call.
-  struct Mark {
-    int generation = -1;  ///< -1: no call yet
-    FrameStore::Revision revision = 0;
-    std::size_t journal = 0;
-    double to_m = 0;
-  };
-
   /// A landmark that was out of sight for more than `split_m` of path starts a new pass.
   PassMap(const DetectionNoise& noise, double split_m,
           Gallery::Mode galleries = Gallery::Mode::kByViewpoint)
@@ -78,29 +46,6 @@ class PassMap {
   /// Updates the ids of fused landmarks. `merged` maps merged ids to their landmarks.
   void Rename(const std::map<int, LandmarkId>& merged);
 
-  /// Objects with at least `min_sightings` sightings in a range of the path, at the mean place of
-  /// these sightings.
-  PassLayout Between(const MapState& state, double from_m, double to_m, int min_sightings) const;
-
-  /// The same from `from_m` on.
-  PassLayout Recent(const MapState& state, double from_m, int min_sightings) const {
-    return Between(state, from_m, std::numeric_limits<double>::infinity(), min_sightings);
-  }
-
-  /// Objects with passes that ended before `to_m` of path, one entry per object.
-  PassLayout Before(const MapState& state, double to_m, int min_sightings) const;
-
-  /// The changes of Before(state, to_m, min_sightings) since `mark`, which is updated. Use each
-  /// mark with one value of `min_sightings`. O(sightings and finished passes since then); O(passes)
-  /// if everything has moved.
-  LayoutChanges ChangesBefore(const MapState& state, double to_m, int min_sightings,
-                              Mark& mark) const;
-
-  /// The mean place of a landmark over the passes that ended before `to_m`; none without such a
-  /// pass.
-  std::optional<UprightPose> PlaceBefore(const MapState& state, LandmarkId id, double to_m,
-                                         int min_sightings) const;
-
   /// Indices of the passes of a landmark, ascending.
   const std::vector<int>& PassesOf(LandmarkId id) const;
 
@@ -108,19 +53,24 @@ class PassMap {
   double NearestPass(const FrameStore& frames, LandmarkId id, double path_m) const;
 
   const std::vector<PassObject>& passes() const { return passes_; }
+  /// Indices of the passes of all landmarks, by id.
+  const std::map<int, std::vector<int>>& passes_of() const { return passes_of_; }
+  const DetectionNoise& noise() const { return noise_; }
+  Gallery::Mode galleries() const { return galleries_; }
+
+  /// The number of a label, the same for as long as the map lives.
+  int LabelNumber(const std::string& label) const;
+
+  /// Number of rebuilds, after which nothing that was computed before holds.
+  int generation() const { return generation_; }
+  /// Landmarks whose passes have ended or were renamed, in order of time.
+  const std::vector<int>& journal() const { return journal_; }
 
  private:
-  struct Sum;
   void Take(const FrameRecord& frame, int index, const std::vector<Detection>& seen,
             const MapState& state);
   void FinishOld(const MapState& state);
   void Finish(const MapState& state, PassObject& pass);
-  std::optional<Sum> SumBefore(const MapState& state, int id, double to_m, int min_sightings) const;
-  void AppendBefore(const MapState& state, int id, double to_m, int min_sightings,
-                    PassLayout& layout) const;
-  void Append(const MapState& state, LandmarkId id, const MeanSighting& place,
-              const PerCue<Gallery>& appearance, PassLayout& layout) const;
-  int LabelNumber(const std::string& label) const;
 
   DetectionNoise noise_;
   double split_m_;
@@ -129,8 +79,8 @@ class PassMap {
   std::map<int, std::vector<int>> passes_of_;  // indices of passes by landmark
   std::map<int, int> open_;                    // current pass by landmark
   mutable std::map<std::string, int> labels_;  // number by label, assigned on first use
-  int generation_ = 0;                         // number of rebuilds
-  std::vector<int> journal_;  // landmarks whose passes have ended or were renamed, in order of time
+  int generation_ = 0;
+  std::vector<int> journal_;
 };
 
 }  // namespace sslcd

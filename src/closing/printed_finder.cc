@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "closing/loop_finder.h"
+#include "closing/pass_layout.h"
 #include "loop/drift.h"
 #include "loop/paper_match.h"
 
@@ -34,10 +35,11 @@ class PrintedFinder : public LoopFinder {
     const FrameStore& frames = input.state.frames;
     const GravityFrame& gravity = input.state.gravity();
     const double local_from = frames.back().travelled - o.local_m;
-    const PassLayout local =
-        InWorld(input.passes.Recent(input.state, local_from, o.min_sightings), gravity);
-    const PassLayout global =
-        InWorld(input.passes.Before(input.state, local_from - o.gap_m, o.min_sightings), gravity);
+    const PassLayout local = InWorld(
+        PassLayouts(input.passes, input.state).Recent(local_from, o.min_sightings), gravity);
+    const PassLayout global = InWorld(
+        PassLayouts(input.passes, input.state).Before(local_from - o.gap_m, o.min_sightings),
+        gravity);
     const auto matches = PaperMatch(local.objects, global.objects, options_.paper);
     if (!matches) return std::nullopt;
     FoundLoop found;

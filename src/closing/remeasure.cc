@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "closing/pass_layout.h"
 #include "loop/decision.h"
 #include "odometry/odometry_edge.h"
 #include "odometry/odometry_factors.h"
@@ -19,11 +20,12 @@ std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& pa
   const LoopLayoutOptions& o = options.layout;
   const SearchWindow& window = attempt.window;
   const PassLayout local =
-      passes.Between(state, window.here_m - window.local_m, window.here_m, o.min_sightings);
+      PassLayouts(passes, state)
+          .Between(window.here_m - window.local_m, window.here_m, o.min_sightings);
   CommonObjects common{local, {}, attempt.found.sigma_m, window.OldUntil(o.gap_m)};
   for (std::size_t i = 0; i < local.objects.size(); ++i) {
     const LandmarkId id{local.objects[i].id};
-    if (passes.PlaceBefore(state, id, common.old_until_m, o.min_sightings))
+    if (PassLayouts(passes, state).PlaceBefore(id, common.old_until_m, o.min_sightings))
       common.pairs.push_back({static_cast<int>(i), id});
   }
   const LoopMeasurement& loop = attempt.found.loop;

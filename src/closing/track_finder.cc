@@ -7,6 +7,7 @@
 #include "closing/global_layout.h"
 #include "closing/loop_finder.h"
 #include "closing/loop_prior.h"
+#include "closing/pass_layout.h"
 #include "loop/decision.h"
 #include "loop/pose_tracks.h"
 
@@ -25,8 +26,9 @@ class TrackFinder : public LoopFinder {
   std::optional<FoundLoop> Find(const FinderInput& input) override {
     const SearchWindow& window = input.window;
     const double old_until = window.OldUntil(options_.layout.gap_m);
-    const PassLayout local = input.passes.Between(input.state, window.here_m - window.local_m,
-                                                  window.here_m, options_.layout.min_sightings);
+    const PassLayout local =
+        PassLayouts(input.passes, input.state)
+            .Between(window.here_m - window.local_m, window.here_m, options_.layout.min_sightings);
     const LayoutIndex& index = global_.Update(input.state, input.passes, old_until);
     const std::size_t few = static_cast<std::size_t>(options_.match.search.min_matches);
     if (std::min(local.objects.size(), index.objects().size()) < few) return std::nullopt;

@@ -17,7 +17,7 @@ struct CommonTrees {
   double sigma_m = 0.2;
 
   explicit CommonTrees(const TwoPasses& world)
-      : local(world.passes.Recent(world.state, world.end_m() - 70, 2)) {
+      : local(PassLayouts(world.passes, world.state).Recent(world.end_m() - 70, 2)) {
     for (std::size_t i = 0; i < local.objects.size(); ++i)
       for (const auto& [early, late] : world.trees)
         if (local.objects[i].id == late.value) pairs.push_back({static_cast<int>(i), early});

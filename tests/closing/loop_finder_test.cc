@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "closing/pass_layout.h"
 #include "sslcd/core/error.h"
 #include "two_passes.h"
 
@@ -101,7 +102,9 @@ TEST(TrackFinder, ATrackSurvivesAStretchWithFewObjects) {
   };
   const auto before = find(10, 75);
   ASSERT_TRUE(before);
-  ASSERT_EQ(world.passes.Between(world.state, world.end_m() - 10, world.end_m(), 2).objects.size(),
+  ASSERT_EQ(PassLayouts(world.passes, world.state)
+                .Between(world.end_m() - 10, world.end_m(), 2)
+                .objects.size(),
             2u);
   EXPECT_FALSE(find(0, 10));
   const auto after = find(0, 75);

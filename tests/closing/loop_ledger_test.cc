@@ -62,6 +62,17 @@ TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {
   EXPECT_EQ(ledger.AcceptedEdges().size(), 2u);
 }
 
+TEST(LoopLedger, OneAcceptedLoopIsAnAcceptedLoop) {
+  const FrameStore frames = Line(100);
+  LoopLedger ledger;
+  EXPECT_FALSE(ledger.AnyAccepted()) << "no attempt at all";
+  ledger.Add(Loop(1, 50, kOpen), {}, 50);
+  EXPECT_FALSE(ledger.AnyAccepted());
+  ledger.Add(Loop(4, 65, kAccepted), {}, 65);
+  ledger.AcceptNewest(frames);
+  EXPECT_TRUE(ledger.AnyAccepted());
+}
+
 TEST(LoopLedger, LoopsWithoutATrackSettleNoOther) {
   const FrameStore frames = Line(100);
   LoopLedger ledger;

@@ -14,9 +14,10 @@ namespace {
 // The second pass of a grove against the first one. Both coordinates agree: no drift.
 struct Prior {
   TwoPasses world;
-  PassMap::Mark mark;
-  LayoutIndex index{world.passes.ChangesBefore(world.state, 100, 2, mark).objects, 50, 2};
-  PassLayout local = world.passes.Recent(world.state, world.end_m() - 60, 2);
+  PassLayouts::Mark mark;
+  LayoutIndex index{PassLayouts(world.passes, world.state).ChangesBefore(100, 2, mark).objects, 50,
+                    2};
+  PassLayout local = PassLayouts(world.passes, world.state).Recent(world.end_m() - 60, 2);
   LoopPriorOptions options;
   PathGraph path;
   LayoutFit fit = Matches();

@@ -6,97 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "two_visits.h"
+
 namespace sslcd {
 namespace {
-
-// A camera drives past one place twice, 300 m of path between the visits: frames 0..9 and 300..309,
-// a metre a frame. World axes are the first camera's (y down); layouts have x = world x, y = world
-// z.
-struct TwoVisits {
-  std::vector<FrameRecord> to_come;
-  MapState state{ObjectMap(GravityFrame{}, LabelTable{}, {}, {}, {}), {}};
-  ObjectMap& map = state.map;
-  PassMap passes{{}, 30.};
-
-  TwoVisits() {
-    for (const int first : {0, 300})
-      for (int i = 0; i < 10; ++i) Plan(first + i, first + i, Pose::Trans(0, 0, i));
-  }
-
-  void Plan(int frame, double path_m, const Pose& T_world_cam) {
-    FrameRecord record;
-    record.frame = frame;
-    record.T_odom_cam = Pose::Trans(0, 0, path_m);
-    record.T_world_cam = T_world_cam;
-    to_come.push_back(record);
-  }
-
-  LandmarkId Add(const Vec3& position, const std::string& label = "Tree", double yaw = 0) {
-    MapLandmark landmark;
-    landmark.label = label;
-    landmark.symmetry = label == "Tree" ? Symmetry::kFull : Symmetry::kNone;
-    landmark.state = LandmarkState::kConfirmed;
-    landmark.pose = {position, yaw};
-    return map.Insert(landmark);
-  }
-
-  // Will be seen by the frames numbered from `first` to before `end`, without error with respect to
-  // where they are now.
-  void See(LandmarkId id, int first, int end) {
-    for (FrameRecord& record : to_come) {
-      if (record.frame < first || record.frame >= end) continue;
-      Detection detection;
-      detection.T_cam_object =
-          record.T_world_cam.inverse() * ToPose(map.at(id).pose, map.gravity());
-      record.detections.push_back(detection);
-      record.matched.push_back(id);
-    }
-  }
-
-  // The next frames come in one by one; the store keeps their detections without appearance.
-  void Drive(std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) {
-      FrameRecord record = to_come.front();
-      to_come.erase(to_come.begin());
-      const std::vector<Detection> seen = record.detections;
-      for (Detection& detection : record.detections) detection.appearance = {};
-      state.frames.Append(record);
-      passes.AddFrame(state, seen);
-    }
-  }
-  void Drive() { Drive(to_come.size()); }
-
-  // The second visit with drifted odometry.
-  void ShiftSecondVisit(const Vec3& by) {
-    for (FrameRecord& record : to_come)
-      if (record.frame >= 300) record.T_world_cam = Pose::Trans(by) * record.T_world_cam;
-  }
-  void Move(int from, const Pose& motion) {
-    for (int f = from; f < state.frames.size(); ++f)
-      state.frames.SetPose(f, motion * state.frames[f].T_world_cam);
-  }
-  void Rematch(LandmarkId from, LandmarkId to) {
-    for (int f = 0; f < state.frames.size(); ++f) {
-      std::vector<LandmarkId> matched = state.frames[f].matched;
-      for (LandmarkId& id : matched)
-        if (id == from) id = to;
-      state.frames.SetMatched(f, matched);
-    }
-    for (FrameRecord& record : to_come)
-      for (LandmarkId& id : record.matched)
-        if (id == from) id = to;
-  }
-
-  PassLayout Recent(double from_m, int min_sightings) const {
-    return passes.Recent(state, from_m, min_sightings);
-  }
-  PassLayout Before(double to_m, int min_sightings) const {
-    return passes.Before(state, to_m, min_sightings);
-  }
-  PassLayout Between(double from_m, double to_m, int min_sightings) const {
-    return passes.Between(state, from_m, to_m, min_sightings);
-  }
-};
 
 void ExpectAt(const LayoutObject& object, double x, double y, double height) {
   EXPECT_NEAR(object.position.x(), x, 1e-9);
@@ -280,7 +193,7 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
   world.See(late, 300, 304);
   for (int i = 0; i < 12; ++i) world.Plan(400 + i, 400 + 10. * i, {});
   std::map<int, LayoutObject> followed;
-  PassMap::Mark mark;
+  PassLayouts::Mark mark;
   int updates = 0, listed = 0;
   while (!world.to_come.empty()) {
     world.Drive(1);
@@ -293,7 +206,8 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
       world.passes.Rename({{late.value, trees[1]}});
     }
     const double old_until = world.state.frames.back().travelled - 4;
-    const LayoutChanges changes = world.passes.ChangesBefore(world.state, old_until, 2, mark);
+    const LayoutChanges changes =
+        PassLayouts(world.passes, world.state).ChangesBefore(old_until, 2, mark);
     updates += !changes.all;
     Follow(changes, followed);
     const PassLayout before = world.Before(old_until, 2);
@@ -302,21 +216,25 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
       const LayoutObject& object = before.objects[i];
       ASSERT_EQ(followed.count(object.id), 1u);
       EXPECT_EQ(followed[object.id].position, object.position) << frame;
-      EXPECT_EQ(world.passes.PlaceBefore(world.state, {object.id}, old_until, 2)->position,
-                before.places[i].position);
+      EXPECT_EQ(
+          PassLayouts(world.passes, world.state).PlaceBefore({object.id}, old_until, 2)->position,
+          before.places[i].position);
       ++listed;
     }
   }
   EXPECT_EQ(updates, 30) << "the first frame and the loop are the others";
   EXPECT_GT(listed, 100);
-  EXPECT_TRUE(world.passes.ChangesBefore(world.state, 510 - 4, 2, mark).objects.empty())
+  EXPECT_TRUE(
+      PassLayouts(world.passes, world.state).ChangesBefore(510 - 4, 2, mark).objects.empty())
       << "told already";
-  EXPECT_TRUE(world.passes.ChangesBefore(world.state, 200, 2, mark).all) << "back in time";
-  PassMap::Mark another;
-  EXPECT_TRUE(world.passes.ChangesBefore(world.state, 200, 1, another).all) << "a new reader";
+  EXPECT_TRUE(PassLayouts(world.passes, world.state).ChangesBefore(200, 2, mark).all)
+      << "back in time";
+  PassLayouts::Mark another;
+  EXPECT_TRUE(PassLayouts(world.passes, world.state).ChangesBefore(200, 1, another).all)
+      << "a new reader";
   world.passes.Rebuild(world.state);
-  EXPECT_TRUE(world.passes.ChangesBefore(world.state, 200, 2, mark).all);
-  EXPECT_EQ(world.passes.PlaceBefore(world.state, late, 500, 2), std::nullopt)
+  EXPECT_TRUE(PassLayouts(world.passes, world.state).ChangesBefore(200, 2, mark).all);
+  EXPECT_EQ(PassLayouts(world.passes, world.state).PlaceBefore(late, 500, 2), std::nullopt)
       << "has another name";
 }
 

@@ -33,9 +33,6 @@ struct DetectionSigmas {
 };
 
 /// The standard deviations at a range.
-/// The standard deviations at a range.
-/// The standard deviations at a range.
-/// The standard deviations at a range.
 DetectionSigmas SigmasAt(double range_m, const DetectionNoise& noise, const NoiseScale& scale);
 
 /// The rotation from the camera frame to [radial, lateral, vertical] for a point in the camera
