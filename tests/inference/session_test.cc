@@ -90,7 +90,7 @@ TEST(Session, RefusesBadModels) {
   ExpectError([] { Session(TestModel("bad_opset.onnx")); },
               {"bad_opset.onnx", "opset", "export the model again"});
   ExpectError([] { Session(TestModel("bad_type.onnx")); },
-              {"bad_type.onnx", "'x' is no tensor of float32"});
+              {"bad_type.onnx", "'x' is not a tensor of float32"});
 }
 
 TEST(Session, RefusesValuesThatAreNotFinite) {
