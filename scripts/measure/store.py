@@ -29,8 +29,11 @@ class Store:
 
 
 def git(*arguments):
-    """The output of git, or None on failure."""
-    done = subprocess.run(['git', *arguments], capture_output=True, text=True, check=False)
+    """The output of git, or None on failure and without git."""
+    try:
+        done = subprocess.run(['git', *arguments], capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        return None
     return done.stdout.strip() if done.returncode == 0 else None
 
 
