@@ -56,7 +56,6 @@ struct RobustPoseGraphOptions {
 void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options);
 
 /// 6, 4 or 3.
-/// 6, 4 or 3.
 int DegreesOfFreedom(PoseFreedom freedom);
 
 /// What SolvePoseGraph did.
