@@ -2,119 +2,23 @@
 #include "sslcd/pose_graph/pose_graph.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <utility>
 
 #include "core/math.h"
 #include "pose_graph/chains.h"
 #include "pose_graph/cost.h"
+#include "pose_graph/gnc.h"
 #include "pose_graph/index.h"
 #include "pose_graph/tree.h"
 
 namespace sslcd {
 namespace {
 
-// Iterations per weight update. The next update starts at this solution and needs one or two.
-constexpr int kInnerIterations = 20;
-// Weight updates from each of two starts. They multiply mu by 4e14 at a factor of 1.4.
-constexpr int kMaxRounds = 100;
 constexpr int kMaxDecisions = 5;      // rounds of decisions on all loops; usually two
 constexpr int kMaxWarmDecisions = 3;  // the same with a previous solution
-// Share of the chi-square limit; with a smaller chi-square all loops agree.
-constexpr double kLeastMisfit = 1e-3;
 // Largest share of the loops (at least one loop) that a warm start may additionally refuse; with
 // more, everything is solved again. Set by hand.
 constexpr double kShareOfNew = 0.02;
-
-double EdgeChi2(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
-                std::size_t e) {
-  const PoseGraph::Edge& edge = graph.edges[e];
-  const Vec6 error = EdgeError(edge, graph.vertices[ends[e].first].T_world_vertex,
-                               graph.vertices[ends[e].second].T_world_vertex);
-  return error.dot(edge.information * error);
-}
-
-// Yang et al. Eq. 14: the weight that minimises the TLS surrogate for one residual.
-double Weight(double chi2, double mu, double limit) {
-  if (chi2 >= (mu + 1) / mu * limit) return 0;
-  if (chi2 <= mu / (mu + 1) * limit) return 1;
-  return std::sqrt(limit / chi2 * mu * (mu + 1)) - mu;
-}
-
-// Truncated least squares over the loops of a graph with given initial values.
-class Gnc {
- public:
-  Gnc(const PoseGraph& graph, const RobustPoseGraphOptions& options, double limit)
-      : graph_(graph),
-        ends_(IndexPoseGraph(graph).ends),
-        options_(options),
-        limit_(limit),
-        weights_(ends_.size(), 1.),
-        chi2_(ends_.size()) {
-    options_.graph.start = PoseGraphStart::kGiven;
-    options_.graph.max_iterations = kInnerIterations;
-  }
-
-  /// Solves with all loops on (1) or off (0).
-  void Start(double weight) {
-    SetWeights([weight](double) { return weight; });
-    Solve();
-  }
-
-  void Graduate() {
-    double mu = limit_ / std::max(2 * Worst() - limit_, kLeastMisfit * limit_);
-    for (bool undecided = true; undecided && rounds_ < kMaxRounds; mu *= options_.mu_factor) {
-      SetWeights([&](double loop_chi2) { return Weight(loop_chi2, mu, limit_); });
-      undecided =
-          std::any_of(weights_.begin(), weights_.end(), [](double w) { return w > 0 && w < 1; });
-      Solve();
-      ++rounds_;
-    }
-  }
-
-  /// Whether the total chi2 is plausible for true loops and no single loop is an outlier.
-  bool AllAgree() const {
-    const auto loops = std::count_if(graph_.edges.begin(), graph_.edges.end(),
-                                     [](const auto& e) { return e.loop; });
-    const double expected = static_cast<double>(loops) * DegreesOfFreedom(options_.graph.freedom);
-    return Worst() <= limit_ && std::accumulate(chi2_.begin(), chi2_.end(), 0.) <= expected;
-  }
-
-  /// The cost: a loop beyond the limit costs the limit.
-  double Cost() const {
-    double cost = 0;
-    for (std::size_t e = 0; e < chi2_.size(); ++e)
-      cost += graph_.edges[e].loop ? std::min(chi2_[e], limit_) : chi2_[e];
-    return cost;
-  }
-
-  const PoseGraph& graph() const { return graph_; }
-  int rounds() const { return rounds_; }
-
- private:
-  template <class WeightOfChi2>
-  void SetWeights(const WeightOfChi2& weight) {
-    for (std::size_t e = 0; e < ends_.size(); ++e)
-      if (graph_.edges[e].loop) weights_[e] = weight(chi2_[e]);
-  }
-  void Solve() {
-    SolvePoseGraph(graph_, options_.graph, weights_);
-    for (std::size_t e = 0; e < ends_.size(); ++e) chi2_[e] = EdgeChi2(graph_, ends_, e);
-  }
-  double Worst() const {
-    double worst = 0;
-    for (std::size_t e = 0; e < ends_.size(); ++e)
-      if (graph_.edges[e].loop) worst = std::max(worst, chi2_[e]);
-    return worst;
-  }
-
-  PoseGraph graph_;
-  std::vector<std::pair<int, int>> ends_;
-  RobustPoseGraphOptions options_;
-  double limit_;
-  std::vector<double> weights_, chi2_;  // per edge
-  int rounds_ = 0;
-};
 
 // Optimises a graph that starts at the geometry of its trusted edges. GNC may end in a local
 // minimum, so it runs with all loops and with none, and the lower cost wins. If all loops agree,
@@ -135,17 +39,13 @@ int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, doub
   return from_all.rounds() + from_none.rounds();
 }
 
-// Keeps the loops within the limit. False if these are the same as before.
-bool KeepConsistent(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
-                    RobustPoseGraphSummary& summary) {
-  bool changed = !summary.graph.usable;
-  for (std::size_t e = 0; e < ends.size(); ++e) {
-    if (!graph.edges[e].loop) continue;
-    const double weight = EdgeChi2(graph, ends, e) <= summary.chi2_limit ? 1 : 0;
-    changed |= weight != summary.edge_weight[e];
-    summary.edge_weight[e] = weight;
-  }
-  return changed;
+// Weight per edge: 0 for a loop beyond the limit, else 1.
+std::vector<double> KeepConsistent(const PoseGraph& graph,
+                                   const std::vector<std::pair<int, int>>& ends, double limit) {
+  std::vector<double> weights;
+  for (std::size_t e = 0; e < ends.size(); ++e)
+    weights.push_back(!graph.edges[e].loop || EdgeChi2(graph, ends, e) <= limit ? 1 : 0);
+  return weights;
 }
 
 }  // namespace
@@ -171,7 +71,10 @@ double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
             const std::vector<std::pair<int, int>>& ends, PoseGraph& graph,
             RobustPoseGraphSummary& summary) {
-  for (int i = 0; i < kMaxDecisions && KeepConsistent(work, ends, summary); ++i) {
+  for (int i = 0; i < kMaxDecisions; ++i) {
+    std::vector<double> kept = KeepConsistent(work, ends, summary.chi2_limit);
+    if (i > 0 && kept == summary.edge_weight) break;
+    summary.edge_weight = std::move(kept);
     summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
     if (!summary.graph.usable) break;
   }
@@ -188,42 +91,35 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
 // the new ones explain, or if the new ones distort the trusted edges more than one true loop can:
 // then all loops must be decided again.
 bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
-               const std::vector<double>& kept_before, RobustPoseGraphSummary& summary) {
+               const std::vector<double>& kept_before, double limit) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // loops come first, in order
-  std::vector<std::size_t> loops;
-  for (std::size_t e = 0; e < graph.edges.size(); ++e)
-    if (graph.edges[e].loop) loops.push_back(e);
-  const auto refused = [&](const std::vector<double>& weights) {
-    return std::count_if(loops.begin(), loops.end(),
-                         [&](std::size_t e) { return weights[e] == 0; });
-  };
-  RobustPoseGraphSummary decided = summary;
-  std::vector<double> weights(condensed.graph().edges.size(), 1.);
-  for (std::size_t i = 0; i < loops.size(); ++i) weights[i] = kept_before[loops[i]];
-  PoseGraphOptions inner = options.graph;
-  inner.start = PoseGraphStart::kGiven;
   const auto ends = IndexPoseGraph(condensed.graph()).ends;
+  std::vector<double> weights(ends.size(), 1.);
+  std::size_t loops = 0;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    if (graph.edges[e].loop) weights[loops++] = kept_before[e];
+  const auto refused = [&] { return std::count(weights.begin(), weights.end(), 0.); };
   const auto misfit_of_trusted = [&] {
     double sum = 0;
-    for (std::size_t e = loops.size(); e < ends.size(); ++e)
-      sum += EdgeChi2(condensed.graph(), ends, e);
+    for (std::size_t e = 0; e < ends.size(); ++e)
+      if (!condensed.graph().edges[e].loop) sum += EdgeChi2(condensed.graph(), ends, e);
     return sum;
   };
+  const auto refused_before = refused();
   const double misfit_before = misfit_of_trusted();
+  PoseGraphOptions inner = options.graph;
+  inner.start = PoseGraphStart::kGiven;
   for (int i = 0; i < kMaxWarmDecisions; ++i) {
     if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return false;
-    bool changed = false;
-    for (std::size_t e = 0; e < loops.size(); ++e) {
-      const double weight = EdgeChi2(condensed.graph(), ends, e) <= summary.chi2_limit ? 1 : 0;
-      changed |= weight != weights[e];
-      decided.edge_weight[loops[e]] = weights[e] = weight;
-    }
-    if (!changed) break;
+    std::vector<double> kept = KeepConsistent(condensed.graph(), ends, limit);
+    const bool settled = kept == weights;
+    weights = std::move(kept);
+    if (settled) break;
   }
-  if (static_cast<double>(refused(decided.edge_weight) - refused(kept_before)) >
-      std::max(1., kShareOfNew * static_cast<double>(loops.size())))
+  if (static_cast<double>(refused() - refused_before) >
+      std::max(1., kShareOfNew * static_cast<double>(loops)))
     return false;
-  if (misfit_of_trusted() - misfit_before > RuledOut(summary.chi2_limit, options)) return false;
+  if (misfit_of_trusted() - misfit_before > RuledOut(limit, options)) return false;
   condensed.Expand(graph);
   return true;
 }
@@ -250,7 +146,8 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
         EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
                    work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
   }
-  if (kept_before.size() == graph.edges.size() && SolveWarm(work, options, kept_before, summary)) {
+  if (kept_before.size() == graph.edges.size() &&
+      SolveWarm(work, options, kept_before, summary.chi2_limit)) {
     Decide(work, options, index.ends, graph, summary);
     return summary;
   }

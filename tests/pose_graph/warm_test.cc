@@ -2,6 +2,7 @@
 // SolveRobust from where a former solve ended: cheap where little is new, from the start otherwise.
 #include <gtest/gtest.h>
 
+#include "core/math.h"
 #include "pose_graph_world.h"
 #include "sslcd/pose_graph/pose_graph.h"
 
@@ -30,14 +31,22 @@ class WarmStart : public testing::Test {
     graph.edges.back().loop = true;
   }
   // With `count` more false loops, which contradict five true ones and each other.
-  RobustPoseGraphSummary SolveWithMore(int count) {
+  RobustPoseGraphSummary SolveWithMore(int count, const RobustPoseGraphOptions& options = {}) {
     PoseGraph graph = world_.graph;
     std::vector<double> kept = kept_;
     for (int i = 0; i < count; ++i) {
       AddLoop(graph, 30, 110, i % 2 == 0 ? 0.6 : -0.6);
       kept.push_back(1);
     }
-    return SolveRobust(graph, {}, kept);
+    return SolveRobust(graph, options, kept);
+  }
+  // With exact true loops, `total` loops in all.
+  void FillUpWithTrueLoops(std::size_t total) {
+    for (std::size_t loops = 8; loops < total; ++loops) {
+      AddLoop(world_.graph, 60, 140, 0);
+      world_.graph.edges.back().T_from_to = world_.truth[60].inverse() * world_.truth[140];
+    }
+    kept_ = SolveRobust(world_.graph, {}).edge_weight;
   }
 
   PoseGraphWorld world_;
@@ -62,6 +71,34 @@ TEST_F(WarmStart, TwoThatAreRefusedAreDecidedFromTheStart) {
   EXPECT_GT(cold.rounds, 0);
   EXPECT_EQ(cold.loops_kept, 7);
   EXPECT_EQ(cold.loops_refused, 3);
+}
+
+TEST_F(WarmStart, OfManyLoopsAFiftiethMayBeRefused) {
+  FillUpWithTrueLoops(98);
+  EXPECT_EQ(SolveWithMore(2).rounds, 0) << "2 of 100";
+  EXPECT_GT(SolveWithMore(3).rounds, 0) << "3 of 101";
+}
+
+// Only the misfit that new loops add counts: here odometry has already been bent by more.
+TEST_F(WarmStart, WhatFormerLoopsHaveBentIsNotHeldAgainstNewOnes) {
+  RobustPoseGraphOptions options;
+  options.drift_factor = 1;
+  options.inlier_probability = 0.98;
+  std::vector<double> trusted;
+  for (const auto& edge : world_.graph.edges) trusted.push_back(edge.loop ? 0 : 1);
+  ASSERT_GT(Chi2(world_.graph, trusted), Chi2Quantile(options.inlier_probability, 6));
+  EXPECT_EQ(SolveWithMore(0, options).rounds, 0);
+  EXPECT_EQ(SolveWithMore(1, options).rounds, 0);
+}
+
+TEST_F(WarmStart, FromPosesThatCannotBeSolvedItStartsAgain) {
+  PoseGraph lost = world_.graph;
+  for (std::size_t v = 1; v < lost.vertices.size(); ++v)  // squares of this are infinite
+    lost.vertices[v].T_world_vertex.translation() *= 1e200;
+  const RobustPoseGraphSummary summary = SolveRobust(lost, {}, kept_);
+  ASSERT_TRUE(summary.graph.usable);
+  EXPECT_EQ(summary.edge_weight, kept_);
+  EXPECT_NEAR(AteRmse(lost, world_.truth), AteRmse(world_.graph, world_.truth), 1e-6);
 }
 
 TEST_F(WarmStart, WeightsOfAnotherGraphAreIgnored) {
