@@ -99,8 +99,7 @@ void MotionTest::Add(const Point& position, const Covariance& covariance, double
 Motion MotionTest::Verdict(const MotionTestOptions& options) const {
   const Eigen::Vector2d travel = state_.head<2>() - start_;
   const double distance = travel.norm(), elapsed = stamp_ - start_stamp_;
-  const Eigen::Vector2d direction =
-      distance > 0 ? Eigen::Vector2d(travel / distance) : Eigen::Vector2d(1, 0);
+  const Eigen::Vector2d direction = travel.normalized();  // no travel: zero, and not far enough
   const Matrix2 uncertainty = start_covariance_ + Matrix2(state_covariance_.topLeftCorner<2, 2>());
   const double sigma = std::sqrt(direction.dot(uncertainty * direction));
   const bool far_enough = distance > std::max(options.min_travel_m, 2 * sigma);

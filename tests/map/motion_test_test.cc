@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace sslcd {
 namespace {
@@ -141,6 +142,47 @@ TEST(MotionTest, TheFactorIsTheRatioOfBothDensities) {
   EXPECT_NEAR(test.log_bayes_factor(), log_density(driving) - log_density(parked), 1e-9);
 }
 
+// The same filters for one coordinate, written out.
+TEST(MotionTest, BothModelsAreKalmanFilters) {
+  MotionTestOptions options;
+  constexpr double kVariance = 0.09;
+  const double wander = std::pow(options.wander_m_per_sqrt_s, 2),
+               acceleration = std::pow(options.acceleration_mps2, 2);
+  MotionTest test;
+  double parked = 0, parked_variance = 0, at = 0, speed = 0, at_at = 0, at_speed = 0, speed_2 = 0;
+  double last = 0;
+  for (const auto& [stamp, x] :
+       {std::pair<double, double>{10, 1}, {10.5, 1.7}, {11.5, 4}, {12, 4.2}}) {
+    const double dt = stamp - last;
+    if (stamp == 10) {
+      parked = at = x;
+      parked_variance = at_at = kVariance;
+      speed_2 = std::pow(options.speed_prior_mps, 2);
+    } else {
+      parked_variance += wander * dt;
+      at_at += 2 * dt * at_speed + dt * dt * speed_2 + std::pow(dt, 4) / 4 * acceleration;
+      at_speed += dt * speed_2 + std::pow(dt, 3) / 2 * acceleration;
+      speed_2 += dt * dt * acceleration;
+      at += dt * speed;
+      ASSERT_NEAR(test.PredictParked(stamp, options).covariance(0, 0), parked_variance, 1e-9);
+      ASSERT_NEAR(test.PredictDriving(stamp, options).position.x(), at, 1e-9);
+      ASSERT_NEAR(test.PredictDriving(stamp, options).covariance(0, 0), at_at, 1e-9);
+      const double error = x - at, total = at_at + kVariance;
+      at += at_at / total * error;
+      speed += at_speed / total * error;
+      speed_2 -= at_speed * at_speed / total;
+      at_speed -= at_at * at_speed / total;
+      at_at -= at_at * at_at / total;
+      parked += parked_variance / (parked_variance + kVariance) * (x - parked);
+      parked_variance *= kVariance / (parked_variance + kVariance);
+    }
+    test.Add(Vec2(x, 0), kVariance * Eigen::Matrix2d::Identity(), stamp, options);
+    EXPECT_NEAR(test.PredictParked(stamp, options).position.x(), parked, 1e-9);
+    EXPECT_NEAR(test.velocity().x(), speed, 1e-9);
+    last = stamp;
+  }
+}
+
 TEST(MotionTest, OneWildDetectionSaysNoMoreThanFourSigmas) {
   MotionTestOptions options;
   options.memory = 100;
@@ -152,6 +194,9 @@ TEST(MotionTest, OneWildDetectionSaysNoMoreThanFourSigmas) {
     return test.log_bayes_factor();
   };
   EXPECT_NEAR(factor(100), factor(1000), 1e-9);
+  const double limit = 4 * std::sqrt(0.02 + 0.1 * std::pow(options.wander_m_per_sqrt_s, 2));
+  EXPECT_GT(factor(limit), factor(0.99 * limit));
+  EXPECT_GT(factor(limit), factor(1.01 * limit)) << "only driving explains the rest a little worse";
   EXPECT_GT(factor(0.5), factor(0.4));
 }
 
@@ -193,9 +238,10 @@ TEST(MotionTest, AtRestThePredictionsWidenWithTime) {
 
 TEST(MotionTest, SeenAfterLongerThanForgetAfterItStartsAgain) {
   MotionTestOptions options;
-  for (const double gap : {4.9, 5.1}) {
-    MotionTest test = Watch(10, 0.1, 10, 3);
-    test.Add(Vec2(0, 0), 0.01 * Eigen::Matrix2d::Identity(), 0.9 + gap, options);
+  for (const double gap : {4.9, 5., 5.1}) {
+    MotionTest test;
+    test.Add(Vec2(0, 0), 0.01 * Eigen::Matrix2d::Identity(), 100, options);
+    test.Add(Vec2(50, 0), 0.01 * Eigen::Matrix2d::Identity(), 100 + gap, options);
     EXPECT_EQ(test.velocity() == Vec2(0, 0), gap > options.forget_after_s);
   }
 }
@@ -218,6 +264,52 @@ TEST(MotionTest, AJourneyBeginsWhereTheObjectStoodLast) {
   EXPECT_NE(test.Verdict(options), Motion::kDriving) << "not 2 m yet, counted from the new place";
   drive(10, 1);
   EXPECT_EQ(test.Verdict(options), Motion::kDriving);
+}
+
+TEST(MotionTest, AShiftIsNoJourney) {
+  MotionTestOptions options = OnlyTheNoise();
+  options.max_parked_speed_mps = 1e6;
+  for (const double shift : {0., 50.}) {
+    MotionTest test;
+    for (const double stamp : {100., 101.})
+      test.Add(Vec2(0, 0), Eigen::Matrix2d::Identity(), stamp, options);
+    test.Shift(Vec2(shift, -shift));
+    EXPECT_EQ(test.Verdict(options), Motion::kParked);
+  }
+}
+
+TEST(MotionTest, RestartForgetsWhatSpokeForDriving) {
+  MotionTest test = Watch(5, 0.1, 20, 4);
+  ASSERT_GT(test.log_bayes_factor(), 0);
+  test.Restart();
+  EXPECT_EQ(test.log_bayes_factor(), 0);
+  EXPECT_NEAR(test.PredictParked(test.Stamp(), {}).position.x(), 9.5, 0.3) << "where it is now";
+}
+
+// Of an object seen once, only the prior of the speed is known.
+TEST(MotionTest, TheLargestParkedSpeedIncludesOneSigma) {
+  MotionTestOptions options;
+  for (const double share : {0.95, 1.05}) {
+    options.speed_prior_mps = share * options.max_parked_speed_mps;
+    MotionTest test;
+    test.Add(Vec2(0, 0), 0.01 * Eigen::Matrix2d::Identity(), 100, options);
+    EXPECT_EQ(test.Verdict(options), share < 1 ? Motion::kParked : Motion::kUndecided);
+  }
+}
+
+// A memory this short keeps the factor on the side of driving, but below the decision.
+TEST(MotionTest, WhatSeemsToDriveIsParkedOnlyIfItHardlyGetsAnywhere) {
+  MotionTestOptions options;
+  options.memory = 0.5;
+  options.settle_s = 100;
+  for (const double speed : {0.5, 1.}) {
+    MotionTest test;
+    for (int i = 0; i <= 40; ++i)
+      test.Add(Vec2(0.1 * i * speed, 0), 1e-4 * Eigen::Matrix2d::Identity(), 0.1 * i, options);
+    ASSERT_EQ(test.log_bayes_factor(), options.memory);
+    EXPECT_EQ(test.Verdict(options),
+              speed < options.min_speed_mps ? Motion::kParked : Motion::kUndecided);
+  }
 }
 
 TEST(MotionTest, ParkedOnceTheSpeedIsSurelyLow) {
