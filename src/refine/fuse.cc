@@ -34,7 +34,7 @@ class Fusion {
     UprightPose pose = kept.pose;
     const Eigen::LDLT<Eigen::Matrix3d> both(a.position + b.position);
     const Vec3 step = both.solve(b.position * (dropped.pose.position - kept.pose.position));
-    if (a.sightings + b.sightings > 0 && step.allFinite()) pose.position += step;
+    if (step.allFinite()) pose.position += step;
     // Front and back may be confused; a vote decides later.
     if (a.yaw + b.yaw > 0)
       pose.yaw = WrapAngle(pose.yaw +
@@ -75,13 +75,13 @@ class Fusion {
     return sum;
   }
 
-  // Horizontal covariance of a typical sighting, with the safety factor of association.
+  // Horizontal covariance of a typical sighting, with the safety factor of association; NaN
+  // without sightings.
   Eigen::Matrix2d OneSighting(const MapLandmark& landmark) const {
     NoiseScale scale = map_.noise_scale();
     for (double* component : {&scale.radial, &scale.lateral, &scale.vertical})
       *component = std::hypot(kNoiseCaution * *component, kLongTailScale);
     const Information sum = InformationOf(landmark, scale);
-    if (sum.sightings == 0) return Eigen::Matrix2d::Zero();
     Eigen::Matrix<double, 2, 3> to_plane;
     to_plane << map_.gravity().forward.transpose(), map_.gravity().left.transpose();
     return to_plane * (sum.position / sum.sightings).inverse() * to_plane.transpose();

@@ -182,18 +182,48 @@ TEST(FuseMatched, TheConfirmedOneKeepsItsNameElseTheOneSeenMoreOften) {
   EXPECT_TRUE(world.Gone(once));
 }
 
+// A detector that is as exact in all directions and at all ranges.
+DetectionNoise EvenNoise(double sigma_m, double sigma_rad) {
+  DetectionNoise noise;
+  noise.radial_m = noise.lateral_m = noise.vertical_m = sigma_m;
+  noise.radial_per_m = noise.lateral_per_m = noise.vertical_per_m = noise.yaw_per_m = 0;
+  noise.yaw_rad = sigma_rad;
+  return noise;
+}
+
 // Sightings that are all as exact: means weighted by how often each was seen.
 TEST(FuseMatched, PoseIsTheMeanWeightedByInformation) {
+  for (const double sigma_rad : {0.02, 10.}) {
+    TwoVisits world;
+    world.options.noise = EvenNoise(1, sigma_rad);
+    const LandmarkId a = world.Add({-4, 1, 12}, 0, 8, "Car", 0.1),
+                     b = world.Add({-4, 1.5, 13}, 300, 2, "Car", 0.3);
+    FuseMatched(world.state, {{b, a}}, world.options);
+    const UprightPose& pose = world.map.at(a).pose;
+    EXPECT_NEAR(pose.yaw, (8 * 0.1 + 2 * 0.3) / 10, 1e-9);
+    EXPECT_LT((pose.position - Vec3(-4, 1 + 0.5 * 2 / 10, 12 + 1. * 2 / 10)).norm(), 1e-9);
+  }
+}
+
+TEST(FuseMatched, TheOneSeenLessMayKeepItsNameButNotItsPose) {
   TwoVisits world;
-  world.options.noise.yaw_per_m = world.options.noise.lateral_per_m = 0;
-  world.options.noise.radial_per_m = world.options.noise.vertical_per_m = 0;
-  world.options.noise.radial_m = world.options.noise.lateral_m = world.options.noise.vertical_m = 1;
+  world.options.noise = EvenNoise(1, 0.02);
+  const LandmarkId once = world.Add({-4, 1, 12}, 0, 2, "Car", 0.1),
+                   again = world.Add({-4, 1, 13}, 300, 8, "Car", 0.3);
+  world.map.SetState(again, LandmarkState::kTentative);
+  FuseMatched(world.state, {{once, again}}, world.options);
+  EXPECT_NEAR(world.map.at(once).pose.yaw, (2 * 0.1 + 8 * 0.3) / 10, 1e-9);
+  EXPECT_NEAR(world.map.at(once).pose.position.z(), 12.8, 1e-9);
+}
+
+TEST(FuseMatched, WithoutAnyKnownFrameThePoseStays) {
+  TwoVisits world;
   const LandmarkId a = world.Add({-4, 1, 12}, 0, 8, "Car", 0.1),
-                   b = world.Add({-4, 1.5, 13}, 300, 2, "Car", 0.3);
-  FuseMatched(world.state, {{b, a}}, world.options);
-  const UprightPose& pose = world.map.at(a).pose;
-  EXPECT_NEAR(pose.yaw, (8 * 0.1 + 2 * 0.3) / 10, 1e-9);
-  EXPECT_LT((pose.position - Vec3(-4, 1 + 0.5 * 2 / 10, 12 + 1. * 2 / 10)).norm(), 1e-9);
+                   b = world.Add({-4, 1, 13}, 300, 2, "Car", 0.3);
+  MapState no_frames{world.map, {}};
+  EXPECT_EQ(FuseMatched(no_frames, {{a, b}}, world.options).size(), 1u);
+  EXPECT_EQ(no_frames.map.at(a).pose.position, Vec3(-4, 1, 12));
+  EXPECT_EQ(no_frames.map.at(a).pose.yaw, 0.1);
 }
 
 TEST(FuseMatched, WhatIsRoundSaysNothingOfTheYaw) {
@@ -204,18 +234,18 @@ TEST(FuseMatched, WhatIsRoundSaysNothingOfTheYaw) {
   EXPECT_EQ(world.map.at(a).pose.yaw, 0.1);
 }
 
-// With a detector that is next to exact, bodies alone decide: two trees of 0.5 m overlap by more
-// than half where their centres are within 0.25 m.
+// With a detector that is next to exact, bodies alone decide: two objects overlap by more than half
+// where their centres are within half of their mean width.
 TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
-  for (const auto& [apart, one] : {std::pair<double, bool>{0.24, true}, {0.26, false}}) {
-    TwoVisits world;
-    for (double* sigma : {&world.options.noise.radial_m, &world.options.noise.radial_per_m,
-                          &world.options.noise.lateral_m, &world.options.noise.lateral_per_m})
-      *sigma = 1e-4;
-    world.Add({4, 1, 12}, 0, 4);
-    const LandmarkId twin = world.Add({4 + apart, 1, 12}, 4, 3);
-    FuseDuplicates(world.state, world.options);
-    EXPECT_EQ(world.Gone(twin), one) << apart;
+  for (const auto& [label, width] : {std::pair<const char*, double>{"Tree", 0.5}, {"Car", 1.8}}) {
+    for (const double share : {0.49, 0.51}) {
+      TwoVisits world;
+      world.options.noise = EvenNoise(1e-4, 0.02);
+      world.Add({4, 1, 12}, 0, 4, label);
+      const LandmarkId twin = world.Add({4 + share * width, 1, 12}, 4, 3, label);
+      FuseDuplicates(world.state, world.options);
+      EXPECT_EQ(world.Gone(twin), share < 0.5) << label;
+    }
   }
 }
 
@@ -223,20 +253,53 @@ TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
 // explained where its square is within the 99 % quantile (two components) of both variances.
 TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
   constexpr double kSigma = 0.05, kQuantile = 9.21;
-  for (const double share : {0.98, 1.02}) {
-    TwoVisits world;
-    DetectionNoise& noise = world.options.noise;
-    noise.radial_m = noise.lateral_m = noise.vertical_m = kSigma;
-    noise.radial_per_m = noise.lateral_per_m = noise.vertical_per_m = 0;
-    const double scale = std::hypot(kNoiseCaution * world.map.noise_scale().radial, kLongTailScale);
-    const double apart = share * std::sqrt(kQuantile * 2) * scale * kSigma;
-    ASSERT_GT(apart, 0.26) << "beyond their bodies";
-    ASSERT_LT(apart, world.options.refine.duplicate_m);
-    world.Add({4, 1, 12}, 0, 1);
-    const LandmarkId twin = world.Add({4, 1, 12 + apart}, 4, 1);
-    FuseDuplicates(world.state, world.options);
-    EXPECT_EQ(world.Gone(twin), share < 1) << apart;
+  for (const double learnt : {1., 2.}) {
+    for (const double share : {0.98, 1.02}) {
+      TwoVisits world;
+      world.options.noise = EvenNoise(kSigma, 0.02);
+      world.options.refine.duplicate_m = 2;
+      world.map.SetNoiseScale(NoiseScale::Uniform(learnt));
+      const double scale = std::hypot(kNoiseCaution * learnt, kLongTailScale);
+      const double apart = share * std::sqrt(kQuantile * 2) * scale * kSigma;
+      ASSERT_GT(apart, 0.26) << "beyond their bodies";
+      world.Add({4, 1, 12}, 0, 1);
+      const LandmarkId twin = world.Add({4, 1, 12 + apart}, 4, 1);
+      FuseDuplicates(world.state, world.options);
+      EXPECT_EQ(world.Gone(twin), share < 1) << apart;
+    }
   }
+}
+
+// Errors of one object correlate from sighting to sighting.
+TEST(FuseDuplicates, ToBeSeenOftenMakesNoTwins) {
+  TwoVisits world;
+  world.options.noise = EvenNoise(0.1, 0.02);
+  world.Add({4, 1, 12}, 0, 5);
+  const LandmarkId twin = world.Add({4, 1, 12.9}, 5, 5);
+  FuseDuplicates(world.state, world.options);
+  EXPECT_TRUE(world.Gone(twin));
+}
+
+// A twin in the middle draws the one in front of it away from the one behind.
+TEST(FuseDuplicates, TheDistanceIsThatOfTheMeanSoFar) {
+  for (const double duplicate_m : {0.9, 1.3}) {
+    TwoVisits world;
+    world.options.noise = EvenNoise(1, 0.02);
+    world.options.refine.duplicate_m = duplicate_m;
+    world.Add({4, 1, 12}, 0, 4);
+    const LandmarkId middle = world.Add({4, 1, 12.8}, 4, 3), behind = world.Add({4, 1, 11.2}, 7, 2);
+    FuseDuplicates(world.state, world.options);
+    EXPECT_TRUE(world.Gone(middle));
+    EXPECT_EQ(world.Gone(behind), duplicate_m > 0.8 + 0.8 * 3 / 7);
+  }
+}
+
+TEST(FuseDuplicates, OfTwoSeenAsOftenTheFormerKeepsItsName) {
+  TwoVisits world;
+  const LandmarkId former = world.Add({4, 1, 12}, 0, 4), twin = world.Add({4.1, 1, 12}, 4, 4);
+  FuseDuplicates(world.state, world.options);
+  EXPECT_FALSE(world.Gone(former));
+  EXPECT_TRUE(world.Gone(twin));
 }
 
 TEST(FuseDuplicates, FurtherThanDuplicateIsNotOnePlace) {
