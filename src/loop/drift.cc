@@ -51,7 +51,7 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
     Eigen::Matrix<double, 3, 6> J;
     J << A, -A * Rotation::hat(Vec3(match.local - problem.centre));
     equations.Add<3>(J, whiten * PositionError(match, problem, state), problem.loss_scale);
-    if (!(match.period > 0)) continue;
+    if (!match.has_yaw()) continue;
     const Vec3 h = Heading(match, state);
     const Vec3 u(std::cos(match.yaw_local), std::sin(match.yaw_local), 0);
     const Eigen::RowVector3d slope =
@@ -92,7 +92,7 @@ void Store(const Problem& problem, const State& state, const Mat6& covariance,
 bool MostHeadingsAgree(const Problem& problem, const State& state) {
   int headings = 0, agree = 0;
   for (const Match& match : problem.matches) {
-    if (!(match.period > 0)) continue;
+    if (!match.has_yaw()) continue;
     ++headings;
     if (std::abs(YawError(match, state)) <= kInlierSigmas * match.sigma_yaw) ++agree;
   }

@@ -20,7 +20,7 @@ double Cost(const Problem& problem, const State& state) {
   for (const Match& match : problem.matches) {
     const Vec3 e = PositionError(match, problem, state).cwiseQuotient(match.sigma);
     cost += 3 * Loss(e.squaredNorm() / 3, problem.loss_scale);
-    if (match.period > 0)
+    if (match.has_yaw())
       cost += Loss(std::pow(YawError(match, state) / match.sigma_yaw, 2), problem.loss_scale);
   }
   return cost;
@@ -38,16 +38,20 @@ State WithYaw(double yaw, const Problem& problem) {
   return state;
 }
 
+Vec3 WeightedMean(const std::vector<Match>& matches, Vec3 Match::*point) {
+  Vec3 mean = Vec3::Zero();
+  double weights = 0;
+  for (const Match& match : matches) {
+    mean += match.weight() * match.*point;
+    weights += match.weight();
+  }
+  return mean / weights;
+}
+
 /// Weighted Procrustes about the vertical: the argument of the sum is the yaw, and its modulus is
 /// the concentration of the corresponding von Mises distribution, about 1/sigma^2.
 std::complex<double> Procrustes(const Problem& problem) {
-  Vec3 middle = Vec3::Zero();
-  double weights = 0;
-  for (const Match& match : problem.matches) {
-    middle += match.weight() * match.global;
-    weights += match.weight();
-  }
-  middle /= weights;
+  const Vec3 middle = WeightedMean(problem.matches, &Match::global);
   std::complex<double> sum = 0;
   for (const Match& match : problem.matches) {
     const Vec3 local = match.local - problem.centre, global = match.global - middle;
@@ -75,7 +79,6 @@ Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gra
                     double loss_scale) {
   const Mat3 to_gravity = gravity.Basis().transpose();
   Problem problem{{}, Vec3(Vec3::Zero()), loss_scale};
-  double weights = 0;
   for (const DriftPair& pair : pairs) {
     const Match match{to_gravity * pair.T_world_local.translation(),
                       to_gravity * pair.T_world_global.translation(),
@@ -85,10 +88,8 @@ Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gra
                       Vec3(pair.sigma_horizontal_m, pair.sigma_horizontal_m, pair.sigma_vertical_m),
                       pair.sigma_yaw_rad};
     problem.matches.push_back(match);
-    problem.centre += match.weight() * match.local;
-    weights += match.weight();
   }
-  problem.centre /= weights;
+  problem.centre = WeightedMean(problem.matches, &Match::local);
   return problem;
 }
 
@@ -116,7 +117,7 @@ std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
   if (fixed_by_positions) yaws.push_back(std::arg(positions));
   bool any_heading = false, fixed_by_headings = false;
   for (const Match& match : problem.matches) {
-    if (!(match.period > 0)) continue;
+    if (!match.has_yaw()) continue;
     any_heading = true;
     fixed_by_headings |= match.period > M_PI + 1e-9;
     for (double turn = 0; turn < 2 * M_PI - 1e-9; turn += match.period)

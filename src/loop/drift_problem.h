@@ -20,6 +20,7 @@ struct Match {
   Vec3 sigma;         ///< standard deviation of the position per axis [m]
   double sigma_yaw = 1;
 
+  bool has_yaw() const { return period > 0; }
   double weight() const { return 1 / (sigma.x() * sigma.x()); }
 };
 
@@ -27,7 +28,7 @@ struct Match {
 /// a distant origin.
 struct State {
   Rotation R;
-  Vec3 t;
+  Vec3 t = Vec3::Zero();
 };
 
 struct Problem {

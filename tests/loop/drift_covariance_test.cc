@@ -129,6 +129,37 @@ TEST(Drift, LargerResidualsTakeTheSigmasPlaceInTheCovariance) {
       << "the tilt is not measured";
 }
 
+// Four poles measure the tilt as well as the prior does: half of a tilt of the local map is taken.
+TEST(Drift, TheVerticalIsAPriorOnTheTiltWithoutALoss) {
+  DriftOptions options;
+  options.six_dof = true;
+  options.tilt_sigma_rad = DriftPair().sigma_vertical_m / std::sqrt(2 * 100.);
+  const double tilt = 0.05;
+  const Pose tilted(lie::SO3<double>::Exp(Vec3(tilt, 0, 0)), Vec3(Vec3::Zero()));
+  for (const double loss_scale : {0., 100.}) {
+    options.loss_scale = loss_scale;
+    std::vector<DriftPair> pairs = Corners(0);
+    for (DriftPair& pair : pairs) pair.T_world_local = tilted * pair.T_world_local;
+    const DriftResult result = SolveDrift(pairs, GravityFrame::FromUp(Vec3::UnitZ()), options);
+    ASSERT_TRUE(result.usable) << result.reason;
+    EXPECT_NEAR(result.T_global_local.so3().Log().x(), -tilt / 2, 1e-4);
+    EXPECT_NEAR(result.covariance(4, 4), std::pow(options.tilt_sigma_rad, 2) / 2, 1e-6);
+  }
+}
+
+TEST(Drift, AHeadingSaysNothingOfTheTilt) {
+  DriftOptions options = FourDof();
+  for (const bool six_dof : {false, true}) {
+    options.six_dof = six_dof;
+    const DriftResult result = SolveDrift({At({0, 0, 0}, {4, 6, 0}, 0.1, 0.6, Symmetry::kNone)},
+                                          GravityFrame::FromUp(Vec3::UnitZ()), options);
+    ASSERT_TRUE(result.usable) << result.reason;
+    for (const int axis : {3, 4})
+      EXPECT_NEAR(result.covariance(axis, axis), std::pow(options.tilt_sigma_rad, 2), 1e-12);
+    EXPECT_NEAR(result.covariance(5, 5), std::pow(DriftPair().sigma_yaw_rad, 2), 1e-12);
+  }
+}
+
 TEST(Drift, AYawLessSureThanMaxYawSigmaIsNotUsable) {
   for (const double share : {0.97, 1.03}) {
     DriftPair car = At({1, 2, 0}, {4, 6, 0}, 0.1, 0.6, Symmetry::kNone);
@@ -147,6 +178,18 @@ TEST(Drift, InliersEndAtInlierSigmas) {
     EXPECT_EQ(result.inliers, inliers);
     EXPECT_NEAR(result.rms_m, inliers > 0 ? sigmas * sigma : 0, 1e-9);
   }
+}
+
+// Two poles that are 1.2 m too far apart: the vague one takes nine tenths of it, 3.6 of its sigmas.
+TEST(Drift, RmsIsThatOfTheInliers) {
+  std::vector<DriftPair> pairs = {At({-5, 0, 0}, {-5.6, 0, 0}, kNaN, kNaN, Symmetry::kFull),
+                                  At({5, 0, 0}, {5.6, 0, 0}, kNaN, kNaN, Symmetry::kFull)};
+  pairs[0].sigma_horizontal_m = 0.1;
+  DriftOptions options = FourDof();
+  options.loss_scale = 0;
+  const DriftResult result = SolveDrift(pairs, GravityFrame::FromUp(Vec3::UnitZ()), options);
+  EXPECT_EQ(result.inliers, 1);
+  EXPECT_NEAR(result.rms_m, 0.12, 1e-9);
 }
 
 }  // namespace

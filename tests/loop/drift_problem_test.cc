@@ -76,6 +76,36 @@ TEST(FindStart, AFewWrongPairsDoNotMoveTheShift) {
   EXPECT_LT((start->state.t - problem.centre - Vec3(1, 2, 3)).norm(), 1e-9);
 }
 
+// Cars on one spot: four headings say 0, one 5 sigmas and one 20. By squares the middle one is
+// best, by a loss that lets go of it what most say.
+TEST(FindStart, WithALossTheMostHeadingsWin) {
+  const double sigma = DriftPair().sigma_yaw_rad;
+  std::vector<DriftPair> pairs;
+  for (const double turned : {0., 0., 0., 0., 5., 20.})
+    pairs.push_back(Pair({1, 2, 0}, {1, 2, 0}, 0, turned * sigma));
+  for (const double loss_scale : {0., 0.5, 2., 1000.}) {
+    std::string reason;
+    const auto start = FindStart(MakeProblem(pairs, kUpright, loss_scale), kMaxYawSigma, reason);
+    ASSERT_TRUE(start) << reason;
+    const bool squares = loss_scale == 0 || loss_scale == 1000;
+    EXPECT_NEAR(YawOf(*start), squares ? 5 * sigma : 0, 1e-9) << loss_scale;
+  }
+}
+
+TEST(FindStart, ThePositionsSayTheYawWhereverTheMapsAre) {
+  for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(300, -200, 5)}) {
+    std::vector<DriftPair> pairs;
+    for (const Vec3& p : {Vec3(5, 1, 0), Vec3(-3, 8, 1), Vec3(2, -6, 0)}) {
+      pairs.push_back(Pair(p, Rotation::RotZ(0.7) * p + shift, 0, 0, Symmetry::kFull));
+      pairs.back().sigma_horizontal_m = 0.1 * static_cast<double>(pairs.size());
+    }
+    std::string reason;
+    const auto start = FindStart(MakeProblem(pairs, kUpright, 0), kMaxYawSigma, reason);
+    ASSERT_TRUE(start) << reason;
+    EXPECT_NEAR(YawOf(*start), 0.7, 1e-9);
+  }
+}
+
 TEST(FindStart, FrontAndBackAlikeLeaveTwoYawsOnOneSpot) {
   const DriftPair box = Pair({1, 2, 0}, {1, 2, 0}, 0.1, 0.4, Symmetry::kPi);
   std::string reason;
@@ -85,6 +115,24 @@ TEST(FindStart, FrontAndBackAlikeLeaveTwoYawsOnOneSpot) {
   const auto start = FindStart(MakeProblem({box, car}, kUpright, 2), kMaxYawSigma, reason);
   ASSERT_TRUE(start) << "one that has a front decides";
   EXPECT_NEAR(WrapAngle(YawOf(*start) - 0.3 - M_PI), 0, 1e-9);
+}
+
+TEST(DriftProblem, AnySigmaAboveZeroWillDo) {
+  DriftPair pair = Pair({0, 0, 0}, {0, 0, 0}, 0, 0);
+  for (const double sigma : {1e-3, 0.5, 5.}) {
+    pair.sigma_horizontal_m = pair.sigma_vertical_m = pair.sigma_yaw_rad = sigma;
+    EXPECT_EQ(Check({pair}), "");
+  }
+}
+
+TEST(DriftProblem, AnUnknownHeadingIsNone) {
+  LayoutObject pole, car;
+  pole.yaw = std::nan("");
+  car.yaw = 0.3;
+  for (const DriftPair& pair : {MakeDriftPair(pole, car), MakeDriftPair(car, pole)})
+    EXPECT_FALSE(MakeProblem({pair}, kUpright, 0).matches[0].has_yaw());
+  EXPECT_TRUE(MakeProblem({MakeDriftPair(car, car)}, kUpright, 0).matches[0].has_yaw());
+  EXPECT_EQ(MakeDriftPair(pole, car).T_world_local.so3().Log().norm(), 0);
 }
 
 TEST(DriftProblem, TheCentreIsWeightedByInformation) {

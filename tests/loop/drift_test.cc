@@ -202,6 +202,9 @@ TEST(Drift, BadInputIsRefusedWithTheReason) {
     bad.sigma_yaw_rad = sigma;
     EXPECT_EQ(Solve({good, bad}).reason, "a matched object's sigma is not positive");
   }
+  bad = good;
+  bad.sigma_horizontal_m = 1e-200;  // its square is 0
+  EXPECT_FALSE(Solve({good, bad}).usable);
 }
 
 TEST(Drift, ContradictingHeadingsOnOneSpotAreRefused) {
