@@ -51,15 +51,18 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
   AddThreads(command, a.threads);
 }
 
-void WarnOfMissingColours(const std::vector<std::vector<Detection>>& detections) {
-  int with = 0, without = 0;
-  for (const auto& frame : detections)
-    for (const Detection& detection : frame)
-      ++(detection.appearance[Cue::kColour].empty() ? without : with);
-  if (with > 0 && without > 0)
-    Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
-                                " detections have no colour (grey images, or boxes outside of the "
-                                "image): no colours.npy");
+// A cue whose file must be complete has no file if some of the detections have no vector.
+void WarnOfIncompleteCues(const std::vector<std::vector<Detection>>& detections) {
+  for (const CueRow& cue : kCueRows) {
+    int with = 0, without = 0;
+    for (const auto& frame : detections)
+      for (const Detection& detection : frame)
+        ++(detection.appearance[cue.cue].empty() ? without : with);
+    if (cue.complete && with > 0 && without > 0)
+      Log(LogLevel::kWarning, std::to_string(without) + " of " + std::to_string(with + without) +
+                                  " detections have no " + cue.name +
+                                  " (grey images, or boxes outside of the image): no " + cue.file);
+  }
 }
 
 // The output has the same file names as the input.
@@ -188,7 +191,7 @@ int Detect(DetectArguments& a, const Console& console) {
             " holds what it held before; choose a new folder to keep the frames before the error");
     throw *failure;
   }
-  WarnOfMissingColours(files.detections);
+  WarnOfIncompleteCues(files.detections);
   files.config_yaml = ResolvedConfig(configuration, request);
   WriteSequenceFiles(out, files);
   overlays.RemoveOthers();

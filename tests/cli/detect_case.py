@@ -51,9 +51,9 @@ class DetectCase(CliCase):
         rows = read(self.out + '/config.yaml').splitlines()
         return [float(row.split()[-1]) for row in rows if row.strip().startswith('rotation_walk:')]
 
-    def make_grey(self):
+    def make_grey(self, frames=range(FRAMES)):
         for index, folder in enumerate(('image_2', 'image_3')):
-            for i in range(FRAMES):
+            for i in frames:
                 rows = [row[1::3] for row in look(BASELINE * index, STEP * i)]
                 write_png(f'{self.data}/{folder}/{i:06d}.png', rows, channels=1)
 

@@ -128,6 +128,13 @@ class DetectTest(DetectCase):
         self.assertEqual((run.returncode, run.stderr), (0, ''))
         self.assertNotIn('colour', read(self.out + '/run/timing.json'), 'what is grey has no colour')
 
+    def test_a_cue_that_only_some_detections_have(self):
+        self.make_grey(range(FRAMES // 2))
+        result = self.detected('--boxes', self.boxes)
+        rows = len(read(self.out + '/detections.txt').splitlines())
+        self.assertRegex(result.stderr, rf'\d+ of {rows} detections have no colour .*: no colours.npy')
+        self.assertFalse(os.path.exists(self.out + '/colours.npy'))
+
     # models
     def test_odometry_alone(self):
         for left, right in (('image_0', 'image_1'), ('image_l', 'image_r')):
