@@ -93,8 +93,8 @@ TEST_F(WarmStart, WhatFormerLoopsHaveBentIsNotHeldAgainstNewOnes) {
 
 TEST_F(WarmStart, FromPosesThatCannotBeSolvedItStartsAgain) {
   PoseGraph lost = world_.graph;
-  for (std::size_t v = 1; v < lost.vertices.size(); ++v)  // squares of this are infinite
-    lost.vertices[v].T_world_vertex.translation() *= 1e200;
+  for (std::size_t v = 1; v < lost.vertices.size(); ++v)  // in sigmas this is infinite
+    lost.vertices[v].T_world_vertex.translation() *= 1e306;
   const RobustPoseGraphSummary summary = SolveRobust(lost, {}, kept_);
   ASSERT_TRUE(summary.graph.usable);
   EXPECT_EQ(summary.edge_weight, kept_);
