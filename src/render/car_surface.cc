@@ -28,13 +28,14 @@ Surface Plate(const CarShape& shape, float u, float v) {
   return (sign >> block & 1) || block % 3 == 0 ? black : white;
 }
 
-Surface Wheel(const CarShape& shape, const Spot& spot) {
+Surface Wheel(const CarShape& shape, const SurfacePoint& point) {
   const Surface tyre{Vec3f(0.022f, 0.022f, 0.024f), 0.01f, 8, kTyre};
-  const float axle = spot.at.x() > 0.5f * (shape.front_axle + shape.rear_axle) ? shape.front_axle
-                                                                               : shape.rear_axle;
-  const float x = spot.at.x() - axle, z = spot.at.z() - shape.wheel_radius;
+  const float axle = point.position.x() > 0.5f * (shape.front_axle + shape.rear_axle)
+                         ? shape.front_axle
+                         : shape.rear_axle;
+  const float x = point.position.x() - axle, z = point.position.z() - shape.wheel_radius;
   const float radius = std::hypot(x, z) / shape.wheel_radius;
-  if (std::abs(spot.normal.y()) < 0.8f || radius > 0.7f) return tyre;
+  if (std::abs(point.normal.y()) < 0.8f || radius > 0.7f) return tyre;
   const Surface rim{Vec3f::Constant(Mix(0.2f, 0.5f, Unit(Hash(shape.seed, 31)))), 0.12f, 60, kRim};
   const Surface gap{Vec3f::Constant(0.01f), 0, 1, kSeam};
   if (radius > 0.62f || radius < 0.16f) return rim;
@@ -46,8 +47,8 @@ Surface Wheel(const CarShape& shape, const Spot& spot) {
 }
 
 /// Nose: lamps, grille, number plate, air intake.
-std::optional<Surface> Front(const CarShape& shape, const Spot& spot) {
-  const float y = std::abs(spot.at.y()) / shape.half_width, z = spot.at.z();
+std::optional<Surface> Front(const CarShape& shape, const SurfacePoint& point) {
+  const float y = std::abs(point.position.y()) / shape.half_width, z = point.position.z();
   const float edge = shape.outline[1].y(), lamp_in = Mix(0.48f, 0.62f, Unit(Hash(shape.seed, 41)));
   const float slant = 0.05f * (y - lamp_in);
   if (Within(z, edge - 0.1f + slant, edge + 0.035f + slant) && y > lamp_in) {
@@ -57,12 +58,12 @@ std::optional<Surface> Front(const CarShape& shape, const Spot& spot) {
     return Surface{Vec3f(0.22f, 0.23f, 0.25f), 0.15f, 200, kGlass};
   }
   const float plate_z = Mix(shape.clearance + 0.1f, edge - 0.1f, 0.55f);
-  if (std::abs(spot.at.y()) < 0.26f && std::abs(z - plate_z) < 0.055f)
-    return Plate(shape, 0.5f + spot.at.y() / 0.52f, 0.5f + (plate_z - z) / 0.11f);
+  if (std::abs(point.position.y()) < 0.26f && std::abs(z - plate_z) < 0.055f)
+    return Plate(shape, 0.5f + point.position.y() / 0.52f, 0.5f + (plate_z - z) / 0.11f);
   if (Within(z, edge - 0.1f, edge - 0.005f) && y < lamp_in - 0.08f) {
-    if (std::hypot(spot.at.y(), z - edge + 0.05f) < 0.04f) return kChrome;
+    if (std::hypot(point.position.y(), z - edge + 0.05f) < 0.04f) return kChrome;
     const float bars = z / 0.022f;
-    const bool bar = Hash(shape.seed, 42) % 2 && Fraction(bars) < 0.3f && spot.footprint < 0.02f;
+    const bool bar = Hash(shape.seed, 42) % 2 && Fraction(bars) < 0.3f && point.footprint < 0.02f;
     return bar ? kChrome : kPlasticSurface;
   }
   if (Within(z, shape.clearance, plate_z - 0.07f) && y < 0.72f) return kPlasticSurface;
@@ -70,8 +71,8 @@ std::optional<Surface> Front(const CarShape& shape, const Spot& spot) {
 }
 
 /// Tail: lamps, number plate, bumper.
-std::optional<Surface> Rear(const CarShape& shape, const Spot& spot) {
-  const float y = std::abs(spot.at.y()) / shape.half_width, z = spot.at.z();
+std::optional<Surface> Rear(const CarShape& shape, const SurfacePoint& point) {
+  const float y = std::abs(point.position.y()) / shape.half_width, z = point.position.z();
   const bool tall = shape.style != CarStyle::kSaloon;
   const float low = shape.belt - (tall ? Mix(0.2f, 0.34f, Unit(Hash(shape.seed, 51))) : 0.17f);
   const float in = tall ? Mix(0.58f, 0.68f, Unit(Hash(shape.seed, 52))) : 0.52f;
@@ -81,8 +82,8 @@ std::optional<Surface> Rear(const CarShape& shape, const Spot& spot) {
                  : Surface{Vec3f(0.32f, 0.012f, 0.012f), 0.07f, 80, kLamp};
   }
   const float plate_z = Mix(shape.clearance, shape.belt, 0.58f);
-  if (std::abs(spot.at.y()) < 0.26f && std::abs(z - plate_z) < 0.055f)
-    return Plate(shape, 0.5f - spot.at.y() / 0.52f, 0.5f + (plate_z - z) / 0.11f);
+  if (std::abs(point.position.y()) < 0.26f && std::abs(z - plate_z) < 0.055f)
+    return Plate(shape, 0.5f - point.position.y() / 0.52f, 0.5f + (plate_z - z) / 0.11f);
   if (z < shape.clearance + 0.17f) return kPlasticSurface;
   const float seam = Mix(shape.clearance, shape.belt, 0.42f);
   if (std::abs(z - seam) < 0.006f) return Surface{Vec3f::Constant(0.01f), 0, 1, kSeam};
@@ -93,10 +94,10 @@ std::optional<Surface> Rear(const CarShape& shape, const Spot& spot) {
   return std::nullopt;
 }
 
-bool IsGlass(const CarShape& shape, const Spot& spot, float pillar) {
-  const float x = spot.at.x(), z = spot.at.z(), top = shape.Top(x);
-  if (spot.part == kCarTop) {
-    const bool wide = std::abs(spot.at.y()) < shape.HalfTop(x) - 0.035f;
+bool IsGlass(const CarShape& shape, const SurfacePoint& point, float pillar) {
+  const float x = point.position.x(), z = point.position.z(), top = shape.Top(x);
+  if (point.part == kCarTop) {
+    const bool wide = std::abs(point.position.y()) < shape.HalfTop(x) - 0.035f;
     const bool screen = Within(x, shape.roof_front - 0.02f, shape.screen_base - 0.02f) &&
                         z < 0.985f * shape.Top(shape.roof_front);
     const bool rear = shape.style != CarStyle::kVan && shape.style != CarStyle::kTruck &&
@@ -115,49 +116,53 @@ bool IsGlass(const CarShape& shape, const Spot& spot, float pillar) {
 
 /// The interior behind the glass: seats before a brighter background, the dashboard below the
 /// windscreen.
-Surface Glass(const CarShape& shape, const Spot& spot, float pillar) {
+Surface Glass(const CarShape& shape, const SurfacePoint& point, float pillar) {
   Surface glass{Vec3f(0.012f, 0.014f, 0.015f), 0.09f, 900, kGlass};
   const float seat_z = shape.belt + 0.2f;
   float off = 0;  // across the nearest headrest
-  if (spot.part == kCarSide) {
-    off = std::min(std::abs(spot.at.x() - pillar - 0.1f), std::abs(spot.at.x() - pillar + 0.85f));
-    glass.albedo *= 0.6f + 2.6f * Clamp01((spot.at.z() - shape.belt) / (shape.height - shape.belt));
+  if (point.part == kCarSide) {
+    off = std::min(std::abs(point.position.x() - pillar - 0.1f),
+                   std::abs(point.position.x() - pillar + 0.85f));
+    glass.albedo *=
+        0.6f + 2.6f * Clamp01((point.position.z() - shape.belt) / (shape.height - shape.belt));
   } else {
-    off = std::abs(std::abs(spot.at.y()) - 0.37f);
-    if (spot.at.x() > shape.screen_base - 0.22f) glass.albedo = Vec3f::Constant(0.03f);
+    off = std::abs(std::abs(point.position.y()) - 0.37f);
+    if (point.position.x() > shape.screen_base - 0.22f) glass.albedo = Vec3f::Constant(0.03f);
   }
-  const float rest = std::max(off / 0.13f, (spot.at.z() - seat_z) / 0.1f);
+  const float rest = std::max(off / 0.13f, (point.position.z() - seat_z) / 0.1f);
   if (rest < 1) glass.albedo = Vec3f::Constant(0.005f);
   return glass;
 }
 
 /// A truck's box: panels with ribs; behind, doors above lamps and a number plate.
-Surface CargoBox(const CarShape& shape, const Surface& body, const Spot& spot, float dirt) {
-  const float z = spot.at.z();
+Surface CargoBox(const CarShape& shape, const Surface& body, const SurfacePoint& point,
+                 float dirt) {
+  const float z = point.position.z();
   const Vec3f panel = Hash(shape.seed, 72) % 2 ? Vec3f(0.62f, 0.62f, 0.6f) : body.albedo;
-  const float rib = spot.at.x() / 0.6f, lamp = std::abs(spot.at.y()) / shape.half_width;
-  if (spot.normal.x() < -0.5f && z < 1.02f) {
-    if (std::abs(spot.at.y()) < 0.26f && std::abs(z - 0.94f) < 0.055f)
-      return Plate(shape, 0.5f - spot.at.y() / 0.52f, 0.5f + (0.94f - z) / 0.11f);
+  const float rib = point.position.x() / 0.6f,
+              lamp = std::abs(point.position.y()) / shape.half_width;
+  if (point.normal.x() < -0.5f && z < 1.02f) {
+    if (std::abs(point.position.y()) < 0.26f && std::abs(z - 0.94f) < 0.055f)
+      return Plate(shape, 0.5f - point.position.y() / 0.52f, 0.5f + (0.94f - z) / 0.11f);
     return lamp > 0.75f ? Surface{Vec3f(0.3f, 0.012f, 0.012f), 0.07f, 80, kLamp} : kPlasticSurface;
   }
-  const float stripe = Band((Fraction(rib) - 0.5f) * 0.6f, 0.008f, spot.footprint);
-  const bool door = spot.normal.x() < -0.5f && std::abs(spot.at.y()) < 0.01f;
+  const float stripe = Band((Fraction(rib) - 0.5f) * 0.6f, 0.008f, point.footprint);
+  const bool door = point.normal.x() < -0.5f && std::abs(point.position.y()) < 0.01f;
   return {panel * (1 + 0.04f * dirt) * (door ? 0.2f : 1 - 0.5f * stripe), 0.02f, 30, kPaint};
 }
 
 /// The seams around the doors of a side, and their handles.
-void DrawDoors(const CarShape& shape, const Spot& spot, float pillar, Surface& body) {
-  const float x = spot.at.x(), first = shape.screen_base - 0.3f;
-  if (spot.at.z() >= shape.belt || x >= first + 0.1f || x <= shape.rear_axle - 0.1f) return;
+void DrawDoors(const CarShape& shape, const SurfacePoint& point, float pillar, Surface& body) {
+  const float x = point.position.x(), first = shape.screen_base - 0.3f;
+  if (point.position.z() >= shape.belt || x >= first + 0.1f || x <= shape.rear_axle - 0.1f) return;
   const float last = std::max(shape.rear_axle + 0.62f * shape.arch_radius, pillar - 1.05f);
   float seam = 0;
   for (float at : {first, pillar, last})
-    seam = std::max(seam, Band(x - at, 0.007f, spot.footprint));
+    seam = std::max(seam, Band(x - at, 0.007f, point.footprint));
   body.albedo *= 1 - 0.9f * seam;
-  body.mirror *= 1 - seam;
+  body.reflectivity *= 1 - seam;
   for (float at : {pillar, last}) {
-    if (Within(x - at, 0.05f, 0.22f) && Within(spot.at.z() - shape.belt, -0.12f, -0.085f)) {
+    if (Within(x - at, 0.05f, 0.22f) && Within(point.position.z() - shape.belt, -0.12f, -0.085f)) {
       body.albedo *= 0.45f;
       body.kind = kSeam;
     }
@@ -166,31 +171,31 @@ void DrawDoors(const CarShape& shape, const Spot& spot, float pillar, Surface& b
 
 }  // namespace
 
-Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) {
-  const float x = spot.at.x(), z = spot.at.z();
-  const float dirt = Fractal(x + spot.at.y(), z, shape.seed, {3, 3}, spot.footprint);
+Surface CarSurface(const CarShape& shape, const Vec3f& paint, const SurfacePoint& point) {
+  const float x = point.position.x(), z = point.position.z();
+  const float dirt = Fractal(x + point.position.y(), z, shape.seed, {3, 3}, point.footprint);
   const float low = 1 - Smooth(0.2f, 0.7f, z);
   Surface body{Linear(paint) * (1 + 0.05f * dirt), 0.045f, 250, kPaint};
   body.albedo = Mix(body.albedo, Vec3f(0.09f, 0.08f, 0.07f), low * (0.12f + 0.1f * dirt));
-  body.light = Mix(1, 0.55f, low);
+  body.sky_visibility = Mix(1, 0.55f, low);
 
-  if (spot.part == kCarWheel) return Wheel(shape, spot);
-  if (spot.part == kCarUnder) return {Vec3f::Constant(0.015f), 0, 1, kPlastic, 0.2f};
-  if (spot.part == kCarMirror) return Hash(shape.seed, 71) % 3 ? body : kPlasticSurface;
-  if (spot.part == kCarBox) return CargoBox(shape, body, spot, dirt);
+  if (point.part == kCarWheel) return Wheel(shape, point);
+  if (point.part == kCarUnder) return {Vec3f::Constant(0.015f), 0, 1, kPlastic, 0.2f};
+  if (point.part == kCarMirror) return Hash(shape.seed, 71) % 3 ? body : kPlasticSurface;
+  if (point.part == kCarBox) return CargoBox(shape, body, point, dirt);
 
-  if (spot.normal.x() > 0.4f && x > shape.nose() - 0.35f) {
-    if (const auto front = Front(shape, spot)) return *front;
+  if (point.normal.x() > 0.4f && x > shape.nose() - 0.35f) {
+    if (const auto front = Front(shape, point)) return *front;
   }
-  if (spot.normal.x() < -0.4f && x < -shape.nose() + 0.3f) {
-    if (const auto rear = Rear(shape, spot)) return *rear;
+  if (point.normal.x() < -0.4f && x < -shape.nose() + 0.3f) {
+    if (const auto rear = Rear(shape, point)) return *rear;
   }
   const float pillar = Mix(shape.front_axle, shape.rear_axle, 0.47f);
-  if (IsGlass(shape, spot, pillar)) {
-    const bool frame = spot.part == kCarSide && std::abs(x - pillar) < 0.045f;
-    return frame ? kPlasticSurface : Glass(shape, spot, pillar);
+  if (IsGlass(shape, point, pillar)) {
+    const bool frame = point.part == kCarSide && std::abs(x - pillar) < 0.045f;
+    return frame ? kPlasticSurface : Glass(shape, point, pillar);
   }
-  if (spot.part != kCarSide) return body;
+  if (point.part != kCarSide) return body;
 
   const float to_arch = std::min(std::hypot(x - shape.front_axle, z - shape.wheel_radius),
                                  std::hypot(x - shape.rear_axle, z - shape.wheel_radius)) -
@@ -198,7 +203,7 @@ Surface CarSurface(const CarShape& shape, const Vec3f& paint, const Spot& spot) 
   const bool rough = shape.style == CarStyle::kEstate && Hash(shape.seed, 73) % 2;
   if (z < shape.clearance + (rough ? 0.13f : 0.06f) || (rough && to_arch < 0.06f))
     return kPlasticSurface;
-  DrawDoors(shape, spot, pillar, body);
+  DrawDoors(shape, point, pillar, body);
   return body;
 }
 

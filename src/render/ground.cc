@@ -51,13 +51,13 @@ Vec3f Littered(const Vec2f& place, std::uint32_t seed, float footprint, const Ve
 
 }  // namespace
 
-NearList::NearList(const Vec2f& low, const Vec2f& high, float cell) : low_(low), cell_(cell) {
+GridIndex::GridIndex(const Vec2f& low, const Vec2f& high, float cell) : low_(low), cell_(cell) {
   columns_ = 1 + static_cast<int>((high.x() - low.x()) / cell);
   rows_ = 1 + static_cast<int>((high.y() - low.y()) / cell);
   lists_.resize(static_cast<std::size_t>(columns_) * rows_);
 }
 
-void NearList::Add(const Vec2f& low, const Vec2f& high, int number) {
+void GridIndex::Add(const Vec2f& low, const Vec2f& high, int number) {
   const auto cell = [&](float from, float to, int count) {
     return std::clamp(Floor((to - from) / cell_), 0, count - 1);
   };
@@ -68,7 +68,7 @@ void NearList::Add(const Vec2f& low, const Vec2f& high, int number) {
   }
 }
 
-const std::vector<int>& NearList::At(const Vec2f& place) const {
+const std::vector<int>& GridIndex::At(const Vec2f& place) const {
   static const std::vector<int> kNone;
   const float column = (place.x() - low_.x()) / cell_, row = (place.y() - low_.y()) / cell_;
   if (!(column >= 0 && row >= 0 && column < static_cast<float>(columns_) &&
@@ -77,12 +77,12 @@ const std::vector<int>& NearList::At(const Vec2f& place) const {
   return lists_[static_cast<std::size_t>(row) * columns_ + static_cast<std::size_t>(column)];
 }
 
-Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed)
+Ground::Ground(const sim::HalvWorld& scene, const UsedArea& used, std::uint32_t seed)
     : seed_(seed) {
   const Vec2f margin = Vec2f::Constant(2 * kPavedWithin), low = used.low - margin,
               high = used.high + margin;
-  near_lines_ = near_oil_ = NearList(low, high, 2);
-  near_used_ = NearList(low, high, 2);
+  near_lines_ = near_oil_ = GridIndex(low, high, 2);
+  near_used_ = GridIndex(low, high, 2);
   const auto add_line = [&](const Vec2f& from, const Vec2f& to) {
     const Vec2f half = Vec2f::Constant(2 * kHalfLine + 0.2f);
     near_lines_.Add(from.cwiseMin(to) - half, from.cwiseMax(to) + half,
@@ -116,7 +116,7 @@ Ground::Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_
   }
 }
 
-float Ground::Paved(const Vec2f& place) const {
+float Ground::PavedShare(const Vec2f& place) const {
   float nearest = 2 * kPavedWithin;
   for (int i : near_used_.At(place)) {
     nearest = std::min(nearest, (used_[i] - place).norm());
@@ -126,7 +126,7 @@ float Ground::Paved(const Vec2f& place) const {
   return 1 - Smooth(kPavedWithin - 0.1f, kPavedWithin + 0.1f, nearest + ragged);
 }
 
-float Ground::Painted(const Vec2f& place, float footprint) const {
+float Ground::PaintedShare(const Vec2f& place, float footprint) const {
   float painted = 0;
   for (int i : near_lines_.At(place)) {
     const Line& line = lines_[i];
@@ -163,17 +163,18 @@ Vec3f Ground::Asphalt(const Vec2f& place, float footprint) const {
   return Littered(place, seed_ + 11, footprint, grey * Vec3f(1.02f, 1, 0.97f));
 }
 
-Surface Ground::At(const Spot& spot) const {
-  const Vec2f place = spot.at.head<2>();
-  const float paved = Paved(place);
+Surface Ground::At(const SurfacePoint& point) const {
+  const Vec2f place = point.position.head<2>();
+  const float paved = PavedShare(place);
   Surface surface;
   surface.kind = 0;
   if (paved > 0) {
-    surface.albedo = Asphalt(place, spot.footprint);
-    surface.albedo = Mix(surface.albedo, Vec3f(0.62f, 0.62f, 0.6f), Painted(place, spot.footprint));
+    surface.albedo = Asphalt(place, point.footprint);
+    surface.albedo =
+        Mix(surface.albedo, Vec3f(0.62f, 0.62f, 0.6f), PaintedShare(place, point.footprint));
   }
   if (paved < 1) {
-    const float tuft = Fractal(place.x(), place.y(), seed_ + 10, {0.3f, 8}, spot.footprint);
+    const float tuft = Fractal(place.x(), place.y(), seed_ + 10, {0.3f, 8}, point.footprint);
     const Vec3f grass =
         Mix(Vec3f(0.06f, 0.1f, 0.025f), Vec3f(0.16f, 0.16f, 0.07f), Clamp01(0.45f + 0.5f * tuft));
     surface.albedo = Mix(grass, surface.albedo, paved);

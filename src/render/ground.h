@@ -11,10 +11,10 @@
 namespace sslcd::render {
 
 /// A grid of square cells over a rectangle. Each cell has the list of objects in or near it.
-class NearList {
+class GridIndex {
  public:
-  NearList() = default;
-  NearList(const Vec2f& low, const Vec2f& high, float cell);
+  GridIndex() = default;
+  GridIndex(const Vec2f& low, const Vec2f& high, float cell);
   /// adds a number to all cells that the rectangle touches
   void Add(const Vec2f& low, const Vec2f& high, int number);
   const std::vector<int>& At(const Vec2f& place) const;
@@ -29,21 +29,21 @@ class NearList {
 /// Asphalt with stall lines, cracks, repairs and oil in the used area, grass elsewhere.
 class Ground {
  public:
-  Ground(const sim::HalvWorld& scene, const UsedPlaces& used, std::uint32_t seed);
-  Surface At(const Spot& spot) const;
+  Ground(const sim::HalvWorld& scene, const UsedArea& used, std::uint32_t seed);
+  Surface At(const SurfacePoint& point) const;
 
  private:
   struct Line {
     Vec2f from, to;
   };
-  float Paved(const Vec2f& place) const;  ///< 1: asphalt, 0: grass
-  float Painted(const Vec2f& place, float footprint) const;
+  float PavedShare(const Vec2f& place) const;  ///< 1: asphalt, 0: grass
+  float PaintedShare(const Vec2f& place, float footprint) const;
   Vec3f Asphalt(const Vec2f& place, float footprint) const;
 
   std::uint32_t seed_;
   std::vector<Line> lines_;
   std::vector<Vec2f> oil_, used_;
-  NearList near_lines_, near_oil_, near_used_;
+  GridIndex near_lines_, near_oil_, near_used_;
 };
 
 }  // namespace sslcd::render

@@ -56,27 +56,27 @@ Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, 
   const float slant = std::max(normal.dot(light.to_sun), 0.f), up = 0.5f + 0.5f * normal.z();
   const Vec3f ambient =
       Mix(GroundLight(light), Vec3f(0.75f * light.zenith + 0.3f * light.horizon), up);
-  Vec3f colour =
-      surface.albedo.cwiseProduct(light.sun * (slant * sunlit) + ambient * (sky * surface.light));
-  if (surface.mirror <= 0) return colour;
+  Vec3f colour = surface.albedo.cwiseProduct(light.sun * (slant * sunlit) +
+                                             ambient * (sky * surface.sky_visibility));
+  if (surface.reflectivity <= 0) return colour;
 
   // Schlick's approximation of Fresnel's equations. The reflected surroundings are sky, a dark
   // horizon and the ground.
   const float facing = std::max(-normal.dot(view), 0.f);
   const float grazing = std::pow(1 - facing, 5.f);
-  const float mirror = surface.mirror + (1 - surface.mirror) * 0.8f * grazing;
+  const float mirror = surface.reflectivity + (1 - surface.reflectivity) * 0.8f * grazing;
   const Vec3f out = view - 2 * normal.dot(view) * normal;
   const Vec3f town = 0.22f * light.horizon;
   Vec3f around = Mix(town, ClearSky(light, out.z()), Smooth(0.05f, 0.22f, out.z()));
   around = Mix(GroundLight(light), around, Smooth(-0.06f, 0.02f, out.z()));
-  const float glint =
-      std::pow(std::max(out.dot(light.to_sun), 0.f), surface.shine) * (0.02f * surface.shine);
+  const float glint = std::pow(std::max(out.dot(light.to_sun), 0.f), surface.shininess) *
+                      (0.02f * surface.shininess);
   colour +=
       mirror * (around * (0.35f + 0.65f * sky) + light.sun * (sunlit * std::min(glint, 40.f)));
   return colour;
 }
 
-Vec3f ThroughAir(const Daylight& light, const Vec3f& colour, float distance) {
+Vec3f ApplyHaze(const Daylight& light, const Vec3f& colour, float distance) {
   return Mix(Vec3f(0.8f * light.horizon), colour, std::exp(-distance / 700));
 }
 

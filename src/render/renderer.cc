@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "render/moment.h"
+#include "render/frame_shader.h"
 #include "render/noise.h"
 #include "render/sensor.h"
 #include "sim/check_fields.h"
@@ -20,18 +20,18 @@ struct Pixel {
 
 /// Rays of one image. Their directions have length 1 along the optical axis, so the distance of a
 /// hit is its depth.
-class Eye {
+class PixelRays {
  public:
-  Eye(const Camera& camera, const Pose& T_scene_camera)
+  PixelRays(const Camera& camera, const Pose& T_scene_camera)
       : camera_(camera),
         axes_(T_scene_camera.so3().matrix().cast<float>()),
         origin_(T_scene_camera.translation().cast<float>()) {}
 
   /// The ray at the offset `off` from a pixel's centre.
-  Ray At(const Pixel& pixel, const Vec2f& off) const {
+  Ray Through(const Pixel& pixel, const Vec2f& off) const {
     const Vec3 way((static_cast<double>(pixel.x) + off.x() - camera_.cx) / camera_.fx,
                    (static_cast<double>(pixel.y) + off.y() - camera_.cy) / camera_.fy, 1);
-    return {origin_, axes_ * way.cast<float>(), Moment::kFar};
+    return {origin_, axes_ * way.cast<float>(), FrameShader::kFar};
   }
 
  private:
@@ -41,7 +41,7 @@ class Eye {
 };
 
 /// All pixels in an order that keeps neighbours together: tiles of 4 x 2 in bands.
-std::vector<Pixel> InTiles(int width, int height) {
+std::vector<Pixel> PixelsInTiles(int width, int height) {
   std::vector<Pixel> pixels;
   pixels.reserve(static_cast<std::size_t>(width) * height);
   for (int y = 0; y < height; y += 2) {
@@ -55,8 +55,8 @@ std::vector<Pixel> InTiles(int width, int height) {
 }
 
 /// The pixels next to another surface or shadow.
-std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sample>& samples,
-                         const Camera& camera) {
+std::vector<Pixel> FindEdges(const std::vector<Pixel>& pixels, const std::vector<Sample>& samples,
+                             const Camera& camera) {
   std::vector<Pixel> edges;
   for (const auto& [x, y] : pixels) {
     const Sample* own = &samples[y * camera.width + x];
@@ -69,8 +69,8 @@ std::vector<Pixel> Edges(const std::vector<Pixel>& pixels, const std::vector<Sam
 }
 
 /// Takes the mean of four rays instead of one. Keeps depth and identity of the pixel's centre.
-void SmoothEdges(const Moment& moment, const Eye& eye, int width, const std::vector<Pixel>& edges,
-                 std::vector<Sample>& samples) {
+void SmoothEdges(const FrameShader& shader, const PixelRays& pixel_rays, int width,
+                 const std::vector<Pixel>& edges, std::vector<Sample>& samples) {
   // offsets that are not in line with each other and the centre
   const Vec2f kPlaces[] = {{-0.375f, -0.125f}, {0.125f, -0.375f}, {0.25f, 0.375f}};
   // otherwise the sun and its reflections would dominate the mean
@@ -78,9 +78,9 @@ void SmoothEdges(const Moment& moment, const Eye& eye, int width, const std::vec
   for (std::size_t first = 0; first < edges.size(); first += kBatch) {
     std::vector<Ray> rays;
     for (std::size_t i = first; i < std::min(first + kBatch, edges.size()); ++i) {
-      for (const Vec2f& place : kPlaces) rays.push_back(eye.At(edges[i], place));
+      for (const Vec2f& place : kPlaces) rays.push_back(pixel_rays.Through(edges[i], place));
     }
-    const std::vector<Sample> others = moment.Look(rays);
+    const std::vector<Sample> others = shader.TraceRays(rays);
     for (std::size_t i = 0; i < others.size(); ++i) {
       const Pixel& pixel = edges[first + i / 3];
       Vec3f& colour = samples[pixel.y * width + pixel.x].colour;
@@ -93,7 +93,7 @@ void SmoothEdges(const Moment& moment, const Eye& eye, int width, const std::vec
 }  // namespace
 
 struct Renderer::Impl {
-  StageSet set;
+  SceneModel model;
   RayTracer tracer;
   Daylight light[2];
   int return_frame;
@@ -109,10 +109,10 @@ Renderer::Renderer(const sim::HalvWorld& scene, std::uint64_t seed, const Render
                 "nothing to render: a world needs frames and a camera with an image size");
   const std::uint32_t own =
       Hash(static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32));
-  StageSet set(scene, own);
-  RayTracer tracer(set.meshes());
+  SceneModel model(scene, own);
+  RayTracer tracer(model.meshes());
   impl_.reset(
-      new Impl{std::move(set),
+      new Impl{std::move(model),
                std::move(tracer),
                {MakeDaylight(options.out, Hash(own, 1)), MakeDaylight(options.back, Hash(own, 2))},
                scene.return_frame,
@@ -122,34 +122,35 @@ Renderer::Renderer(const sim::HalvWorld& scene, std::uint64_t seed, const Render
 
 Renderer::~Renderer() = default;
 
-int Renderer::frames() const { return static_cast<int>(impl_->set.world().truth.size()); }
+int Renderer::frames() const { return static_cast<int>(impl_->model.world().truth.size()); }
 
-int Renderer::objects() const { return static_cast<int>(impl_->set.world().objects.size()); }
+int Renderer::objects() const { return static_cast<int>(impl_->model.world().objects.size()); }
 
 View Renderer::Render(int frame, Side side) const {
-  const sim::World& world = impl_->set.world();
+  const sim::World& world = impl_->model.world();
   if (frame < 0 || frame >= frames())
     throw Error(ErrorKind::kUsage, "there is no frame " + std::to_string(frame));
   const Daylight& light = impl_->light[frame < impl_->return_frame ? 0 : 1];
   const Camera& camera = world.camera;
   const Vec3 right(side == Side::kRight ? world.baseline_m : 0, 0, 0);
-  const Pose T_scene_camera = impl_->set.T_scene_world() * world.truth.poses[frame] *
+  const Pose T_scene_camera = impl_->model.T_scene_world() * world.truth.poses[frame] *
                               Pose(lie::SO3<double>(), right - camera.offset);
-  const Eye eye(camera, T_scene_camera);
-  const Moment moment(impl_->set, impl_->tracer, light, frame, static_cast<float>(1 / camera.fx));
+  const PixelRays pixel_rays(camera, T_scene_camera);
+  const FrameShader shader(impl_->model, impl_->tracer, light, frame,
+                           static_cast<float>(1 / camera.fx));
 
-  const std::vector<Pixel> pixels = InTiles(camera.width, camera.height);
+  const std::vector<Pixel> pixels = PixelsInTiles(camera.width, camera.height);
   std::vector<Sample> samples(pixels.size());  // row by row
   for (std::size_t first = 0; first < pixels.size(); first += kBatch) {
     std::vector<Ray> rays;
     for (std::size_t i = first; i < std::min(first + kBatch, pixels.size()); ++i)
-      rays.push_back(eye.At(pixels[i], {0, 0}));
-    const std::vector<Sample> batch = moment.Look(rays);
+      rays.push_back(pixel_rays.Through(pixels[i], {0, 0}));
+    const std::vector<Sample> batch = shader.TraceRays(rays);
     for (std::size_t i = 0; i < batch.size(); ++i)
       samples[pixels[first + i].y * camera.width + pixels[first + i].x] = batch[i];
   }
   if (impl_->options.smooth_edges)
-    SmoothEdges(moment, eye, camera.width, Edges(pixels, samples, camera), samples);
+    SmoothEdges(shader, pixel_rays, camera.width, FindEdges(pixels, samples, camera), samples);
 
   View view{camera.width, camera.height, {}, {}, {}};
   for (const Sample& sample : samples) {

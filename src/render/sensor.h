@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/moment.h"
+#include "render/frame_shader.h"
 #include "render/options.h"
 
 namespace sslcd::render {

@@ -58,7 +58,8 @@ Vec3f Plain(std::uint32_t seed) {
 }
 
 /// Storeys of windows in frames, with curtains, a plinth and doors.
-Surface House(const Building& house, float along, float up, const Spot& spot, std::uint32_t face) {
+Surface House(const Building& house, float along, float up, const SurfacePoint& point,
+              std::uint32_t face) {
   const std::uint32_t seed = house.seed;
   const float pitch = Mix(2.2f, 3.6f, Unit(Hash(seed, 1))),
               storey = Mix(2.9f, 3.6f, Unit(Hash(seed, 2)));
@@ -79,13 +80,13 @@ Surface House(const Building& house, float along, float up, const Spot& spot, st
         Unit(Hash(window, 1)) < 0.4f && (v > half_v * (2 * Unit(Hash(window, 2)) - 1));
     const Vec3f inside =
         curtain ? Vec3f(0.4f, 0.38f, 0.34f) *
-                      (0.6f + 0.4f * std::sin(u * 40) * Clamp01(1 - 20 * spot.footprint))
+                      (0.6f + 0.4f * std::sin(u * 40) * Clamp01(1 - 20 * point.footprint))
                 : Vec3f(0.02f, 0.025f, 0.03f);
     return {inside, 0.1f, 900, curtain ? 4 : 3, 1};
   }
-  const float stain = Fractal(along, 0.5f * up, seed, {0.4f, 6}, spot.footprint);
+  const float stain = Fractal(along, 0.5f * up, seed, {0.4f, 6}, point.footprint);
   const bool brick = Hash(seed, 6) % 3 != 0;
-  Vec3f albedo = brick ? Brick(along, up, seed, Plain(seed), spot.footprint) : Plain(seed);
+  Vec3f albedo = brick ? Brick(along, up, seed, Plain(seed), point.footprint) : Plain(seed);
   if (up < 0.6f || roof < 0.35f || (roof < 1 && roof > 0.85f)) albedo = Vec3f(0.35f, 0.34f, 0.33f);
   const int band = up < 0.6f ? 5 : roof < 0.35f ? 6 : 1;
   return {Vec3f(albedo * (1 + 0.22f * stain)).cwiseMin(0.85f), 0, 1, band,
@@ -100,8 +101,8 @@ Pose SceneFromWorld(const sim::World& world) {
   return Pose(lie::SO3<double>::FromMatrix(axes), Vec3(0, 0, world.camera_height_m));
 }
 
-UsedPlaces FindUsedPlaces(const sim::World& world) {
-  UsedPlaces used;
+UsedArea FindUsedArea(const sim::World& world) {
+  UsedArea used;
   const auto add = [&](const Pose& pose) {
     const Vec3f at = pose.translation().cast<float>();
     used.places.emplace_back(at.x(), at.z());
@@ -122,7 +123,7 @@ UsedPlaces FindUsedPlaces(const sim::World& world) {
   return used;
 }
 
-Town MakeTown(const UsedPlaces& used, std::uint32_t seed) {
+Town MakeTown(const UsedArea& used, std::uint32_t seed) {
   Town town;
   const Vec2f low = used.low - Vec2f::Constant(kAround),
               high = used.high + Vec2f::Constant(kAround);
@@ -160,20 +161,21 @@ Mesh MakeTownMesh(const Town& town) {
   return mesh;
 }
 
-Surface TownSurface(const Town& town, const Spot& spot) {
-  const Building& building = town.buildings[spot.part];
-  if (spot.normal.z() > 0.5f) return {Vec3f(0.3f, 0.29f, 0.28f), 0, 1, 9};
-  const bool along_x = std::abs(spot.normal.y()) > 0.5f;
-  const float along = along_x ? spot.at.x() : spot.at.y();
-  const std::uint32_t face = (along_x ? 2 : 0) + (spot.normal.x() + spot.normal.y() > 0);
-  if (!building.wall) return House(building, along, spot.at.z(), spot, face);
-  const float stain = Fractal(along, 0.6f * spot.at.z(), building.seed, {0.5f, 6}, spot.footprint);
-  const bool coping = spot.at.z() > 1.8f;
-  const Vec3f albedo =
-      coping ? Vec3f(0.4f, 0.39f, 0.37f)
-             : Brick(along, spot.at.z(), building.seed, Vec3f(0.36f, 0.16f, 0.1f), spot.footprint);
+Surface TownSurface(const Town& town, const SurfacePoint& point) {
+  const Building& building = town.buildings[point.part];
+  if (point.normal.z() > 0.5f) return {Vec3f(0.3f, 0.29f, 0.28f), 0, 1, 9};
+  const bool along_x = std::abs(point.normal.y()) > 0.5f;
+  const float along = along_x ? point.position.x() : point.position.y();
+  const std::uint32_t face = (along_x ? 2 : 0) + (point.normal.x() + point.normal.y() > 0);
+  if (!building.wall) return House(building, along, point.position.z(), point, face);
+  const float stain =
+      Fractal(along, 0.6f * point.position.z(), building.seed, {0.5f, 6}, point.footprint);
+  const bool coping = point.position.z() > 1.8f;
+  const Vec3f albedo = coping ? Vec3f(0.4f, 0.39f, 0.37f)
+                              : Brick(along, point.position.z(), building.seed,
+                                      Vec3f(0.36f, 0.16f, 0.1f), point.footprint);
   return {Vec3f(albedo * (1 + 0.3f * stain)), 0, 1, coping ? 8 : 7,
-          Mix(0.6f, 1, Smooth(0, 0.8f, spot.at.z()))};
+          Mix(0.6f, 1, Smooth(0, 0.8f, point.position.z()))};
 }
 
 }  // namespace sslcd::render

@@ -28,17 +28,17 @@ struct Town {
 
 /// The places of all objects at any time, which must stay free, and the rectangle around the parked
 /// objects and the camera's path.
-struct UsedPlaces {
+struct UsedArea {
   std::vector<Vec2f> places;
   Vec2f low, high;
 };
-UsedPlaces FindUsedPlaces(const sim::World& world);
+UsedArea FindUsedArea(const sim::World& world);
 
 /// Keeps buildings some metres away from the used places.
-Town MakeTown(const UsedPlaces& used, std::uint32_t seed);
+Town MakeTown(const UsedArea& used, std::uint32_t seed);
 
 /// One mesh of all buildings. The part of a triangle is the number of its building.
 Mesh MakeTownMesh(const Town& town);
-Surface TownSurface(const Town& town, const Spot& spot);
+Surface TownSurface(const Town& town, const SurfacePoint& point);
 
 }  // namespace sslcd::render

@@ -39,7 +39,7 @@ CarShape ShapeOf(const char* label, const Vec3& dims, std::uint32_t seed) {
 }
 
 bool IsGlassy(const Surface& surface) {
-  return surface.mirror > 0.08f && surface.albedo.maxCoeff() < 0.06f;
+  return surface.reflectivity > 0.08f && surface.albedo.maxCoeff() < 0.06f;
 }
 bool IsRed(const Surface& surface) {
   return surface.albedo.x() > 0.2f && surface.albedo.y() < 0.05f;

@@ -6,7 +6,7 @@
 namespace sslcd::render {
 namespace {
 
-Spot On(float x, float y) { return {{x, y, 0}, {0, 0, 1}, 0, 0.02f}; }
+SurfacePoint On(float x, float y) { return {{x, y, 0}, {0, 0, 1}, 0, 0.02f}; }
 
 /// One parking space at (3, 4) that faces +y, and a world that uses its middle only.
 sim::HalvWorld OneSpace() {
@@ -16,19 +16,19 @@ sim::HalvWorld OneSpace() {
   return scene;
 }
 
-TEST(NearList, FindsWhatWasPutThereAndNothingBeyond) {
-  NearList list({-10, -10}, {10, 10}, 2);
+TEST(GridIndex, FindsWhatWasPutThereAndNothingBeyond) {
+  GridIndex list({-10, -10}, {10, 10}, 2);
   list.Add({-1, -1}, {1, 1}, 7);
   EXPECT_EQ(list.At({0.5f, -0.5f}), std::vector<int>{7});
   EXPECT_TRUE(list.At({5, 5}).empty());
   EXPECT_TRUE(list.At({100, 0}).empty());
   EXPECT_TRUE(list.At({NAN, 0}).empty());
-  EXPECT_TRUE(NearList().At({0, 0}).empty());
+  EXPECT_TRUE(GridIndex().At({0, 0}).empty());
 }
 
 TEST(Ground, SpacesHaveLinesOnThreeSides) {
   const sim::HalvWorld scene = OneSpace();
-  const Ground ground(scene, FindUsedPlaces(scene.world), 1);
+  const Ground ground(scene, FindUsedArea(scene.world), 1);
   const auto brightness = [&](float x0, float y0, float x1,
                               float y1) {  // mean along a line: paint is worn in places
     float sum = 0;
@@ -47,7 +47,7 @@ TEST(Ground, SpacesHaveLinesOnThreeSides) {
 
 TEST(Ground, IsGreenWhereNothingStandsOrDrives) {
   const sim::HalvWorld scene = OneSpace();
-  const Ground ground(scene, FindUsedPlaces(scene.world), 1);
+  const Ground ground(scene, FindUsedArea(scene.world), 1);
   const auto green = [&](float x, float y) {
     const Vec3f albedo = ground.At(On(x, y)).albedo;
     return albedo.y() - albedo.z();

@@ -38,9 +38,9 @@ TEST(Shade, SunAddsSkyRemainsAndGlassMirrorsAtGrazingAngles) {
 
 TEST(Air, FarThingsTakeTheHorizonsColour) {
   const Daylight light = MakeDaylight({0, 60, 1, 0}, 1);
-  EXPECT_EQ(ThroughAir(light, Vec3f::Zero(), 0), Vec3f::Zero());
-  EXPECT_LT(ThroughAir(light, Vec3f::Zero(), 10).norm(),
-            ThroughAir(light, Vec3f::Zero(), 100).norm());
+  EXPECT_EQ(ApplyHaze(light, Vec3f::Zero(), 0), Vec3f::Zero());
+  EXPECT_LT(ApplyHaze(light, Vec3f::Zero(), 10).norm(),
+            ApplyHaze(light, Vec3f::Zero(), 100).norm());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "render/car_shape.h"
-#include "render/marks.h"
+#include "render/tree_and_pole.h"
 #include "sim/halv.h"
 
 namespace sslcd::render {

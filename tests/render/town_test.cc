@@ -17,7 +17,7 @@ TEST(Town, LeavesRoomForAllThatStandsOrDrives) {
       sim::HalvScene scene;
       scene.case_number = number;
       scene.layout = layout;
-      const UsedPlaces used = FindUsedPlaces(sim::MakeHalvWorld(number, scene).world);
+      const UsedArea used = FindUsedArea(sim::MakeHalvWorld(number, scene).world);
       const Town town = MakeTown(used, 1);
       EXPECT_GT(town.buildings.size(), 40u);
       EXPECT_FALSE(town.trees.empty());
@@ -30,7 +30,7 @@ TEST(Town, LeavesRoomForAllThatStandsOrDrives) {
 }
 
 TEST(Town, SameSeedSameTown) {
-  const UsedPlaces used{{Vec2f(0, 0)}, {-20, -20}, {20, 20}};
+  const UsedArea used{{Vec2f(0, 0)}, {-20, -20}, {20, 20}};
   const Town a = MakeTown(used, 1), b = MakeTown(used, 1), c = MakeTown(used, 2);
   ASSERT_EQ(a.buildings.size(), b.buildings.size());
   EXPECT_EQ(a.buildings.back().high, b.buildings.back().high);
@@ -38,7 +38,7 @@ TEST(Town, SameSeedSameTown) {
 }
 
 TEST(Town, HousesHaveWindowsAndWallsBricks) {
-  const UsedPlaces used{{Vec2f(0, 0)}, {-20, -20}, {20, 20}};
+  const UsedArea used{{Vec2f(0, 0)}, {-20, -20}, {20, 20}};
   const Town town = MakeTown(used, 1);
   for (std::size_t i = 0; i < town.buildings.size(); ++i) {
     const Building& building = town.buildings[i];
@@ -46,11 +46,11 @@ TEST(Town, HousesHaveWindowsAndWallsBricks) {
     int mirrors = 0, walls = 0;
     for (float x = building.low.x(); x < building.high.x(); x += 0.2f) {
       for (float z = 0.2f; z < building.high.z(); z += 0.2f) {
-        const Spot spot{{x, building.low.y(), z}, {0, -1, 0}, static_cast<int>(i), 0.01f};
-        const Surface surface = TownSurface(town, spot);
+        const SurfacePoint point{{x, building.low.y(), z}, {0, -1, 0}, static_cast<int>(i), 0.01f};
+        const Surface surface = TownSurface(town, point);
         EXPECT_GE(surface.albedo.minCoeff(), 0);
         EXPECT_LE(surface.albedo.maxCoeff(), 1);
-        ++(surface.mirror > 0.05f ? mirrors : walls);
+        ++(surface.reflectivity > 0.05f ? mirrors : walls);
       }
     }
     EXPECT_GT(mirrors, walls / 20);

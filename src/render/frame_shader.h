@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/contact_shade.h"
+#include "render/contact_shadow.h"
 #include "render/light.h"
 #include "render/ray_tracer.h"
-#include "render/stage_set.h"
+#include "render/scene_model.h"
 
 namespace sslcd::render {
 
@@ -20,36 +20,36 @@ struct Sample {
 };
 
 /// The scene at one frame, in one light.
-class Moment {
+class FrameShader {
  public:
   static constexpr float kFar = 2000;
 
   /// `pixel_angle`: angle of a pixel in the middle of the image [rad]. Keeps references to the
   /// other arguments.
-  Moment(const StageSet& set, const RayTracer& tracer, const Daylight& light, int frame,
-         float pixel_angle);
+  FrameShader(const SceneModel& model, const RayTracer& tracer, const Daylight& light, int frame,
+              float pixel_angle);
 
   /// Casts the rays, and a second ray from each hit to the sun.
-  std::vector<Sample> Look(const std::vector<Ray>& rays) const;
+  std::vector<Sample> TraceRays(const std::vector<Ray>& rays) const;
 
  private:
   /// A point of a surface, in the scene's frame.
   struct Point {
-    Vec3f at = Vec3f::Zero(), flat = Vec3f::UnitZ(),
+    Vec3f position = Vec3f::Zero(), face_normal = Vec3f::UnitZ(),
           normal = Vec3f::UnitZ();  ///< normals of the triangle, of the shape
   };
   Point PointOf(const Ray& ray, const Hit& hit) const;
   Sample SampleOf(const Ray& ray, const Hit& hit, const Point& point, bool lit) const;
   const Mesh& MeshOf(const Hit& hit) const {
-    return set_.meshes()[things_[hit.instance].instance.mesh];
+    return model_.meshes()[objects_[hit.instance].instance.mesh];
   }
 
-  const StageSet& set_;
+  const SceneModel& model_;
   const Daylight& light_;
-  std::vector<StageSet::Thing> things_;
+  std::vector<SceneModel::SceneObject> objects_;
   std::vector<Eigen::Matrix3f> axes_;  ///< rotations of the meshes in the scene
   std::vector<Vec3f> origins_;
-  ContactShade shade_;
+  ContactShadow contact_shadow_;
   Scene scene_;
   float pixel_angle_;
 };

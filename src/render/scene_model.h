@@ -11,12 +11,12 @@
 namespace sslcd::render {
 
 /// The scene without light: the meshes of all objects and of their surroundings, with their paint.
-class StageSet {
+class SceneModel {
  public:
-  StageSet(const sim::HalvWorld& scene, std::uint32_t seed);
+  SceneModel(const sim::HalvWorld& scene, std::uint32_t seed);
 
-  enum class Kind { kGround, kTown, kTree, kPole, kVehicle, kStop };
-  struct Thing {
+  enum class Kind { kGround, kTown, kTree, kPole, kVehicle, kWheelStop };
+  struct SceneObject {
     Instance instance;
     Kind kind = Kind::kGround;
     int identity = -1;  ///< WorldObject::id
@@ -24,11 +24,11 @@ class StageSet {
   };
 
   /// All meshes at a frame.
-  std::vector<Thing> ThingsAt(int frame) const;
-  Surface SurfaceOf(const Thing& thing, const Spot& spot) const;
+  std::vector<SceneObject> ObjectsAt(int frame) const;
+  Surface SurfaceOf(const SceneObject& object, const SurfacePoint& point) const;
 
   const sim::World& world() const { return world_; }
-  const UsedPlaces& used() const { return used_; }
+  const UsedArea& used() const { return used_; }
   const Pose& T_scene_world() const { return T_scene_world_; }
   const std::vector<Mesh>& meshes() const { return meshes_; }
 
@@ -39,13 +39,13 @@ class StageSet {
 
   sim::World world_;
   Pose T_scene_world_;
-  UsedPlaces used_;
+  UsedArea used_;
   Town town_;
   Ground ground_;
   std::vector<Mesh> meshes_;
-  std::vector<CarShape> shapes_;  ///< by identity; empty ones for poles and trees
-  std::vector<Thing> objects_;    ///< by identity; without pose
-  std::vector<Thing> surroundings_;
+  std::vector<CarShape> shapes_;      ///< by identity; empty ones for poles and trees
+  std::vector<SceneObject> objects_;  ///< by identity; without pose
+  std::vector<SceneObject> surroundings_;
 };
 
 }  // namespace sslcd::render

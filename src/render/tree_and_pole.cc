@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/marks.h"
+#include "render/tree_and_pole.h"
 
 #include <Eigen/Geometry>
 
@@ -53,17 +53,17 @@ Mesh MakePoleMesh(const Vec3f& dims) {
   return mesh;
 }
 
-Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
-  const float turn = std::atan2(spot.at.y(), spot.at.x());
-  const float rust = Fractal(2 * turn, spot.at.z(), seed, {2, 4}, spot.footprint);
-  if (spot.part == 1) return {Vec3f(0.7f, 0.7f, 0.65f), 0.1f, 60, 1};
+Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const SurfacePoint& point) {
+  const float turn = std::atan2(point.position.y(), point.position.x());
+  const float rust = Fractal(2 * turn, point.position.z(), seed, {2, 4}, point.footprint);
+  if (point.part == 1) return {Vec3f(0.7f, 0.7f, 0.65f), 0.1f, 60, 1};
   const bool notice =
-      std::abs(spot.at.z() - 1.5f) < 0.16f && std::cos(turn - 6.28f * Unit(seed)) > 0.6f;
+      std::abs(point.position.z() - 1.5f) < 0.16f && std::cos(turn - 6.28f * Unit(seed)) > 0.6f;
   if (notice) {
-    const bool text = ValueNoise(turn * 9, spot.at.z() * 60, seed) > 0.55f;
+    const bool text = ValueNoise(turn * 9, point.position.z() * 60, seed) > 0.55f;
     return {text ? Vec3f(0.08f, 0.1f, 0.3f) : Vec3f(0.6f, 0.6f, 0.5f), 0.02f, 20, 2};
   }
-  const int ring = Floor(4 * spot.at.z());
+  const int ring = Floor(4 * point.position.z());
   if (ring < 4 && Hash(seed) % 2) {  // a bumper guard, yellow and black
     const Vec3f colour = ring % 2 ? Vec3f(0.5f, 0.36f, 0.02f) : Vec3f(0.03f, 0.03f, 0.03f);
     return {Vec3f(colour * (1 + 0.25f * rust)), 0.03f, 30, 3 + ring};
@@ -71,27 +71,28 @@ Surface PoleSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
   return {Vec3f(Linear(paint) * (1 + 0.25f * rust)), 0.03f, 30, 0};
 }
 
-Surface StopSurface(std::uint32_t seed, const Spot& spot) {
-  const float worn =
-      Fractal(spot.at.y(), spot.at.x() + spot.at.z(), seed, {4, 6, 0.7f}, spot.footprint);
-  const bool yellow = Floor(spot.at.y() / 0.3f) % 2 != 0 && worn < 0.25f && seed % 3 == 0;
+Surface WheelStopSurface(std::uint32_t seed, const SurfacePoint& point) {
+  const float worn = Fractal(point.position.y(), point.position.x() + point.position.z(), seed,
+                             {4, 6, 0.7f}, point.footprint);
+  const bool yellow = Floor(point.position.y() / 0.3f) % 2 != 0 && worn < 0.25f && seed % 3 == 0;
   const Vec3f albedo = yellow ? Vec3f(0.5f, 0.36f, 0.04f) : Vec3f(0.3f, 0.29f, 0.27f);
   return {Vec3f(albedo * (1 + 0.35f * worn)), 0, 1, yellow, 0.6f};
 }
 
-Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const Spot& spot) {
-  if (spot.part == kTrunk) {
-    const float bark = Fractal(6 * std::atan2(spot.at.y(), spot.at.x()), 0.7f * spot.at.z(), seed,
-                               {2, 4}, spot.footprint);
+Surface TreeSurface(const Vec3f& paint, std::uint32_t seed, const SurfacePoint& point) {
+  if (point.part == kTrunk) {
+    const float bark = Fractal(6 * std::atan2(point.position.y(), point.position.x()),
+                               0.7f * point.position.z(), seed, {2, 4}, point.footprint);
     return {Vec3f(0.1f, 0.075f, 0.05f) * (1 + 0.5f * bark), 0, 1, 1, 0.7f};
   }
-  const float tint = ValueNoise(spot.at.x() * 6 + spot.at.y() * 5, spot.at.z() * 6, seed);
+  const float tint =
+      ValueNoise(point.position.x() * 6 + point.position.y() * 5, point.position.z() * 6, seed);
   const Vec3f season = Mix(Vec3f(1.15f, 1, 0.6f), Vec3f(0.8f, 1, 0.9f), Unit(Hash(seed, 3)));
   return {Vec3f((Linear(paint) * 1.25f).cwiseProduct(season) * (0.65f + 0.7f * tint)),
           0,
           10,
           2,
-          0.55f + 0.3f * Clamp01(spot.at.z() / 5),
+          0.55f + 0.3f * Clamp01(point.position.z() / 5),
           true};
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/contact_shade.h"
+#include "render/contact_shadow.h"
 
 namespace sslcd::render {
 
-ContactShade::ContactShade(const StageSet& set, const std::vector<StageSet::Thing>& things)
-    : near_(set.used().low - Vec2f::Constant(5), set.used().high + Vec2f::Constant(5), 4) {
+ContactShadow::ContactShadow(const SceneModel& model,
+                             const std::vector<SceneModel::SceneObject>& objects)
+    : near_(model.used().low - Vec2f::Constant(5), model.used().high + Vec2f::Constant(5), 4) {
   constexpr float kReach = 1.2f;
-  for (const StageSet::Thing& thing : things) {
-    if (thing.identity < 0 || thing.kind == StageSet::Kind::kPole) continue;
-    const Eigen::Matrix3f axes = thing.instance.T_world_mesh.so3().matrix().cast<float>();
-    const Vec3f at = thing.instance.T_world_mesh.translation().cast<float>();
-    const Vec3f dims = set.world().objects[thing.identity].dims.cast<float>();
+  for (const SceneModel::SceneObject& object : objects) {
+    if (object.identity < 0 || object.kind == SceneModel::Kind::kPole) continue;
+    const Eigen::Matrix3f axes = object.instance.T_world_mesh.so3().matrix().cast<float>();
+    const Vec3f at = object.instance.T_world_mesh.translation().cast<float>();
+    const Vec3f dims = model.world().objects[object.identity].dims.cast<float>();
     Footprint footprint{at.head<2>(), axes.col(0).head<2>(), 0.5f * dims.head<2>()};
-    if (thing.kind == StageSet::Kind::kTree) footprint.half *= 0.5f;
+    if (object.kind == SceneModel::Kind::kTree) footprint.half *= 0.5f;
     const Vec2f reach = Vec2f::Constant(footprint.half.norm() + kReach);
     near_.Add(footprint.centre - reach, footprint.centre + reach,
               static_cast<int>(footprints_.size()));
@@ -20,7 +21,7 @@ ContactShade::ContactShade(const StageSet& set, const std::vector<StageSet::Thin
   }
 }
 
-float ContactShade::OpenSky(const Vec3f& place) const {
+float ContactShadow::VisibleSky(const Vec3f& place) const {
   if (place.z() > 0.05f) return 1;
   float open = 1;
   for (int i : near_.At(place.head<2>())) {

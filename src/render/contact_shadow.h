@@ -3,16 +3,16 @@
 
 #include <vector>
 
-#include "render/stage_set.h"
+#include "render/scene_model.h"
 
 namespace sslcd::render {
 
 /// Estimates the share of the sky that the ground sees beside and below vehicles, from the distance
 /// to their footprints. Ray casting would be exact, but slow or noisy.
-class ContactShade {
+class ContactShadow {
  public:
-  ContactShade(const StageSet& set, const std::vector<StageSet::Thing>& things);
-  float OpenSky(const Vec3f& place) const;  ///< 0 to 1; 1 above the ground
+  ContactShadow(const SceneModel& model, const std::vector<SceneModel::SceneObject>& objects);
+  float VisibleSky(const Vec3f& place) const;  ///< 0 to 1; 1 above the ground
 
  private:
   struct Footprint {
@@ -20,7 +20,7 @@ class ContactShade {
     Vec2f half;  ///< length, width
   };
   std::vector<Footprint> footprints_;
-  NearList near_;
+  GridIndex near_;
 };
 
 }  // namespace sslcd::render

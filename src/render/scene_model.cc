@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/stage_set.h"
+#include "render/scene_model.h"
 
-#include "render/marks.h"
 #include "render/noise.h"
+#include "render/tree_and_pole.h"
 
 namespace sslcd::render {
 namespace {
@@ -17,10 +17,10 @@ Mesh GroundMesh() {
 
 }  // namespace
 
-StageSet::StageSet(const sim::HalvWorld& scene, std::uint32_t seed)
+SceneModel::SceneModel(const sim::HalvWorld& scene, std::uint32_t seed)
     : world_(scene.world),
       T_scene_world_(SceneFromWorld(world_)),
-      used_(FindUsedPlaces(world_)),
+      used_(FindUsedArea(world_)),
       town_(MakeTown(used_, Hash(seed, 1))),
       ground_(scene, used_, Hash(seed, 2)) {
   AddObjects(Hash(seed, 3));
@@ -28,29 +28,29 @@ StageSet::StageSet(const sim::HalvWorld& scene, std::uint32_t seed)
   AddWheelStops(scene.spaces, Hash(seed, 5));
 }
 
-void StageSet::AddObjects(std::uint32_t seed) {
+void SceneModel::AddObjects(std::uint32_t seed) {
   shapes_.resize(world_.objects.size());
   for (const sim::WorldObject& object : world_.objects) {
-    Thing thing{{static_cast<int>(meshes_.size()), Pose()},
-                Kind::kVehicle,
-                object.id,
-                Hash(seed, static_cast<std::uint32_t>(object.id))};
+    SceneObject scene_object{{static_cast<int>(meshes_.size()), Pose()},
+                             Kind::kVehicle,
+                             object.id,
+                             Hash(seed, static_cast<std::uint32_t>(object.id))};
     const Vec3f dims = object.dims.cast<float>();
     if (IsVehicle(object)) {
-      shapes_[object.id] = MakeCarShape(object, thing.seed);
+      shapes_[object.id] = MakeCarShape(object, scene_object.seed);
       meshes_.push_back(MakeCarMesh(shapes_[object.id]));
     } else if (object.label == "Tree") {
-      thing.kind = Kind::kTree;
-      meshes_.push_back(MakeTreeMesh(dims, thing.seed));
+      scene_object.kind = Kind::kTree;
+      meshes_.push_back(MakeTreeMesh(dims, scene_object.seed));
     } else {
-      thing.kind = Kind::kPole;
+      scene_object.kind = Kind::kPole;
       meshes_.push_back(MakePoleMesh(dims));
     }
-    objects_.push_back(thing);
+    objects_.push_back(scene_object);
   }
 }
 
-void StageSet::AddSurroundings(std::uint32_t seed) {
+void SceneModel::AddSurroundings(std::uint32_t seed) {
   const auto add = [&](const Mesh& mesh) {
     meshes_.push_back(mesh);
     return static_cast<int>(meshes_.size()) - 1;
@@ -75,7 +75,7 @@ void StageSet::AddSurroundings(std::uint32_t seed) {
   }
 }
 
-void StageSet::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed) {
+void SceneModel::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::uint32_t seed) {
   constexpr double kSideBySide = 2.4;  // spaces along a kerb are narrower and have no stall lines
   Mesh mesh;
   AddBox(mesh, {-0.08f, -0.85f, 0}, {0.08f, 0.85f, 0.1f}, 0);
@@ -89,33 +89,34 @@ void StageSet::AddWheelStops(const std::vector<sim::ParkingSpace>& spaces, std::
     const Pose T_scene_stop(lie::SO3<double>::Exp(Vec3(0, 0, 0.5 * M_PI - space.heading)), at);
     const std::uint32_t own = Hash(seed, static_cast<std::uint32_t>(surroundings_.size()));
     surroundings_.push_back(
-        {{static_cast<int>(meshes_.size()) - 1, T_scene_stop}, Kind::kStop, -1, own});
+        {{static_cast<int>(meshes_.size()) - 1, T_scene_stop}, Kind::kWheelStop, -1, own});
   }
 }
 
-std::vector<StageSet::Thing> StageSet::ThingsAt(int frame) const {
-  std::vector<Thing> things = surroundings_;
+std::vector<SceneModel::SceneObject> SceneModel::ObjectsAt(int frame) const {
+  std::vector<SceneObject> objects = surroundings_;
   for (const sim::WorldObject& object : world_.objects) {
     if (!object.IsThereAt(frame)) continue;
-    Thing thing = objects_[object.id];
+    SceneObject scene_object = objects_[object.id];
     const Pose T_object_mesh(lie::SO3<double>(), Vec3(0, 0, -0.5 * object.dims.z()));
-    thing.instance.T_world_mesh = T_scene_world_ * object.PoseAt(frame) * T_object_mesh;
-    things.push_back(thing);
+    scene_object.instance.T_world_mesh = T_scene_world_ * object.PoseAt(frame) * T_object_mesh;
+    objects.push_back(scene_object);
   }
-  return things;
+  return objects;
 }
 
-Surface StageSet::SurfaceOf(const Thing& thing, const Spot& spot) const {
+Surface SceneModel::SurfaceOf(const SceneObject& scene_object, const SurfacePoint& point) const {
   static const Vec3f kLeaves(0.24f, 0.34f, 0.14f);
-  const Vec3f paint =
-      thing.identity < 0 ? kLeaves : Vec3f(world_.objects[thing.identity].paint.cast<float>());
-  switch (thing.kind) {
-    case Kind::kGround: return ground_.At(spot);
-    case Kind::kTown: return TownSurface(town_, spot);
-    case Kind::kTree: return TreeSurface(paint, thing.seed, spot);
-    case Kind::kStop: return StopSurface(thing.seed, spot);
-    case Kind::kPole: return PoleSurface(paint, thing.seed, spot);
-    default: return CarSurface(shapes_[thing.identity], paint, spot);
+  const Vec3f paint = scene_object.identity < 0
+                          ? kLeaves
+                          : Vec3f(world_.objects[scene_object.identity].paint.cast<float>());
+  switch (scene_object.kind) {
+    case Kind::kGround: return ground_.At(point);
+    case Kind::kTown: return TownSurface(town_, point);
+    case Kind::kTree: return TreeSurface(paint, scene_object.seed, point);
+    case Kind::kWheelStop: return WheelStopSurface(scene_object.seed, point);
+    case Kind::kPole: return PoleSurface(paint, scene_object.seed, point);
+    default: return CarSurface(shapes_[scene_object.identity], paint, point);
   }
 }
 
