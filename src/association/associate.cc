@@ -11,7 +11,7 @@
 namespace sslcd {
 namespace {
 
-// Factor on the score of a belief relative to the previous one. Set by hand.
+// Factor on the score of a prediction relative to the previous one. Set by hand.
 constexpr double kLessPlausible = 0.5;
 
 SimilarityCues Compare(const AssociationQuery& query, const AssociationCandidate& candidate) {
@@ -35,9 +35,9 @@ double Geometry(const AssociationQuery& query, const AssociationCandidate& candi
                 const AssociationOptions& options) {
   if (std::abs(query.height - candidate.height) > options.gate_vertical_m) return 0;
   double best = 0, plausibility = 1;
-  for (const PlanarBelief& belief : candidate.beliefs) {
-    const Eigen::Vector2d difference = query.place.position - belief.position;
-    const Eigen::Matrix2d covariance = query.place.covariance + belief.covariance;
+  for (const PlanarGaussian& prediction : candidate.predictions) {
+    const Eigen::Vector2d difference = query.place.position - prediction.position;
+    const Eigen::Matrix2d covariance = query.place.covariance + prediction.covariance;
     const double squared = difference.dot(covariance.inverse() * difference);
     if (squared <= options.gate_sigmas * options.gate_sigmas && difference.norm() <= options.gate_m)
       best = std::max(best, plausibility * std::exp(-0.25 * squared));

@@ -13,7 +13,7 @@
 namespace sslcd {
 
 /// A Gaussian position in the horizontal plane of the world. [m, m^2]
-struct PlanarBelief {
+struct PlanarGaussian {
   Vec2 position{0, 0};
   Eigen::Matrix<double, 2, 2, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 2, 2, Eigen::DontAlign>::Zero();
@@ -22,7 +22,7 @@ struct PlanarBelief {
 /// A detection d_i in data association.
 struct AssociationQuery {
   const Detection* detection = nullptr;
-  PlanarBelief place;
+  PlanarGaussian place;
   double height = 0;         ///< height of the centre above the world's origin [m]
   double viewpoint_rad = 0;  ///< bearing of the camera in the object frame
 };
@@ -31,7 +31,7 @@ struct AssociationQuery {
 struct AssociationCandidate {
   std::string label;
   /// possible positions, most plausible first (parked, driving); at least one
-  std::vector<PlanarBelief> beliefs;
+  std::vector<PlanarGaussian> predictions;
   double height = 0;
   double viewpoint_rad = 0;
   std::optional<Box2d> projected_box;           ///< Eq. 1

@@ -39,7 +39,7 @@ void SpatialIndex::Remove(int id) {
   place_.erase(known);
 }
 
-std::vector<int> SpatialIndex::Near(double x, double y, double radius_m) const {
+std::vector<int> SpatialIndex::FindWithin(double x, double y, double radius_m) const {
   std::vector<int> found;
   for (std::int64_t column = Index(x - radius_m); column <= Index(x + radius_m); ++column) {
     for (std::int64_t row = Index(y - radius_m); row <= Index(y + radius_m); ++row) {

@@ -18,7 +18,7 @@ class SpatialIndex {
   void Remove(int id);
 
   /// Ids within `radius_m` of the point in ascending order, so that callers are deterministic.
-  std::vector<int> Near(double x, double y, double radius_m) const;
+  std::vector<int> FindWithin(double x, double y, double radius_m) const;
 
   std::size_t size() const { return place_.size(); }
 

@@ -22,9 +22,9 @@ class Recogniser {
 
   std::optional<PlaceAnswer> Ask(const PlaceQuery& query) {
     for (; next_old_ <= query.old_frame; next_old_ += options_.every)
-      if (Known(next_old_))
+      if (HasFrame(next_old_))
         old_.insert({next_old_, vocabulary_.Words(FeaturesOf(next_old_).descriptors)});
-    if (!Known(query.frame)) return std::nullopt;
+    if (!HasFrame(query.frame)) return std::nullopt;
     const ImageFeatures features = FeaturesOf(query.frame);
     std::optional<PlaceAnswer> best;
     for (const int frame : Candidates(vocabulary_.Words(features.descriptors))) {
@@ -89,7 +89,7 @@ class Recogniser {
            T_old_query.translation().norm() <= options_.max_apart_m;
   }
 
-  bool Known(int frame) const {
+  bool HasFrame(int frame) const {
     return frame >= 0 && frame < static_cast<int>(dataset_.frames.size());
   }
 

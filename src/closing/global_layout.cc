@@ -6,9 +6,9 @@
 namespace sslcd {
 
 const LayoutIndex& GlobalLayout::Update(const MapState& state, const PassMap& passes,
-                                        double old_until_m) {
+                                        double global_end_m) {
   LayoutChanges changes =
-      PassLayouts(passes, state).ChangesBefore(old_until_m, min_sightings_, mark_);
+      PassLayouts(passes, state).ChangesBefore(global_end_m, min_sightings_, mark_);
   if (!index_ || changes.all)
     index_.emplace(std::move(changes.objects), max_pair_m_, reach_m_);
   else

@@ -21,7 +21,7 @@ class GlobalLayout {
 
   /// Updates and returns the index, which is valid until the next call. O(changes); O(map) if
   /// everything has changed.
-  const LayoutIndex& Update(const MapState& state, const PassMap& passes, double old_until_m);
+  const LayoutIndex& Update(const MapState& state, const PassMap& passes, double global_end_m);
 
  private:
   double max_pair_m_, reach_m_;

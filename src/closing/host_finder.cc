@@ -44,12 +44,12 @@ class HostFinder : public LoopFinder {
   std::optional<FoundLoop> Find(const FinderInput& input) override {
     const SearchWindow& window = input.window;
     const FrameStore& frames = input.state.frames;
-    const double old_until = window.OldUntil(options_.layout.gap_m);
+    const double global_end_m = window.GlobalMapEnd(options_.layout.gap_m);
     const PassLayout local =
         PassLayouts(input.passes, input.state)
-            .Recent(window.here_m - window.local_m, options_.layout.min_sightings);
-    const LayoutIndex& global = global_.Update(input.state, input.passes, old_until);
-    const FrameRecord* old = LastUntil(frames, old_until);
+            .Recent(window.end_m - window.local_m, options_.layout.min_sightings);
+    const LayoutIndex& global = global_.Update(input.state, input.passes, global_end_m);
+    const FrameRecord* old = LastUntil(frames, global_end_m);
     if (old == nullptr) return std::nullopt;
     const auto answer =
         matcher_({local.objects, global.objects(), frames.back().frame, old->frame});
@@ -61,9 +61,10 @@ class HostFinder : public LoopFinder {
       found.loop = MeasureImages(input.state, *answer, old->frame);
     } else {
       CheckMatches(answer->matches, local.objects.size(), global.objects().size());
-      const CommonObjects common{local, OldLandmarks(answer->matches, global), kSigma, old_until};
+      const CommonObjects common{local, OldLandmarks(answer->matches, global), kSigma,
+                                 global_end_m};
       const LoopMeter meter(input.state, input.passes, options_);
-      auto loop = meter.Measure(common, window.here_m - window.lag_m, window.beyond_m);
+      auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
       if (!loop) return std::nullopt;
       found.loop = std::move(*loop);
       found.sigma_m = kSigma;
@@ -75,7 +76,7 @@ class HostFinder : public LoopFinder {
     return found;
   }
 
-  bool CanLookBack() const override { return false; }
+  bool SupportsSecondSearch() const override { return false; }
 
  private:
   // Two images give the relative pose of the newest camera and an old one.

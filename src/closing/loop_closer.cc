@@ -33,10 +33,10 @@ LoopCloser::LoopCloser(const LoopCloser& other)
       last_attempt_m_(other.last_attempt_m_) {}
 
 void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing) {
-  const double here_m = state.frames.back().travelled;
-  if (here_m - last_attempt_m_ < options_.layout.every_m) return;
-  last_attempt_m_ = here_m;
-  SearchAndCorrect(state, {here_m, options_.lag_m, options_.layout.local_m, 0.}, scale, timing);
+  const double end_m = state.frames.back().travelled;
+  if (end_m - last_attempt_m_ < options_.layout.every_m) return;
+  last_attempt_m_ = end_m;
+  SearchAndCorrect(state, {end_m, options_.lag_m, options_.layout.local_m, 0.}, scale, timing);
 }
 
 void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
@@ -46,7 +46,7 @@ void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
   for (double lag_m = options_.lag_m - o.every_m; lag_m > 0; lag_m -= o.every_m)
     if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
       SearchAndCorrect(state, {end_m, lag_m, o.local_m, options_.lag_m}, scale, timing);
-  if (ledger_.AnyAccepted() && finder_->CanLookBack() && o.hindsight_m > 0)
+  if (ledger_.AnyAccepted() && finder_->SupportsSecondSearch() && o.hindsight_m > 0)
     SearchAgain(state, scale, timing);
 }
 
@@ -56,9 +56,9 @@ void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing)
   const std::size_t first_search = ledger_.attempts().size();
   const LoopLayoutOptions& o = options_.layout;
   const double lag_m = options_.lag_m;
-  for (double here_m = lag_m; here_m < state.frames.back().travelled; here_m += o.every_m)
-    if (!ledger_.AcceptedNear(state.frames, here_m - lag_m, 0.5 * o.every_m))
-      SearchAndCorrect(state, {here_m, lag_m, o.hindsight_m, lag_m}, scale, timing);
+  for (double end_m = lag_m; end_m < state.frames.back().travelled; end_m += o.every_m)
+    if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
+      SearchAndCorrect(state, {end_m, lag_m, o.hindsight_m, lag_m}, scale, timing);
   ledger_.DropUnaccepted(first_search);
 }
 
@@ -70,10 +70,10 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moves = !AgreesWithNewLoops(state, ledger_);
-  if (moves) Correct(state, window.here_m, scale);
+  if (moves) Correct(state, window.end_m, scale);
   passes_.Rename(FuseMatchedObjects(state, ledger_, options_.fuse_m, whole_map_));
   if (!moves) return;
-  const int here = state.frames.AtPath(window.here_m);
+  const int here = state.frames.AtPath(window.end_m);
   const Pose before = state.frames[here].T_world_cam;
   AdjustAfterLoop(state, scale, options_, whole_map_);
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
@@ -88,8 +88,8 @@ bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   return true;
 }
 
-void LoopCloser::Correct(MapState& state, double here_m, double scale) {
-  const int here = state.frames.AtPath(here_m);
+void LoopCloser::Correct(MapState& state, double end_m, double scale) {
+  const int here = state.frames.AtPath(end_m);
   const Pose before = state.frames[here].T_world_cam;
   if (!CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise)) return;
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));

@@ -44,7 +44,7 @@ class LoopCloser {
   void SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                         TimingTable& timing);
   bool Search(const MapState& state, const SearchWindow& window);
-  void Correct(MapState& state, double here_m, double scale);
+  void Correct(MapState& state, double end_m, double scale);
   void SearchAgain(MapState& state, double scale, TimingTable& timing);
 
   LoopOptions options_;

@@ -14,14 +14,14 @@ namespace sslcd {
 
 /// The path segment of an attempt to close a loop.
 struct SearchWindow {
-  double here_m = 0;   ///< path length at the end of the local map [m]
+  double end_m = 0;    ///< path length at the end of the local map [m]
   double lag_m = 0;    ///< path from the query camera to the end of the local map
   double local_m = 0;  ///< length of the local map
   /// largest path from the query camera to the first or last matched object
   double beyond_m = 0;
 
   /// The passes of the global map must have ended before this path length.
-  double OldUntil(double gap_m) const { return here_m - local_m - gap_m; }
+  double GlobalMapEnd(double gap_m) const { return end_m - local_m - gap_m; }
 };
 
 /// The input of a finder. Refers to its parts.
@@ -58,7 +58,7 @@ class LoopFinder {
   virtual void Reset() {}
 
   /// Whether it supports a second search of earlier path segments after the last frame.
-  virtual bool CanLookBack() const { return true; }
+  virtual bool SupportsSecondSearch() const { return true; }
 };
 
 /// Tracks poses over consecutive attempts (loop/pose_tracks.h) and decides by DecideTrack.

@@ -30,12 +30,12 @@ void LoopLedger::AcceptNewest(const FrameStore& frames) {
     if (&earlier == &newest || found.track < 0 || found.track != newest.found.track) continue;
     if (!found.confirmed || earlier.in_graph) continue;
     earlier.row().reason = settled;
-    Enter(earlier, frames);
+    AddToGraph(earlier, frames);
   }
-  Enter(newest, frames);
+  AddToGraph(newest, frames);
 }
 
-void LoopLedger::Enter(LoopAttempt& attempt, const FrameStore& frames) {
+void LoopLedger::AddToGraph(LoopAttempt& attempt, const FrameStore& frames) {
   const LoopMeasurement& loop = attempt.found.loop;
   attempt.in_graph = true;
   attempt.row().decision = LoopDecision::kAccepted;

@@ -64,7 +64,7 @@ class LoopLedger {
   std::vector<LoopClosure> Rows() const;
 
  private:
-  void Enter(LoopAttempt& attempt, const FrameStore& frames);
+  void AddToGraph(LoopAttempt& attempt, const FrameStore& frames);
 
   std::vector<LoopAttempt> attempts_;
   PathGraph path_;

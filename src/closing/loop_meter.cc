@@ -65,7 +65,7 @@ std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
     DriftPair& pair = pairs.emplace_back();
     pair.T_world_local = ToPose(common.local.places[i], gravity_);
     const auto place = PassLayouts(passes_, state_)
-                           .PlaceBefore(old, common.old_until_m, options_.layout.min_sightings);
+                           .PlaceBefore(old, common.global_end_m, options_.layout.min_sightings);
     pair.T_world_global = ToPose(place.value(), gravity_);
     pair.symmetry = common.local.objects[i].symmetry;
     pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;
@@ -124,7 +124,7 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
   for (const auto& pair : common.pairs) {
     for (const int i : passes_.PassesOf(pair.second)) {
       const PassObject& pass = passes_.passes()[i];
-      if (pass.last_m >= common.old_until_m) continue;
+      if (pass.last_m >= common.global_end_m) continue;
       for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f)
         candidates.insert(f);
     }

@@ -27,7 +27,7 @@ struct CommonObjects {
   const PassLayout& local;
   std::vector<std::pair<int, LandmarkId>> pairs;  ///< local index and old landmark
   double sigma_m;                                 ///< standard deviation of their positions
-  double old_until_m;                             ///< path length at the end of the older passes
+  double global_end_m;                            ///< path length at the end of the older passes
 };
 
 /// Converts matches of indices to pairs of local index and old landmark.

@@ -21,11 +21,11 @@ std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& pa
   const SearchWindow& window = attempt.window;
   const PassLayout local =
       PassLayouts(passes, state)
-          .Between(window.here_m - window.local_m, window.here_m, o.min_sightings);
-  CommonObjects common{local, {}, attempt.found.sigma_m, window.OldUntil(o.gap_m)};
+          .Between(window.end_m - window.local_m, window.end_m, o.min_sightings);
+  CommonObjects common{local, {}, attempt.found.sigma_m, window.GlobalMapEnd(o.gap_m)};
   for (std::size_t i = 0; i < local.objects.size(); ++i) {
     const LandmarkId id{local.objects[i].id};
-    if (PassLayouts(passes, state).PlaceBefore(id, common.old_until_m, o.min_sightings))
+    if (PassLayouts(passes, state).PlaceBefore(id, common.global_end_m, o.min_sightings))
       common.pairs.push_back({static_cast<int>(i), id});
   }
   const LoopMeasurement& loop = attempt.found.loop;

@@ -25,11 +25,11 @@ class TrackFinder : public LoopFinder {
 
   std::optional<FoundLoop> Find(const FinderInput& input) override {
     const SearchWindow& window = input.window;
-    const double old_until = window.OldUntil(options_.layout.gap_m);
+    const double global_end_m = window.GlobalMapEnd(options_.layout.gap_m);
     const PassLayout local =
         PassLayouts(input.passes, input.state)
-            .Between(window.here_m - window.local_m, window.here_m, options_.layout.min_sightings);
-    const LayoutIndex& index = global_.Update(input.state, input.passes, old_until);
+            .Between(window.end_m - window.local_m, window.end_m, options_.layout.min_sightings);
+    const LayoutIndex& index = global_.Update(input.state, input.passes, global_end_m);
     const std::size_t few = static_cast<std::size_t>(options_.match.search.min_matches);
     if (std::min(local.objects.size(), index.objects().size()) < few) return std::nullopt;
     UpdateTracks(input, local, index);
@@ -37,9 +37,9 @@ class TrackFinder : public LoopFinder {
 
     const PoseTrack& best = tracks_.tracks()[0];
     const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma,
-                               old_until};
+                               global_end_m};
     const LoopMeter meter(input.state, input.passes, options_);
-    auto loop = meter.Measure(common, window.here_m - window.lag_m, window.beyond_m);
+    auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
     return Decide(std::move(*loop), best, index.pose_volume());
   }
@@ -58,10 +58,10 @@ class TrackFinder : public LoopFinder {
     no_drift.fit = likelihood.Refine(no_drift.pose, kRefineRounds);
     if (static_cast<int>(no_drift.fit.matches.size()) >= search.min_matches)
       found.insert(found.begin(), no_drift);
-    const double here_m = input.window.here_m;
+    const double end_m = input.window.end_m;
     tracks_.Update(
-        likelihood, found, search, here_m,
-        OdometryPrior(input.passes, input.path.From(here_m), local, index, options_.prior));
+        likelihood, found, search, end_m,
+        OdometryPrior(input.passes, input.path.From(end_m), local, index, options_.prior));
   }
 
   FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double searched) const {

@@ -74,7 +74,7 @@ void AddLoops(const SequenceRun& run, const std::vector<Pose>& reference,
   metrics.loop_error_median_rad = Summarise(errors_rad).median;
 }
 
-void JudgeMap(const SequenceRun& run, SequenceMetrics& metrics) {
+void EvaluateMap(const SequenceRun& run, SequenceMetrics& metrics) {
   const Identities found = FindIdentities(run.objects, [&](int row) {
     const int identity = IdentityOfRow(run.identities, row);
     return identity >= 0 ? std::optional<int>(identity) : std::nullopt;
@@ -103,7 +103,7 @@ SequenceMetrics ComputeSequenceMetrics(const SequenceRun& run,
   metrics.ate = ComputeAte(cut(run.estimate), reference).error.rmse;
   metrics.ate_odometry = ComputeAte(cut(run.odometry), reference).error.rmse;
   AddLoops(run, reference, options, metrics);
-  JudgeMap(run, metrics);
+  EvaluateMap(run, metrics);
   return metrics;
 }
 

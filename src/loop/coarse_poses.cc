@@ -226,7 +226,7 @@ class TopPoses {
       const float x = pose.cosine * p.x - pose.sine * p.y + pose.x,
                   y = pose.sine * p.x + pose.cosine * p.y + pose.y;
       float gain = 0;
-      for (const int j : index_.Near(x, y)) {
+      for (const int j : index_.FindWithinReach(x, y)) {
         const float dx = map[j].x - x, dy = map[j].y - y, dz = map[j].z - p.z - pose.z;
         const float d2 = dx * dx + dy * dy + dz * dz;
         if (d2 >= inlier2_) continue;

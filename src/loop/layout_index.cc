@@ -53,7 +53,7 @@ void LayoutIndex::Build() {
   for (int i = static_cast<int>(objects_.size()) - 1; i >= 0;
        --i) {  // cells list the last object first
     counts_.Count(objects_[i], 1);
-    Enter(i);
+    InsertIntoCells(i);
   }
   UpdateDensity();
   std::vector<ObjectPair> pairs = FindPairs(objects_, max_pair_, kMaxPairs + 1);
@@ -108,15 +108,15 @@ void LayoutIndex::Remove(int id, Change& change) {
   change.touched.push_back(place);
   if (!change.rebuild) {
     counts_.Count(objects_[place], -1);
-    Leave(place);
+    RemoveFromCells(place);
   }
   if (place != last) {
     change.touched.push_back(last);
-    if (!change.rebuild) Leave(last);
+    if (!change.rebuild) RemoveFromCells(last);
     index_of_[objects_[last].id] = place;
     objects_[place] = std::move(objects_[last]);
     change.touched.push_back(place);
-    if (!change.rebuild) Enter(place);
+    if (!change.rebuild) InsertIntoCells(place);
   }
   objects_.pop_back();
   points_.pop_back();
@@ -138,15 +138,15 @@ void LayoutIndex::Put(const LayoutObject& object, Change& change) {
   }
   if (!is_new) {
     counts_.Count(objects_[i], -1);
-    if (moves) Leave(i);
+    if (moves) RemoveFromCells(i);
   }
   objects_[i] = object;
   counts_.Count(object, 1);
-  if (moves) Enter(i);
+  if (moves) InsertIntoCells(i);
 }
 
 // Adds an object to the cells.
-void LayoutIndex::Enter(int i) {
+void LayoutIndex::InsertIntoCells(int i) {
   const Vec3& p = objects_[i].position;
   points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
                 objects_[i].label};
@@ -157,7 +157,7 @@ void LayoutIndex::Enter(int i) {
       near_.Add(column, row, i);
 }
 
-void LayoutIndex::Leave(int i) {
+void LayoutIndex::RemoveFromCells(int i) {
   const Vec3& p = objects_[i].position;
   blocks_.Remove(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)

@@ -26,8 +26,9 @@ struct LayoutPoint {
 /// have the triangles of neighbours in k-d trees instead.
 class LayoutIndex {
  public:
-  /// Ignores objects whose position is not finite. Keeps pairs up to `max_pair_m`; Near() finds
-  /// objects within `reach_m`. O(objects + pairs) for small maps, O(n log n) for large ones.
+  /// Ignores objects whose position is not finite. Keeps pairs up to `max_pair_m`;
+  /// FindWithinReach() finds objects within `reach_m`. O(objects + pairs) for small maps, O(n log
+  /// n) for large ones.
   LayoutIndex(std::vector<LayoutObject> objects, double max_pair_m, double reach_m);
 
   /// Adds or replaces the `changed` objects and removes those with the ids `removed`. Ids must be
@@ -44,7 +45,7 @@ class LayoutIndex {
   double reach() const { return reach_; }
 
   /// Indices of the objects within `reach_m` of a point, and of a few farther ones.
-  CellLists::Range Near(double x, double y) const {
+  CellLists::Range FindWithinReach(double x, double y) const {
     if (!std::isfinite(x) || !std::isfinite(y)) return near_.None();
     return near_.At(near_.Cell(x), near_.Cell(y));
   }
@@ -95,8 +96,8 @@ class LayoutIndex {
   struct Change;  // changes of an update
   void Remove(int id, Change& change);
   void Put(const LayoutObject& object, Change& change);
-  void Enter(int object);
-  void Leave(int object);
+  void InsertIntoCells(int object);
+  void RemoveFromCells(int object);
   void CountNeighbours(int object, int by);
   void UpdateDensity();
 

@@ -74,7 +74,7 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
   for (std::size_t i = 0; i < local_.size(); ++i) {
     const Vec3& p = local_[i].position;
     const double x = c * p.x() - s * p.y() + pose.t.x(), y = s * p.x() + c * p.y() + pose.t.y();
-    for (const int j : index_.Near(x, y)) {
+    for (const int j : index_.FindWithinReach(x, y)) {
       const LayoutObject& object = index_.objects()[j];
       const double dx = object.position.x() - x, dy = object.position.y() - y;
       const double dz = object.position.z() - p.z() - pose.t.z();

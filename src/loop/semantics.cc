@@ -28,13 +28,13 @@ std::optional<double> Decay(std::optional<double> difference) {
   return std::exp(-std::abs(*difference));
 }
 
-bool Known(const Vec3& dims) { return dims.allFinite() && (dims.array() > 0).any(); }
+bool IsKnown(const Vec3& dims) { return dims.allFinite() && (dims.array() > 0).any(); }
 
 }  // namespace
 
 PaperCues CompareAsPrinted(const LayoutObject& local, const LayoutObject& global) {
   PaperCues cues;
-  if (Known(local.dims) && Known(global.dims))
+  if (IsKnown(local.dims) && IsKnown(global.dims))
     cues.scale = Decay((local.dims - global.dims).norm());
   cues.position = Decay((local.position - global.position).norm());
   for (const CueRow& row : kCueRows)

@@ -92,7 +92,7 @@ class Votes {
   void Add(const CoarsePose& pose) {
     for (int grid = 0; grid < 2; ++grid) ++counts_[grid][Cell(pose, grid)];
   }
-  int Near(const CoarsePose& pose) const {
+  int CountNear(const CoarsePose& pose) const {
     return std::max(counts_[0][Cell(pose, 0)], counts_[1][Cell(pose, 1)]);
   }
 
@@ -136,7 +136,7 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
   Votes votes(poses.size());
   for (const CoarsePose& pose : poses) votes.Add(pose);
   std::vector<int> near;
-  for (const CoarsePose& pose : poses) near.push_back(votes.Near(pose));
+  for (const CoarsePose& pose : poses) near.push_back(votes.CountNear(pose));
   std::vector<int> sorted = near;
   std::nth_element(sorted.begin(), sorted.begin() + kMaxPoses, sorted.end(), std::greater<>());
   const int enough = sorted[kMaxPoses];

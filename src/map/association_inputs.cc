@@ -44,16 +44,17 @@ AssociationCandidate CandidateOf(const MapLandmark& landmark, const FrameView& v
   candidate.label = landmark.label;
   const auto parked = landmark.motion.PredictParked(view.stamp, motion);
   const auto driving = landmark.motion.PredictDriving(view.stamp, motion);
-  const PlanarBelief parked_belief{Horizontal(landmark.pose.position, gravity), parked.covariance};
-  const PlanarBelief driving_belief{driving.position, driving.covariance};
+  const PlanarGaussian parked_prediction{Horizontal(landmark.pose.position, gravity),
+                                         parked.covariance};
+  const PlanarGaussian driving_prediction{driving.position, driving.covariance};
   Vec3 position = landmark.pose.position;
   if (landmark.state == LandmarkState::kDynamic) {
-    candidate.beliefs = {driving_belief, parked_belief};
+    candidate.predictions = {driving_prediction, parked_prediction};
     const Vec2 moved = driving.position - Horizontal(position, gravity);
     position += moved.x() * gravity.forward + moved.y() * gravity.left;
   } else {
-    candidate.beliefs = {parked_belief};
-    if (CanMove(landmark)) candidate.beliefs.push_back(driving_belief);
+    candidate.predictions = {parked_prediction};
+    if (CanMove(landmark)) candidate.predictions.push_back(driving_prediction);
   }
   candidate.height = landmark.pose.position.dot(gravity.up);
   const Pose T_cam_object =

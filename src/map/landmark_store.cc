@@ -90,9 +90,9 @@ void LandmarkStore::Retire(double stamp, double stale_after_s) {
   open_ = std::move(still_open);
 }
 
-std::vector<LandmarkId> LandmarkStore::Near(const Vec2& place, double radius_m) const {
+std::vector<LandmarkId> LandmarkStore::FindWithin(const Vec2& place, double radius_m) const {
   std::vector<LandmarkId> ids;
-  for (const int id : index_.Near(place.x(), place.y(), radius_m)) ids.push_back({id});
+  for (const int id : index_.FindWithin(place.x(), place.y(), radius_m)) ids.push_back({id});
   return ids;
 }
 

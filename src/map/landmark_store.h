@@ -29,7 +29,7 @@ class LandmarkStore {
   /// Adds an existing landmark, e.g. of a loaded map. Returns its new id.
   LandmarkId Insert(MapLandmark landmark);
 
-  /// Sets the result of an optimisation. The belief of the motion test moves with the pose.
+  /// Sets the result of an optimisation. The motion test moves with the pose.
   void SetPose(LandmarkId id, const UprightPose& pose);
   void SetState(LandmarkId id, LandmarkState state);
 
@@ -51,7 +51,7 @@ class LandmarkStore {
   void Retire(double stamp, double stale_after_s);
 
   /// Ids of landmarks within a distance of a point of the horizontal plane, ascending.
-  std::vector<LandmarkId> Near(const Vec2& place, double radius_m) const;
+  std::vector<LandmarkId> FindWithin(const Vec2& place, double radius_m) const;
 
  private:
   GravityFrame gravity_;

@@ -62,7 +62,7 @@ MapUpdate ObjectMap::AddFrame(int frame, double stamp, const Pose& T_world_cam,
     if (id.value >= 0) {
       MapLandmark& landmark = landmarks_.at(id);
       Update(landmark, queries[i], view);
-      Judge(landmark, update);
+      UpdateState(landmark, update);
     } else if (detections[i].score >= options_.birth_score) {
       id = Create(queries[i], view);
       ++update.born;
@@ -110,7 +110,7 @@ std::vector<LandmarkId> ObjectMap::CandidateIds(
     const std::vector<AssociationQuery>& queries) const {
   std::vector<LandmarkId> ids;
   for (const AssociationQuery& query : queries) {
-    const auto near = landmarks_.Near(query.place.position, options_.search_radius_m);
+    const auto near = landmarks_.FindWithin(query.place.position, options_.search_radius_m);
     ids.insert(ids.end(), near.begin(), near.end());
   }
   std::sort(ids.begin(), ids.end());
@@ -165,7 +165,7 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query,
   landmarks_.Index(landmark, view.stamp);
 }
 
-void ObjectMap::Judge(MapLandmark& landmark, MapUpdate& update) {
+void ObjectMap::UpdateState(MapLandmark& landmark, MapUpdate& update) {
   const Motion motion =
       CanMove(landmark) ? landmark.motion.Verdict(options_.motion) : Motion::kParked;
   if (landmark.state == LandmarkState::kDynamic) {

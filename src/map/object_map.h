@@ -48,8 +48,8 @@ class ObjectMap {
     landmarks_.SetSightings(id, std::move(sightings));
   }
   void Fuse(LandmarkId keep, LandmarkId drop) { landmarks_.Fuse(keep, drop); }
-  std::vector<LandmarkId> Near(const Vec3& point_world, double radius_m) const {
-    return landmarks_.Near(Horizontal(point_world, gravity_), radius_m);
+  std::vector<LandmarkId> FindWithin(const Vec3& point_world, double radius_m) const {
+    return landmarks_.FindWithin(Horizontal(point_world, gravity_), radius_m);
   }
 
  private:
@@ -60,7 +60,7 @@ class ObjectMap {
                                    const std::vector<LandmarkId>& ids, const FrameView& view) const;
   LandmarkId Create(const AssociationQuery& query, const FrameView& view);
   void Update(MapLandmark& landmark, const AssociationQuery& query, const FrameView& view);
-  void Judge(MapLandmark& landmark, MapUpdate& update);
+  void UpdateState(MapLandmark& landmark, MapUpdate& update);
 
   GravityFrame gravity_;
   LabelTable labels_;

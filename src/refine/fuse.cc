@@ -163,7 +163,7 @@ MergedIds FuseDuplicates(MapState& state, const WholeMapOptions& options) {
   for (const LandmarkId keep : order) {
     if (map.landmarks().count(keep.value) == 0) continue;
     for (const LandmarkId other :
-         map.Near(map.at(keep).pose.position, options.refine.duplicate_m)) {
+         map.FindWithin(map.at(keep).pose.position, options.refine.duplicate_m)) {
       const MapLandmark &one = map.at(keep), &twin = map.at(other);
       if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != one.label)
         continue;

@@ -114,7 +114,7 @@ Box BoxOf(const Places& places) {
   return box;
 }
 
-bool Near(const Slot& slot, const std::vector<Path::Point>& points) {
+bool IsNear(const Slot& slot, const std::vector<Path::Point>& points) {
   constexpr double kNear = 14;  // [m] range within which a parked car is seen well. Set by hand.
   return std::any_of(points.begin(), points.end(), [&](const Path::Point& point) {
     return std::hypot(slot.x - point.x, slot.z - point.z) < kNear;
@@ -144,7 +144,7 @@ int CountUseful(const std::vector<Slot>& placed, const HalvCourse& course, const
   for (const Slot& slot : placed) {
     if (!IsClear(slot, course.points)) {
       --score;
-    } else if (Near(slot, legs.last_leg) && Near(slot, legs.way_out)) {
+    } else if (IsNear(slot, legs.last_leg) && IsNear(slot, legs.way_out)) {
       ++score;
     }
   }

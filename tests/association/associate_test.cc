@@ -6,11 +6,11 @@
 namespace sslcd {
 namespace {
 
-PlanarBelief At(double x, double y, double sigma) {
-  PlanarBelief belief;
-  belief.position = Vec2(x, y);
-  belief.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
-  return belief;
+PlanarGaussian At(double x, double y, double sigma) {
+  PlanarGaussian prediction;
+  prediction.position = Vec2(x, y);
+  prediction.covariance = sigma * sigma * Eigen::Matrix2d::Identity();
+  return prediction;
 }
 
 struct Scene {
@@ -31,7 +31,7 @@ struct Scene {
   void Know(double x, double y, const std::string& label = "Car", std::optional<Box2d> box = {}) {
     AssociationCandidate candidate;
     candidate.label = label;
-    candidate.beliefs = {At(x, y, 0.1)};
+    candidate.predictions = {At(x, y, 0.1)};
     candidate.projected_box = box;
     candidates.push_back(candidate);
   }

@@ -29,18 +29,18 @@ TEST(SpatialIndex, AgreesWithALinearSearch) {
     for (int id = 0; id < 500; ++id)
       if (id % 5 != 1 && std::hypot(points[id].first - x, points[id].second - y) <= radius)
         expected.push_back(id);
-    EXPECT_EQ(index.Near(x, y, radius), expected);
+    EXPECT_EQ(index.FindWithin(x, y, radius), expected);
   }
 }
 
 TEST(SpatialIndex, EmptyUnknownAndRepeated) {
   SpatialIndex index;
-  EXPECT_TRUE(index.Near(0, 0, 100).empty());
+  EXPECT_TRUE(index.FindWithin(0, 0, 100).empty());
   index.Remove(5);
   index.Put(5, -0.1, 0.1);
   index.Put(5, -0.1, 0.1);
   EXPECT_EQ(index.size(), 1u);
-  EXPECT_EQ(index.Near(0, 0, 1), std::vector<int>{5});
+  EXPECT_EQ(index.FindWithin(0, 0, 1), std::vector<int>{5});
   index.Remove(5);
   index.Remove(5);
   EXPECT_EQ(index.size(), 0u);

@@ -113,7 +113,7 @@ TEST_F(LoopCloserTest, FinishTiesTheLatestCameras) {
   Finish();
   EXPECT_EQ(Lags(first), (std::vector<double>{20, 15, 10, 5}));
   for (std::size_t i = first; i < attempts().size(); ++i) {
-    EXPECT_EQ(attempts()[i].window.here_m, world_.end_m());
+    EXPECT_EQ(attempts()[i].window.end_m, world_.end_m());
     EXPECT_EQ(attempts()[i].window.beyond_m, LoopOptions().lag_m);
   }
 }

@@ -209,7 +209,7 @@ TEST(HostFinder, MeasuresWhatTheHostMatchesAndLeavesTheDecisionToIt) {
     EXPECT_EQ(loop.row.decision, sure ? LoopDecision::kAccepted : LoopDecision::kAmbiguous);
     EXPECT_EQ(loop.row.score, 4);
     EXPECT_LT(Apart(loop.row.T_match_query, world.TrueLoop(loop.match, loop.query)), 0.05);
-    EXPECT_FALSE(finder->CanLookBack()) << "a host is asked in order of time";
+    EXPECT_FALSE(finder->SupportsSecondSearch()) << "a host is asked in order of time";
   }
 }
 

@@ -205,20 +205,21 @@ TEST(PassMap, ChangesAddUpToWhatItLists) {
       world.Rematch(late, trees[1]);
       world.passes.Rename({{late.value, trees[1]}});
     }
-    const double old_until = world.state.frames.back().travelled - 4;
+    const double global_end_m = world.state.frames.back().travelled - 4;
     const LayoutChanges changes =
-        PassLayouts(world.passes, world.state).ChangesBefore(old_until, 2, mark);
+        PassLayouts(world.passes, world.state).ChangesBefore(global_end_m, 2, mark);
     updates += !changes.all;
     Follow(changes, followed);
-    const PassLayout before = world.Before(old_until, 2);
+    const PassLayout before = world.Before(global_end_m, 2);
     ASSERT_EQ(followed.size(), before.objects.size()) << frame;
     for (std::size_t i = 0; i < before.objects.size(); ++i) {
       const LayoutObject& object = before.objects[i];
       ASSERT_EQ(followed.count(object.id), 1u);
       EXPECT_EQ(followed[object.id].position, object.position) << frame;
-      EXPECT_EQ(
-          PassLayouts(world.passes, world.state).PlaceBefore({object.id}, old_until, 2)->position,
-          before.places[i].position);
+      EXPECT_EQ(PassLayouts(world.passes, world.state)
+                    .PlaceBefore({object.id}, global_end_m, 2)
+                    ->position,
+                before.places[i].position);
       ++listed;
     }
   }

@@ -22,7 +22,7 @@ LoopLedger LedgerOf(const TwoPasses& world, const Pose& error = {}, double sigma
   // as it is: a metre and a radian per axis
   found.sigma_m = sigma_m;
   SearchWindow window;
-  window.here_m = world.state.frames[kQuery].travelled + 25;
+  window.end_m = world.state.frames[kQuery].travelled + 25;
   window.local_m = 75;
   LoopLedger ledger;
   ledger.Add(found, window, world.state.frames.back().frame);

@@ -20,13 +20,14 @@ TEST(LayoutIndex, FindsEverythingWithinReach) {
   for (double x = -35; x < 35; x += 1.7) {
     for (double y = -35; y < 35; y += 1.3) {
       std::set<int> found;
-      for (const int j : index.Near(x, y)) EXPECT_TRUE(found.insert(j).second) << "listed twice";
+      for (const int j : index.FindWithinReach(x, y))
+        EXPECT_TRUE(found.insert(j).second) << "listed twice";
       for (int j = 0; j < static_cast<int>(map.size()); ++j)
         EXPECT_TRUE(found.count(j) == 1 || (map[j].position.head<2>() - Vec2(x, y)).norm() > 2);
     }
   }
-  EXPECT_TRUE(index.Near(1e9, 0).empty());
-  EXPECT_TRUE(index.Near(NAN, 0).empty());
+  EXPECT_TRUE(index.FindWithinReach(1e9, 0).empty());
+  EXPECT_TRUE(index.FindWithinReach(NAN, 0).empty());
 }
 
 TEST(LayoutIndex, FindsAllPairsOfADistance) {
@@ -140,7 +141,7 @@ void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double
       std::vector<int> near[2], box[2];
       for (const int side : {0, 1}) {
         const LayoutIndex& index = side == 0 ? kept : fresh;
-        for (const int i : index.Near(x, y)) near[side].push_back(i);
+        for (const int i : index.FindWithinReach(x, y)) near[side].push_back(i);
         index.VisitBox({x, y}, {x + step, y + 2 * step}, [&](int i) { box[side].push_back(i); });
       }
       EXPECT_EQ(Ids(kept, near[0]), Ids(fresh, near[1]));
@@ -265,19 +266,19 @@ TEST(LayoutIndex, UpdatesOfAllAndOfNothing) {
   index.Update({}, all);
   EXPECT_TRUE(index.objects().empty());
   EXPECT_EQ(index.triangles(), nullptr) << "small again";
-  EXPECT_TRUE(index.Near(0, 0).empty());
+  EXPECT_TRUE(index.FindWithinReach(0, 0).empty());
 }
 
 TEST(LayoutIndex, TakesOddMaps) {
-  EXPECT_TRUE(LayoutIndex({}, 50, 2).Near(0, 0).empty());
+  EXPECT_TRUE(LayoutIndex({}, 50, 2).FindWithinReach(0, 0).empty());
   const std::vector<LayoutObject> odd = {ObjectAt({NAN, 0, 0}), ObjectAt({0, INFINITY, 0}),
                                          ObjectAt({1, 1, 1})};
   const LayoutIndex index(odd, 50, 2);
   EXPECT_EQ(index.objects().size(), 1u);
-  EXPECT_EQ(*index.Near(1, 1).begin(), 0);
+  EXPECT_EQ(*index.FindWithinReach(1, 1).begin(), 0);
   // no memory for what lies between
   const LayoutIndex far({ObjectAt({0, 0, 0}), ObjectAt({1e7, -1e7, 0})}, 50, 2);
-  EXPECT_FALSE(far.Near(1e7, -1e7).empty());
+  EXPECT_FALSE(far.FindWithinReach(1e7, -1e7).empty());
   const LayoutIndex heap(std::vector<LayoutObject>(20, ObjectAt({3, 3, 3})), 50, 2);
   EXPECT_GE(heap.pairs().Begin(0, 0, 0), heap.pairs().End(0, 0, 50))
       << "no direction between equal points";

@@ -37,20 +37,20 @@ TEST(AssociationInputs, TheLikelierPlaceComesFirst) {
   const MotionTestOptions motion;
   FrameView view;
   view.stamp = 2.9;  // a second after the last sighting
-  const auto beliefs_of = [&](const MapLandmark& landmark) {
-    return CandidateOf(landmark, view, GravityFrame(), motion).beliefs;
+  const auto predictions_of = [&](const MapLandmark& landmark) {
+    return CandidateOf(landmark, view, GravityFrame(), motion).predictions;
   };
-  const auto dynamic = beliefs_of(Driving(LandmarkState::kDynamic, motion));
+  const auto dynamic = predictions_of(Driving(LandmarkState::kDynamic, motion));
   ASSERT_EQ(dynamic.size(), 2u);
   EXPECT_NEAR(dynamic[0].position.x(), 29, 1);
   EXPECT_EQ(dynamic[1].position.x(), 19);
   MapLandmark landmark = Driving(LandmarkState::kTentative, motion);
-  const auto tentative = beliefs_of(landmark);
+  const auto tentative = predictions_of(landmark);
   ASSERT_EQ(tentative.size(), 2u);
   EXPECT_EQ(tentative[0].position.x(), 19);
   EXPECT_NEAR(tentative[1].position.x(), 29, 1);
   landmark.symmetry = Symmetry::kFull;
-  EXPECT_EQ(beliefs_of(landmark).size(), 1u) << "a tree does not drive";
+  EXPECT_EQ(predictions_of(landmark).size(), 1u) << "a tree does not drive";
 }
 
 TEST(AssociationInputs, OnlyACameraGivesABox) {

@@ -41,13 +41,13 @@ TEST_F(LandmarkStoreTest, IdsAscendAndAreNotGivenTwice) {
 
 TEST_F(LandmarkStoreTest, FoundWhereItWasSetTo) {
   const LandmarkId id = Add({3, 20}, LandmarkState::kConfirmed, {0, 1, 2});
-  EXPECT_EQ(store.Near({4, 20}, 2), Ids{id});
+  EXPECT_EQ(store.FindWithin({4, 20}, 2), Ids{id});
   const Vec2 parked = store.at(id).motion.PredictParked(0.2, motion).position;
   store.SetPose(id, {Vec3(50, -1, 20), 0.3});
-  EXPECT_TRUE(store.Near({4, 20}, 2).empty());
-  EXPECT_EQ(store.Near({51, 20}, 2), Ids{id});
+  EXPECT_TRUE(store.FindWithin({4, 20}, 2).empty());
+  EXPECT_EQ(store.FindWithin({51, 20}, 2), Ids{id});
   const Vec2 moved = store.at(id).motion.PredictParked(0.2, motion).position - parked;
-  EXPECT_NEAR((moved - Vec2(47, 0)).norm(), 0, 1e-9) << "the motion test's belief comes along";
+  EXPECT_NEAR((moved - Vec2(47, 0)).norm(), 0, 1e-9) << "the motion test moves along";
 }
 
 TEST_F(LandmarkStoreTest, OpenOnesAreLostWhenUnseenForLong) {
@@ -56,15 +56,15 @@ TEST_F(LandmarkStoreTest, OpenOnesAreLostWhenUnseenForLong) {
   const LandmarkId dynamic = Add({2, 0}, LandmarkState::kDynamic, {0});
   const LandmarkId recent = Add({3, 0}, LandmarkState::kTentative, {15});
   store.Retire(2., 2.);
-  EXPECT_EQ(store.Near({0, 0}, 9), (Ids{parked, tentative, dynamic, recent}));
+  EXPECT_EQ(store.FindWithin({0, 0}, 9), (Ids{parked, tentative, dynamic, recent}));
   store.Retire(3., 2.);
-  EXPECT_EQ(store.Near({0, 0}, 9), (Ids{parked, recent}));
+  EXPECT_EQ(store.FindWithin({0, 0}, 9), (Ids{parked, recent}));
   EXPECT_EQ(store.at(tentative).state, LandmarkState::kStale);
   EXPECT_EQ(store.at(dynamic).state, LandmarkState::kDynamic);
   EXPECT_EQ(store.at(recent).state, LandmarkState::kTentative);
   store.SetState(recent, LandmarkState::kConfirmed);
   store.Retire(99., 2.);
-  EXPECT_EQ(store.Near({0, 0}, 9), (Ids{parked, recent})) << "confirmed ones stay";
+  EXPECT_EQ(store.FindWithin({0, 0}, 9), (Ids{parked, recent})) << "confirmed ones stay";
 }
 
 TEST_F(LandmarkStoreTest, ADrivingOneIsFoundWhereItIsPredicted) {
@@ -73,10 +73,10 @@ TEST_F(LandmarkStoreTest, ADrivingOneIsFoundWhereItIsPredicted) {
   for (int i = 0; i < 20; ++i)
     landmark.motion.Add({i, 0.}, 0.01 * Eigen::Matrix2d::Identity(), 0.1 * i, motion);
   const LandmarkId id = store.Insert(landmark);
-  EXPECT_EQ(store.Near({0, 0}, 1), Ids{id});
+  EXPECT_EQ(store.FindWithin({0, 0}, 1), Ids{id});
   store.IndexOpen(2.9);  // at 10 m/s, one second after its last sighting at 19 m
-  EXPECT_TRUE(store.Near({0, 0}, 1).empty());
-  EXPECT_EQ(store.Near({29, 0}, 2), Ids{id});
+  EXPECT_TRUE(store.FindWithin({0, 0}, 1).empty());
+  EXPECT_EQ(store.FindWithin({29, 0}, 2), Ids{id});
 }
 
 TEST_F(LandmarkStoreTest, FuseKeepsEverySightingOnce) {
@@ -91,7 +91,7 @@ TEST_F(LandmarkStoreTest, FuseKeepsEverySightingOnce) {
   EXPECT_EQ(rows, (std::vector<int>{0, 1, 2, 4}))
       << "where both were seen the kept one's sighting stays";
   EXPECT_EQ(store.at(keep).last_seen, 0.1 * 3);
-  EXPECT_TRUE(store.Near({-30, 20}, 5).empty());
+  EXPECT_TRUE(store.FindWithin({-30, 20}, 5).empty());
 }
 
 }  // namespace

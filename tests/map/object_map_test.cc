@@ -91,7 +91,8 @@ TEST_F(ObjectMapTest, SeenOnceGrowsStale) {
   EXPECT_EQ(Count(map, LandmarkState::kTentative), 1);
   map.AddFrame(1, 10., Camera(1), {}, nullptr);
   EXPECT_EQ(Count(map, LandmarkState::kStale), 1);
-  EXPECT_TRUE(map.Near({3, 1, 20}, 5).empty()) << "given up: nothing is matched with it any more";
+  EXPECT_TRUE(map.FindWithin({3, 1, 20}, 5).empty())
+      << "given up: nothing is matched with it any more";
 }
 
 TEST_F(ObjectMapTest, WeakDetectionsMakeNoLandmarkButFeedOne) {
