@@ -58,6 +58,24 @@ TEST(PoseTracks, OneAttemptSaysWhatItsFitSays) {
     EXPECT_LE(attempts.tracks.tracks()[i].evidence, attempts.tracks.tracks()[i - 1].evidence);
 }
 
+// Both turn the local map by the same, one about its objects, the other about a distant origin.
+TEST(PoseTracks, PosesAreComparedWhereTheObjectsAre) {
+  Attempts attempts(Strewn(60, 80, 1));
+  const PoseSearchOptions& search = attempts.match.search;
+  const Vec3 centre(300, 100, 0);
+  std::vector<LayoutObject> local;
+  for (const double x : {-10., 0., 4., 6.}) local.push_back(ObjectAt(centre + Vec3(x, -x, 0)));
+  const LayoutLikelihood likelihood(local, attempts.index, attempts.match.likelihood);
+  const double turn = 0.9 * search.distinct_rad;
+  const YawShift about_origin{turn, {0, 0, 0}},
+      about_objects{turn, centre - Apply(about_origin, centre)};
+  for (const YawShift& turned : {about_origin, about_objects}) {
+    PoseTracks tracks({});
+    tracks.Update(likelihood, {{YawShift{}, {}}, {turned, {}}}, search, 100, NoPrior);
+    EXPECT_EQ(tracks.tracks().size(), turned.t.norm() > 0 ? 1u : 2u);
+  }
+}
+
 TEST(PoseTracks, ThePriorCounts) {
   Attempts without(Strewn(60, 80, 1)), with(Strewn(60, 80, 1));
   const auto local = without.SeenAt(10, 5);
