@@ -30,11 +30,13 @@ struct CommonGround {
 /// None: too few consistent patches.
 std::optional<CommonGround> FindCommonGround(const GroundView& a, const GroundView& b,
                                              const StereoCamera& camera, Pose motion) {
-  constexpr double kCell = 0.03;
+  constexpr double kCell = 0.03;  // [m] of the top views; set by hand
+  // largest error of the guess in each round; set by hand
+  constexpr int kSearchCells[] = {5, 3, 3};
   const GroundGrid grid = GridOf(kCell);
   const TopView from = SeeFromAbove(a.grey, camera.left, a.T_cam_ground, grid);
   CommonGround common;
-  for (const int search : {5, 3, 3}) {
+  for (const int search : kSearchCells) {
     const Pose T_b_ground = b.T_cam_ground * motion.inverse();
     const TopView to = SeeFromAbove(b.grey, camera.left, T_b_ground, grid);
     int tried = 0;
@@ -67,7 +69,7 @@ Vec3 PlaceOnGround(const StereoCamera& camera, const GroundPlane& plane, const c
 std::optional<cv::Point2f> FindInRight(const StereoPyramids& images, const StereoCamera& camera,
                                        const GroundPlane& plane, const cv::Point2f& left,
                                        const cv::Point2f& guess) {
-  constexpr int kHalf = 7;
+  constexpr int kHalf = 7;  // [px] half the width of a patch; set by hand
   const Vec3 point = PlaceOnGround(camera, plane, left);
   const Pose T_right_left = Pose::Trans(-camera.baseline_m, 0, 0);
   const auto homography = PlaneHomography(camera.left, T_right_left, point, plane.up);
@@ -109,11 +111,14 @@ PairView InBothImages(const StereoView& images, const StereoCamera& camera,
   return view;
 }
 
-constexpr double kLeastPx = 0.1;  // best accuracy of a patch
+// Standard deviation of a patch at best. Set by hand. [px]
+constexpr double kLeastPx = 0.1;
 
 /// Weights by the noise of the left pixel. The right column is searched from there, so it has the
 /// same error plus that of the disparity.
 Eigen::Matrix3d WeightBy(double column_px, double row_px) {
+  // Standard deviation. 0.1 on rendered images; on KITTI 0.1 is worse (docs/notes, "From images
+  // alone").
   constexpr double kDisparityPx = 0.15;
   Eigen::Matrix3d weight;
   weight << 1 / column_px, 0, 0,  //
@@ -126,6 +131,7 @@ Eigen::Matrix3d WeightBy(double column_px, double row_px) {
 /// view, which has the patch `here` metres ahead, the other one `there`.
 Eigen::Matrix3d WeightOfPatch(const StereoCamera& camera, double height_m, double here,
                               double there) {
+  // Standard deviation, after the true depths of rendered images (docs/notes, "From images alone").
   constexpr double kPatchPx = 0.5;
   const double off_m = kPatchPx * std::max(here, there) / camera.left.fx;
   return WeightBy(std::hypot(kLeastPx, off_m * camera.left.fx / here),
@@ -151,10 +157,12 @@ std::optional<RelativePose> AdjustPose(const PairView& in_a, const PairView& in_
          WeightOfPatch(camera, in_b.plane.height_m, in_b.places[i].z(), in_a.places[i].z())});
   }
   if (static_cast<int>(points.size()) < kMinPatches) return std::nullopt;
-  constexpr double kLoss = 2;  // standard deviations
+  constexpr double kLoss = 2;  // standard deviations; set by hand
   RefineWindow(camera, 1, {&a, &b}, kLoss, points);
   // Patches overlap, so errors of neighbours correlate. The noise is that of the weights, or that
   // of the residuals if it is larger.
+  // Factor on the covariance. 1.5 fits rendered images; real ones ask for more (docs/notes, "From
+  // images alone").
   constexpr double kAlike = 2.5;
   const double noise = std::max(
       {1., ResidualScale(camera, a, points).z(), ResidualScale(camera, b, points).maxCoeff()});
@@ -172,7 +180,9 @@ void DescribeFields(FieldVisitor& visitor, GroundAlignmentOptions& options) {
 }
 
 std::optional<double> AlignmentRange(const Camera& camera, int rows, double height_m) {
-  constexpr double kCommon = 7, kFarthest = 12;  // [m] common ground
+  // Length of the ground that both cameras should see, and largest distance of its near end. Set by
+  // hand. [m]
+  constexpr double kCommon = 7, kFarthest = 12;
   const double below = (rows - camera.cy) / camera.fy, nearest = height_m / below;
   if (!(below > 0) || nearest > kFarthest) return std::nullopt;
   return nearest + 0.5 * kCommon;

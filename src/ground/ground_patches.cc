@@ -53,10 +53,11 @@ GroundGrid GridOf(double cell) {
 
 std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const StereoCamera& camera,
                                const Pose& guess, double search_m) {
-  constexpr double kCell = 0.06, kTurn = 0.01;  // [m], [rad]
+  constexpr double kCell = 0.06, kTurn = 0.01;  // steps of the search [m], [rad]; set by hand
   // [rad] heading error after object loops (docs/architecture.md, "How images of two passes are
   // aligned")
   constexpr double kSearchTurn = 0.03;
+  // Half the width of a patch [cells], and smallest number of patches. Set by hand.
   constexpr int kHalf = 7, kFewest = 5;
   const GroundGrid grid = GridOf(kCell);
   const int search = static_cast<int>(std::ceil(search_m / kCell));
@@ -87,8 +88,8 @@ std::optional<Pose> FindMotion(const GroundView& a, const GroundView& b, const S
 
 std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, const GroundGrid& grid,
                                      int search, int& tried) {
-  constexpr int kHalf = 20;
-  constexpr double kMinScore = 0.5;
+  constexpr int kHalf = 20;          // [cells] half the width of a patch; set by hand
+  constexpr double kMinScore = 0.5;  // correlation of a match; set by hand
   std::vector<GroundPair> pairs;
   ForEachPatch(from, to, kHalf, search, [&](const cv::Rect& patch, const cv::Mat& scores) {
     ++tried;
@@ -109,7 +110,8 @@ std::vector<GroundPair> MatchPatches(const TopView& from, const TopView& to, con
 }
 
 Pose FitMotion(std::vector<GroundPair>& pairs) {
-  constexpr double kScale = 0.02, kAgree = 0.05;  // [m]
+  // Scale of the Cauchy weights, and largest residual of a consistent pair. Set by hand. [m]
+  constexpr double kScale = 0.02, kAgree = 0.05;
   constexpr int kRounds = 10;
   Pose motion;
   std::vector<double> weights(pairs.size(), 1);

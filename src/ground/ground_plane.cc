@@ -22,7 +22,7 @@ struct Sample {
   int u, v;
 };
 
-constexpr double kGate = 3;  // standard deviations
+constexpr double kGate = 3;  // standard deviations; set by hand
 // Standard deviation of the disparity of a ground pixel [px]: semi-global matching pulls
 // disparities to whole pixels, by a third of a pixel on slopes (docs/notes, "Cuboids from stereo
 // images").
@@ -46,9 +46,11 @@ std::vector<Sample> GroundSamples(const GreyPair& grey, const StereoCamera& came
   if (!(horizon < height - 1)) return {};
   const double bf = camera.baseline_m * left.fx;
   const double nearest = options.height_m * left.fy / (height - left.cy);
-  const double scale = std::min(1., 640 / width);  // coarse pixels suffice: there are many
+  constexpr double kWidthPx = 640;  // coarse pixels suffice: there are many; set by hand
+  constexpr double kMargin = 1.3;   // on the disparity of the nearest ground; set by hand
+  const double scale = std::min(1., kWidthPx / width);
   const DisparityPatch patch =
-      MatchInside(grey, {0, horizon, width, height}, 1.3 * bf / nearest, scale, scale);
+      MatchInside(grey, {0, horizon, width, height}, kMargin * bf / nearest, scale, scale);
   if (patch.values.empty()) return {};
   std::vector<Sample> samples;
   for (int y = 0; y < patch.values.rows; ++y) {
@@ -83,7 +85,7 @@ bool IsOn(const Vec3& q, const Sample& sample) {
 Vec3 BestOfTrials(const std::vector<Sample>& samples, const Vec3& prior,
                   const GroundOptions& options) {
   std::mt19937 random(kSeed);
-  constexpr std::size_t kEvery = 10;
+  constexpr std::size_t kEvery = 10;  // every tenth sample is counted; set by hand
   const auto support = [&](const Vec3& q) {
     int count = 0;
     for (std::size_t i = 0; i < samples.size(); i += kEvery) count += IsOn(q, samples[i]);
@@ -129,7 +131,8 @@ struct Equations {
 };
 
 Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOptions& options) {
-  for (int round = 0; round < 3; ++round) {
+  constexpr int kRounds = 3;  // set by hand
+  for (int round = 0; round < kRounds; ++round) {
     Equations equations(options);
     for (const Sample& sample : samples) {
       if (IsOn(q, sample))
@@ -143,10 +146,13 @@ Vec3 LeastSquares(const std::vector<Sample>& samples, Vec3 q, const GroundOption
 /// Subtracts the mean brightness, which may differ between the cameras. Uses only pixels of the
 /// same row, since all pixels of a ground row have one disparity.
 cv::Mat Detail(const cv::Mat& grey) {
+  // Gaussian against noise, and width of the neighbourhood of the mean. Set by hand. [px]
+  constexpr int kKernel = 5, kMeanWidth = 21;
+  constexpr double kSigma = 1;
   cv::Mat image, fine, coarse;
   grey.convertTo(image, CV_32F);
-  cv::GaussianBlur(image, fine, {5, 5}, 1);
-  cv::blur(image, coarse, {21, 1});
+  cv::GaussianBlur(image, fine, {kKernel, kKernel}, kSigma);
+  cv::blur(image, coarse, {kMeanWidth, 1});
   return fine - coarse;
 }
 
@@ -164,9 +170,10 @@ struct Difference {
 /// ground still counts if no near ground has texture.
 Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
            const GroundOptions& options) {
-  constexpr double kLeastNoise = 1;  // grey levels are whole numbers
-  constexpr int kRounds = 12;
-  const int top = samples.front().v;  // rows above are not used; samples are sorted by rows
+  constexpr double kLeastNoise = 1;    // grey levels are whole numbers
+  constexpr int kRounds = 12;          // at most; set by hand
+  constexpr double kConverged = 1e-5;  // relative change of the plane; set by hand
+  const int top = samples.front().v;   // rows above are not used; samples are sorted by rows
   const cv::Mat left = Detail(grey.left.rowRange(top, grey.left.rows));
   const cv::Mat right = Detail(grey.right.rowRange(top, grey.right.rows));
   std::vector<Sample> ground;
@@ -206,7 +213,7 @@ Vec3 Align(const GreyPair& grey, const std::vector<Sample>& samples, Vec3 q,
     const Vec3 next = equations.Solution();
     const double change = (next - q).norm() / q.norm();
     q = next;
-    if (change < 1e-5) break;
+    if (change < kConverged) break;
   }
   return q;
 }
@@ -224,7 +231,7 @@ void DescribeFields(FieldVisitor& visitor, GroundOptions& options) {
 
 GroundPlane EstimateGround(const GreyPair& grey, const StereoCamera& camera,
                            const std::vector<Box2d>& objects, const GroundOptions& options) {
-  constexpr std::size_t kFewest = 100;
+  constexpr std::size_t kFewest = 100;  // samples; set by hand
   const std::vector<Sample> samples = GroundSamples(grey, camera, objects, options);
   Vec3 q = Vec3(0, -1, 0) / options.height_m;
   GroundPlane plane;
@@ -254,10 +261,14 @@ std::optional<double> FindGroundHeight(const StereoView& images, const StereoCam
                                        const GroundOptions& options) {
   const GreyPair grey = GreyOf(images, camera);
   GroundPlane best;
-  for (const double factor : {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.}) {
+  // Heights to try, relative to the given one, and their standard deviation, so that neighbouring
+  // searches overlap. Set by hand.
+  constexpr double kFactors[] = {0.25, 0.4, 0.63, 1., 1.6, 2.5, 4.};
+  constexpr double kSigmaShare = 0.15;
+  for (const double factor : kFactors) {
     GroundOptions there = options;
     there.height_m = factor * options.height_m;
-    there.height_sigma_m = 0.15 * there.height_m;  // neighbouring searches overlap
+    there.height_sigma_m = kSigmaShare * there.height_m;
     const GroundPlane plane = EstimateGround(grey, camera, objects, there);
     if (plane.support > best.support) best = plane;
   }

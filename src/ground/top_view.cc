@@ -16,7 +16,7 @@ TopView SeeFromAbove(const cv::Mat& grey, const Camera& camera, const Pose& T_ca
                      const GroundGrid& grid) {
   // samples per cell in each direction, since near image pixels are smaller than a cell
   constexpr int kFiner = 2;
-  constexpr double kNearest = 0.5;  // [m]
+  constexpr double kNearest = 0.5;  // [m] in front of the camera; set by hand
   const int columns = kFiner * grid.columns, rows = kFiner * grid.rows;
   cv::Mat at(rows, columns, CV_32FC2), seen(rows, columns, CV_8U, cv::Scalar(0));
   const Eigen::Matrix3d R = T_cam_ground.so3().matrix();

@@ -67,13 +67,17 @@ Eigen::Matrix3Xf SamplePixels(const ImageView& image, const Box2d& box,
 /// Points spread over the cone of ConeColour: rings of about equal spacing on four levels.
 const std::vector<Vec3>& Palette() {
   static const std::vector<Vec3> palette = [] {
+    // All set by hand, in units of the cone's radius and height.
+    constexpr double kLevels[] = {0.2, 0.45, 0.7, 0.95};
+    constexpr int kRings = 3, kHuesPerRing = 5;
+    constexpr double kSaturationMargin = 0.3;  // dark colours have little saturation
     std::vector<Vec3> points;
-    for (double level : {0.2, 0.45, 0.7, 0.95}) {
+    for (double level : kLevels) {
       points.emplace_back(0, 0, level);
-      for (int ring = 1; ring <= 3; ++ring) {
-        const double radius = ring / 3.;
-        if (radius > level + 0.3) continue;  // dark colours have little saturation
-        const int hues = 1 + 5 * ring;
+      for (int ring = 1; ring <= kRings; ++ring) {
+        const double radius = ring / static_cast<double>(kRings);
+        if (radius > level + kSaturationMargin) continue;
+        const int hues = 1 + kHuesPerRing * ring;
         for (int i = 0; i < hues; ++i) {
           const double hue = 2 * M_PI * i / hues;
           points.emplace_back(radius * std::cos(hue), radius * std::sin(hue), level);
@@ -105,7 +109,7 @@ std::vector<float> SoftAssignment(const ColourSignature& signature, double softn
 }  // namespace
 
 Vec3 ConeColour(double red, double green, double blue) {
-  constexpr double kDark = 0.1;
+  constexpr double kDark = 0.1;  // below this value chroma fades out; set by hand
   static const double kLogRange = std::log(1 + 1 / kDark);
   const double value = std::max({red, green, blue});
   const double chroma = value - std::min({red, green, blue});

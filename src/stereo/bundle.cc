@@ -20,7 +20,7 @@ using Vec3Map = Eigen::Map<Vec3>;
 template <int columns>
 using RowMajorMap = Eigen::Map<Eigen::Matrix<double, 3, columns, Eigen::RowMajor>>;
 
-constexpr double kNearest = 0.1;  // [m] in front of the camera
+constexpr double kNearest = 0.1;  // [m] in front of the camera; set by hand
 
 /// Weighted residual of one sighting (column, row, right column), with derivatives.
 struct Reprojection {
@@ -98,7 +98,8 @@ ceres::Problem::Options ProblemOptions() {
 }
 
 void Solve(ceres::Solver::Options options, ceres::Problem& problem) {
-  options.function_tolerance = 1e-4;
+  constexpr double kTolerance = 1e-4;  // relative change of the cost; set by hand
+  options.function_tolerance = kTolerance;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -138,7 +139,8 @@ void RefinePose(const StereoCamera& camera, const OdometryPoints& points, double
   if (places.empty()) return;
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = 10;
+  constexpr int kMaxIterations = 10;  // set by hand
+  options.max_num_iterations = kMaxIterations;
   Solve(options, problem);
   frame.T_odom_left *= Pose::Exp(delta);
 }
@@ -182,7 +184,9 @@ double RefineWindow(const StereoCamera& camera, int fixed, const std::vector<Ste
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.linear_solver_ordering.reset(ordering);
-  options.max_num_iterations = calibrate ? 20 : 8;
+  // More with one more unknown. Set by hand.
+  constexpr int kMaxIterations = 8, kMaxCalibrationIterations = 20;
+  options.max_num_iterations = calibrate ? kMaxCalibrationIterations : kMaxIterations;
   Solve(options, problem);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i]->T_odom_left *= Pose::Exp(deltas[i]);
@@ -214,7 +218,8 @@ Pose::Matrix6 StepCovariance(const StereoCamera& camera, const StereoFrame& from
                              const StereoFrame& to, const OdometryPoints& points, double noise) {
   std::map<int, StereoSighting> seen_before;
   for (const StereoSighting& sighting : from.sightings) seen_before[sighting.point] = sighting;
-  Eigen::Matrix<double, 6, 6> information = 1e-6 * Eigen::Matrix<double, 6, 6>::Identity();
+  constexpr double kPrior = 1e-6;  // keeps the information regular without points; set by hand
+  Eigen::Matrix<double, 6, 6> information = kPrior * Eigen::Matrix<double, 6, 6>::Identity();
   for (const StereoSighting& sighting : to.sightings) {
     const auto before = seen_before.find(sighting.point);
     if (before == seen_before.end()) continue;

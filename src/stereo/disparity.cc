@@ -12,7 +12,13 @@
 namespace sslcd {
 namespace {
 
-constexpr int kBlock = 5;
+// Parameters of OpenCV's semi-global matching. The penalties of a change of the disparity by one
+// and by more are those of OpenCV's documentation; the others were set by hand.
+constexpr int kBlock = 5;  // [px]
+constexpr int kSmallPenalty = 8 * kBlock * kBlock, kLargePenalty = 32 * kBlock * kBlock;
+constexpr int kMaxLeftRightPx = 1, kPrefilterCap = 31, kUniquenessPercent = 5;
+constexpr int kLevelsStep = 16;        // the number of disparities must be a multiple of it
+constexpr double kUnitsPerPixel = 16;  // of the matcher's disparities
 
 cv::Mat Scaled(const cv::Mat& image, double scale_x, double scale_y) {
   // the matcher reads beyond the edges of a submatrix
@@ -41,11 +47,13 @@ float Between(const float* row, int columns, float x) {
 /// pixel here.
 void RefineDisparities(const cv::Mat& left, const cv::Mat& right, double step,
                        cv::Mat& disparities) {
-  constexpr int kSteps = 2;
+  // Two steps leave an error of 0.03 px (docs/notes, "Cuboids from stereo images"); the others were
+  // set by hand.
+  constexpr int kSteps = 2, kWindowPx = 9;
   // [px], [grey values per px, squared], both of the whole image
   constexpr double kBlur = 1.2, kFlattest = 2;
-  constexpr float kLongest = 0.6F;  // [px]
-  const cv::Size window(9, 9);
+  constexpr float kLongest = 0.6F;  // [px] largest step
+  const cv::Size window(kWindowPx, kWindowPx);
   const auto blurred = [&](const cv::Mat& image) {
     cv::Mat out;
     image.convertTo(out, CV_32F);
@@ -107,7 +115,7 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   const int top = clamp(std::floor(box.top), height), bottom = clamp(std::ceil(box.bottom), height);
   // The search includes the right image left of the box; the matcher leaves out that margin.
   const double most = (max_disparity + images.disparity_at_infinity) * scale_x;
-  const int levels = 16 * std::max(1, static_cast<int>(std::ceil(most / 16)));
+  const int levels = kLevelsStep * std::max(1, static_cast<int>(std::ceil(most / kLevelsStep)));
   const int margin = std::min(left, static_cast<int>(std::ceil(levels / scale_x)));
   if (right - left < 2 || bottom - top < 2) return {};
   const cv::Rect part(left - margin, top, right - left + margin, bottom - top);
@@ -116,8 +124,8 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   if (left_part.cols <= levels + kBlock || left_part.rows < kBlock) return {};
 
   const auto matcher =
-      cv::StereoSGBM::create(0, levels, kBlock, 8 * kBlock * kBlock, 32 * kBlock * kBlock, 1, 31, 5,
-                             0, 0, cv::StereoSGBM::MODE_SGBM);
+      cv::StereoSGBM::create(0, levels, kBlock, kSmallPenalty, kLargePenalty, kMaxLeftRightPx,
+                             kPrefilterCap, kUniquenessPercent, 0, 0, cv::StereoSGBM::MODE_SGBM);
   cv::Mat sixteenths;
   matcher->compute(left_part, right_part, sixteenths);
   DisparityPatch patch;
@@ -128,7 +136,7 @@ DisparityPatch MatchInside(const GreyPair& images, const Box2d& box, double max_
   patch.x0 = part.x + (skip + 0.5) * patch.step_x - 0.5;
   patch.y0 = part.y + 0.5 * patch.step_y - 0.5;
   cv::Mat disparities;
-  sixteenths.convertTo(disparities, CV_32F, 1. / 16);
+  sixteenths.convertTo(disparities, CV_32F, 1. / kUnitsPerPixel);
   RefineDisparities(left_part, right_part, patch.step_x, disparities);
   patch.values =
       disparities.colRange(skip, disparities.cols) * patch.step_x - images.disparity_at_infinity;

@@ -10,8 +10,13 @@
 namespace sslcd {
 namespace {
 
+// All set by hand.
 constexpr int kMaxLevel = 4;                    // sizes from 1 to 1/16
-constexpr double kReturnsWithin = 1;            // [px]
+constexpr double kReturnsWithin = 1;            // [px] from the start, there and back
+constexpr float kBesidePx = 1.5F;               // start of the way back, from the solution
+constexpr int kTrackSteps = 30;                 // of Lucas-Kanade on a level
+constexpr double kTrackDonePx = 0.01;           // step at which it has converged
+constexpr int kSurroundings = 3;                // width for mean and deviation, in patches
 constexpr double kMidGrey = 128, kSpread = 40;  // mean and deviation of a normalised image
 constexpr double kNoise = 4;  // smaller deviations are noise and are not amplified
 
@@ -31,7 +36,7 @@ StereoPyramids BuildPyramids(const StereoView& images, int patch_px) {
 }
 
 ImagePyramid NormaliseContrast(const ImagePyramid& image, int patch_px) {
-  const cv::Size surroundings(3 * patch_px, 3 * patch_px);
+  const cv::Size surroundings(kSurroundings * patch_px, kSurroundings * patch_px);
   cv::Mat grey, mean, square, deviation, evened;
   image[0].convertTo(grey, CV_32F);
   cv::boxFilter(grey, mean, CV_32F, surroundings);
@@ -47,7 +52,8 @@ TrackedPoints TrackPoints(const ImagePyramid& from, const ImagePyramid& to,
   TrackedPoints result{guess, std::vector<bool>(points.size())};
   if (points.empty()) return result;
   std::vector<unsigned char> status;
-  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 30, 0.01);
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kTrackSteps,
+                               kTrackDonePx);
   cv::calcOpticalFlowPyrLK(from, to, points, result.at, status, cv::noArray(), {patch_px, patch_px},
                            levels, until, cv::OPTFLOW_USE_INITIAL_FLOW, kMinEigenvalue);
   const cv::Rect2f inside(0, 0, static_cast<float>(to[0].cols), static_cast<float>(to[0].rows));
@@ -62,7 +68,7 @@ TrackedPoints TrackForthAndBack(const ImagePyramid& from, const ImagePyramid& to
   TrackedPoints there = TrackPoints(from, to, points, guess, levels, patch_px);
   std::vector<cv::Point2f> begin = points;
   // Starts the way back beside the solution, or a patch that has not moved would always return.
-  for (cv::Point2f& p : begin) p += cv::Point2f(1.5F, 1.5F);
+  for (cv::Point2f& p : begin) p += cv::Point2f(kBesidePx, kBesidePx);
   const TrackedPoints back = TrackPoints(to, from, there.at, begin, 0, patch_px);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const cv::Point2f off = back.at[i] - points[i];

@@ -32,7 +32,7 @@ struct PatchPixel {
 /// Whether `count` pixels determine the shift in both directions with unknown brightness. `H`: sum
 /// of by by^T.
 bool HasTexture(const Eigen::Matrix3d& H, int count) {
-  // [grey values^2 per pixel] lower bound of the smaller eigenvalue; less is noise
+  // [grey values^2 per pixel] lower bound of the smaller eigenvalue; less is noise. Set by hand.
   constexpr double kLeast = 0.1;
   const Eigen::Matrix2d shift =
       H.topLeftCorner<2, 2>() - H.topRightCorner<2, 1>() * H.bottomLeftCorner<1, 2>() / count;
@@ -44,8 +44,8 @@ bool HasTexture(const Eigen::Matrix3d& H, int count) {
 
 std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose& T_to_from,
                                                const Vec3& point, const Vec3& normal) {
-  constexpr double kNearest = 0.1;  // [m]
-  constexpr double kEdgeOn = 0.02;  // [rad]
+  constexpr double kNearest = 0.1;  // [m] in front of both cameras; set by hand
+  constexpr double kEdgeOn = 0.02;  // [rad] between ray and plane; set by hand
   const double away = normal.dot(point);
   if (!(point.z() > kNearest && (T_to_from * point).z() > kNearest)) return std::nullopt;
   if (!(std::abs(away) > kEdgeOn * normal.norm() * point.norm())) return std::nullopt;
@@ -58,8 +58,10 @@ std::optional<Eigen::Matrix3d> PlaneHomography(const Camera& camera, const Pose&
 
 std::optional<AlignedPatch> AlignPatch(const Patch& patch, const Eigen::Matrix3d& homography,
                                        const cv::Mat& to, const cv::Point2f& guess) {
-  constexpr int kMaxSteps = 30, kMaxStretch = 8;
-  constexpr double kDone = 0.003, kReach = 1.5;  // [px]
+  // All set by hand.
+  constexpr int kMaxSteps = 30;
+  constexpr int kMaxStretch = 8;                 // of the patch's half width
+  constexpr double kDone = 0.003, kReach = 1.5;  // [px] last step; distance from the guess
   constexpr double kMinArea = 0.1;               // of a pixel in the other image
   const int half = patch.half, count = (2 * half + 1) * (2 * half + 1);
   if (!IsInside(patch.grey, patch.at.x, patch.at.y, half + 1)) return std::nullopt;

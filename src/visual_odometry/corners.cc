@@ -17,7 +17,9 @@ constexpr double kMinCorner = 0.01;
 void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners, int patch_px) {
   const int half = patch_px / 2, least = 2 * half + 5;  // smallest side that OpenCV accepts
   if (corners.empty() || grey.cols < least || grey.rows < least) return;
-  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.01);
+  constexpr int kMaxSteps = 20;     // set by hand
+  constexpr double kDonePx = 0.01;  // set by hand
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kMaxSteps, kDonePx);
   cv::cornerSubPix(grey, corners, {half, half}, {-1, -1}, until);
 }
 
@@ -26,11 +28,13 @@ void CentrePatches(const cv::Mat& grey, std::vector<cv::Point2f>& corners, int p
 std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
                                        const std::vector<cv::Point2f>& taken, int cells,
                                        int patch_px) {
+  constexpr int kBlockPx = 5, kMinCellPx = 8;  // set by hand
   cv::Mat strength;
-  cv::cornerMinEigenVal(images.left[0], strength, 5);
+  cv::cornerMinEigenVal(images.left[0], strength, kBlockPx);
   double strongest = 0;
   cv::minMaxLoc(strength, nullptr, &strongest);
-  const int cell = std::max(8, static_cast<int>(std::sqrt(images.size.area() / double(cells))));
+  const int cell =
+      std::max(kMinCellPx, static_cast<int>(std::sqrt(images.size.area() / double(cells))));
   const int columns = (images.size.width + cell - 1) / cell,
             rows = (images.size.height + cell - 1) / cell;
   std::vector<bool> occupied(static_cast<std::size_t>(columns) * rows);
@@ -51,7 +55,7 @@ std::vector<cv::Point2f> SpreadCorners(const StereoPyramids& images,
   }
   CentrePatches(images.left[0], corners, patch_px);
   // A centre may move into the next cell, onto an existing point.
-  constexpr float kApart = 2;  // [px]
+  constexpr float kApart = 2;  // [px] set by hand
   std::vector<cv::Point2f> all = taken;
   for (const cv::Point2f& p : corners) {
     const bool known = std::any_of(all.begin(), all.end(), [p](const cv::Point2f& q) {

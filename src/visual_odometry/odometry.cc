@@ -19,10 +19,10 @@ namespace sslcd {
 namespace {
 
 // Rotations to try if the prediction fails: up to 15 degrees, in steps within the range of the
-// coarsest patches.
+// coarsest patches. Set by hand.
 constexpr int kTurns = 3;
 constexpr double kTurnRad = 0.09;
-constexpr int kFixedKeyframes = 2;
+constexpr int kFixedKeyframes = 2;  // oldest ones of the window; set by hand
 // A new keyframe is due if its points have moved by this distance (median, [px]), or if fewer than
 // this share of them is still tracked. Not tuned.
 constexpr double kKeyframePx = 8, kKeyframeShare = 0.8;
@@ -42,8 +42,9 @@ const char* const kMissing = "its images are missing";
 /// Covariance of repeating a step `steps` times at constant velocity: half of the step plus a
 /// constant, for each.
 Pose::Matrix6 GuessCovariance(const Pose& step, int steps) {
-  const double translation = steps * (0.1 + 0.5 * step.translation().norm());
-  const double rotation = steps * (0.02 + 0.5 * step.so3().Log().norm());
+  constexpr double kShare = 0.5, kLeastM = 0.1, kLeastRad = 0.02;  // set by hand
+  const double translation = steps * (kLeastM + kShare * step.translation().norm());
+  const double rotation = steps * (kLeastRad + kShare * step.so3().Log().norm());
   Vec6 variances;
   variances << Vec3::Constant(translation * translation), Vec3::Constant(rotation * rotation);
   return variances.asDiagonal();
@@ -139,7 +140,7 @@ class StereoOdometry::Impl {
 
   OdometryStep Accept(StereoFrame& frame, const StereoPyramids& current) {
     const StereoFrame& before = last_.sightings.empty() ? keyframes_.back() : last_;
-    constexpr double kLeastNoise = 0.1;  // [px] lower bound of the noise
+    constexpr double kLeastNoise = 0.1;  // [px] lower bound of the noise; set by hand
     const double noise =
         std::max(kLeastNoise, ResidualScale(camera_, frame, points_).norm() / std::sqrt(3.));
     Pose::Matrix6 covariance = StepCovariance(camera_, before, frame, points_, noise);

@@ -11,11 +11,14 @@
 namespace sslcd {
 namespace {
 
-constexpr int kCoarsePoints = 120;  // enough for a coarse pose
+constexpr int kCoarsePoints = 120;  // enough for a coarse pose; set by hand
 // RANSAC draws of four points. With an inlier share of 0.4 one draw is good with 99.4 %
 // probability.
 constexpr int kRansacTrials = 200;
-constexpr double kMinInliers = 0.3;  // smallest share of inliers among the tracked points
+constexpr double kRansacConfidence = 0.999;  // stops the draws early; set by hand
+// Smallest share of inliers among the tracked points. Set by hand.
+constexpr double kMinInliers = 0.3;
+constexpr double kMinDepth = 0.1;  // [m] in front of the camera; set by hand
 
 const char* const kNoAgreement = "the points found again do not agree on a pose";
 
@@ -37,7 +40,7 @@ PredictedPixels PredictPixels(const TrackedKeyframe& f, const cv::Size& size,
   for (std::size_t i = 0; i < reference.sightings.size(); i += each) {
     const StereoSighting& sighting = reference.sightings[i];
     const Vec3 point = T_left_odom * f.points.at(sighting.point);
-    if (!(point.z() > 0.1)) continue;
+    if (!(point.z() > kMinDepth)) continue;
     const StereoPixel pixel = ProjectStereo(f.camera, point);
     if (!(pixel.left > 0 && pixel.row > 0 && pixel.left < size.width && pixel.row < size.height))
       continue;
@@ -77,7 +80,7 @@ std::optional<Pose> FindPose(const TrackedKeyframe& f, const ImagePyramid& from,
   // Uses its own generator with a fixed seed; OpenCV's global one belongs to the host.
   const bool found = cv::solvePnPRansac(places, pixels, K, cv::noArray(), rotation, translation,
                                         false, kRansacTrials, static_cast<float>(kFitsWithinPx),
-                                        0.999, inliers, cv::SOLVEPNP_AP3P);
+                                        kRansacConfidence, inliers, cv::SOLVEPNP_AP3P);
   const double needed = std::max<double>(kMinTracked, kMinInliers * places.size());
   if (!found || inliers.size() < needed) return std::nullopt;
   const Pose T_left_reference(lie::SO3<double>::Exp(Vec3(rotation[0], rotation[1], rotation[2])),

@@ -16,7 +16,7 @@ constexpr double kSure = 0.03;
 
 std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
                                  const PairLoader& load, const StereoOdometryOptions& options) {
-  constexpr std::size_t kPairs = 8;
+  constexpr std::size_t kPairs = 8;  // set by hand
   std::vector<std::pair<Image, Image>> images;
   for (std::size_t i = 0; i < frames; i += (frames + kPairs - 1) / kPairs)
     if (auto pair = load(i)) images.push_back(std::move(*pair));
@@ -28,7 +28,7 @@ std::optional<double> RowErrorOf(const StereoCamera& camera, std::size_t frames,
 /// Disparities at infinity of bursts of frames that fill a window, evenly spread over the sequence.
 std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, const PairLoader& load,
                              const StereoOdometryOptions& options) {
-  // largest number of bursts; largest number of frames of a burst, in windows
+  // largest number of bursts; largest number of frames of a burst, in windows. Set by hand.
   constexpr std::size_t kBursts = 8, kWindows = 6;
   const std::size_t most = kWindows * static_cast<std::size_t>(options.window);
   std::vector<double> found;
@@ -52,11 +52,15 @@ std::vector<double> InBursts(const StereoCamera& camera, std::size_t frames, con
 
 /// Standard error of their median, assuming normal scatter with a few outliers.
 double ErrorOfMedian(const std::vector<double>& values, double median) {
-  constexpr double kUnknown = 0.1;  // [px] for a single burst
+  constexpr double kUnknown = 0.1;  // [px] for a single burst; set by hand
+  // Of a normal distribution: standard error of the median over that of the mean, sqrt(pi / 2), and
+  // standard deviation over median absolute deviation.
+  constexpr double kMedianError = 1.2533, kSigmasPerMedian = 1.4826;
   if (values.size() < 2) return kUnknown;
   std::vector<double> off;
   for (double value : values) off.push_back(std::abs(value - median));
-  return 1.2533 * 1.4826 * Median(off) / std::sqrt(static_cast<double>(values.size()));
+  return kMedianError * kSigmasPerMedian * Median(off) /
+         std::sqrt(static_cast<double>(values.size()));
 }
 
 }  // namespace

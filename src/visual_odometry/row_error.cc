@@ -14,6 +14,7 @@ namespace sslcd {
 
 std::optional<double> RowError(const StereoCamera& camera, const std::vector<StereoView>& pairs,
                                const StereoOdometryOptions& options) {
+  // Cells of the image, cells that need points, and points that a cell needs. Set by hand.
   constexpr int kColumns = 6, kRows = 4, kLeastCells = 12;
   constexpr std::size_t kLeastPoints = 20;
   std::array<std::vector<float>, kColumns * kRows> cells;
