@@ -63,6 +63,7 @@ class Painter {
       Vec3 rgb;
       double share;
     };
+    // Colours (red, green, blue in 0 to 1) and shares of the box. Set by hand.
     const Part parts[] = {
         {lit(paint), random_.Uniform(0.3, 0.45)},               // in the light
         {lit(0.55 * paint), random_.Uniform(0.15, 0.3)},        // in the shade
@@ -95,10 +96,11 @@ class Painter {
 
   /// Share of noise in one sighting. It grows with range and varies between images.
   double Blur(const Detection& detection) {
-    constexpr double kUsualRange = 18, kGrowth = 0.4;
-    const double far = std::min(detection.T_cam_object.translation().norm() / kUsualRange, 2.);
+    // Range of a usual detection [m], growth per usual range, and limits. Set by hand.
+    constexpr double kUsualRange = 18, kGrowth = 0.4, kMaxFar = 2, kMaxBlur = 0.95;
+    const double far = std::min(detection.T_cam_object.translation().norm() / kUsualRange, kMaxFar);
     const double uneven = random_.Uniform(1 - noise_.unevenness, 1 + noise_.unevenness);
-    return std::min((1 - noise_.same_side) * uneven * (1 + kGrowth * (far - 1)), 0.95);
+    return std::min((1 - noise_.same_side) * uneven * (1 + kGrowth * (far - 1)), kMaxBlur);
   }
 
   /// Bearing of the camera in the object's frame; 0 if all sides look the same. [rad]
@@ -147,6 +149,8 @@ Vec3 DrawPaint(Random& random) {
     double share;
     Vec3 rgb;
   };
+  // Shares of colours on the road, and their scatter. Set by hand.
+  constexpr double kScatter = 0.08, kDarkest = 0.02;
   static const Paint kPaints[] = {
       {0.22, {0.92, 0.92, 0.9}},  {0.13, {0.4, 0.41, 0.42}},   // white, grey
       {0.15, {0.06, 0.06, 0.07}}, {0.13, {0.7, 0.71, 0.72}},   // black, silver
@@ -158,7 +162,7 @@ Vec3 DrawPaint(Random& random) {
   while (left >= paint->share && paint + 1 != std::end(kPaints)) left -= (paint++)->share;
   Vec3 rgb;
   for (int i = 0; i < 3; ++i)
-    rgb[i] = std::clamp(paint->rgb[i] * (1 + random.Normal(0, 0.08)), 0.02, 1.);
+    rgb[i] = std::clamp(paint->rgb[i] * (1 + random.Normal(0, kScatter)), kDarkest, 1.);
   return rgb;
 }
 

@@ -22,6 +22,7 @@ WorldObject& Add(World& world, const std::string& label, const Vec3& dims,
   return object;
 }
 
+// Sizes of cars and poles [m]: set by hand.
 Vec3 CarDims(Random& random) {
   return {random.Uniform(3.5, 4.7), random.Uniform(1.55, 1.85), random.Uniform(1.4, 1.75)};
 }

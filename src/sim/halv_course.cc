@@ -13,9 +13,10 @@
 namespace sslcd::sim {
 namespace {
 
-constexpr double kRadius = 6;  // of a quarter turn [m]
-constexpr double kTightest = 4;
-constexpr double kStep = 0.5;
+// Set by hand.
+constexpr double kRadius = 6;    // of a quarter turn [m]
+constexpr double kTightest = 4;  // smallest radius of the way to the second pass [m]
+constexpr double kStep = 0.5;    // from one point of the course to the next [m]
 
 std::vector<PathPiece> Corners(const std::vector<double>& straights, int corners) {
   std::vector<PathPiece> pieces;
@@ -48,7 +49,8 @@ HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg
   const Path out(pieces);
   const Path::Point meet = out.At(shape.meet_m * size);
   const double angle = random.Uniform(low_deg, high_deg) * M_PI / 180;
-  const double aside = random.Normal(0, 0.4);  // real passes have a lateral offset
+  constexpr double kAsideSigma = 0.4;  // lateral offset of real passes [m]; set by hand
+  const double aside = random.Normal(0, kAsideSigma);
 
   std::vector<PathPiece> shortest;
   for (double turn : {angle, -angle}) {
@@ -62,7 +64,7 @@ HalvCourse MakeHalvCourse(const HalvCase& shape, double low_deg, double high_deg
   const double last_leg = LengthOf(pieces);
   pieces.push_back({(shape.before_m + shape.after_m) * size, 0});
   if (shape.along_m > 0) {
-    constexpr double kMerge = 10;
+    constexpr double kMerge = 10;  // [m] before the crossing; set by hand
     const Path crossed(pieces);
     Path::Point merge = out.At(shape.meet_m * size - kMerge);
     merge.heading += M_PI;

@@ -64,16 +64,20 @@ WorldObject& Park(World& world, Random& random, const HalvScene& scene, Slot slo
                  : kind < scene.truck_fraction + scene.van_fraction ? "Van"
                                                                     : "Car";
   }
+  // How much longer, wider and higher than cars vans and trucks are; share that parks the other way
+  // round; how exactly drivers park. Set by hand. [m], [rad]
+  const Vec3 van_extra(0.4, 0.2, 0.5), truck_extra(0.6, 0.35, 1.1);
+  constexpr double kTurned = 0.3, kPlaceSigma = 0.12, kHeadingSigma = 0.03;
   const Vec3 car = CarDims(random);
   const Vec3 dims = slot.label == "Car"   ? car
-                    : slot.label == "Van" ? Vec3(car + Vec3(0.4, 0.2, 0.5))
-                                          : Vec3(car + Vec3(0.6, 0.35, 1.1));
+                    : slot.label == "Van" ? Vec3(car + van_extra)
+                                          : Vec3(car + truck_extra);
   const bool from_file = scene.layout != "lot" && scene.layout != "street";
   if (!from_file) {  // real cars do not park exactly
-    if (random.Chance(0.3)) slot.heading += M_PI;
-    slot.x += random.Normal(0, 0.12);
-    slot.z += random.Normal(0, 0.12);
-    slot.heading += random.Normal(0, 0.03);
+    if (random.Chance(kTurned)) slot.heading += M_PI;
+    slot.x += random.Normal(0, kPlaceSigma);
+    slot.z += random.Normal(0, kPlaceSigma);
+    slot.heading += random.Normal(0, kHeadingSigma);
   }
   WorldObject& object = Add(world, slot.label, dims, {PoseOf(slot, CentreY(world, dims))});
   object.paint = DrawPaint(random);
@@ -81,6 +85,7 @@ WorldObject& Park(World& world, Random& random, const HalvScene& scene, Slot slo
 }
 
 void AddMark(World& world, Random& random, const Slot& slot) {
+  // Sizes of trees [m] and colours: set by hand.
   const bool tree = slot.label == "Tree";
   const double crown = random.Uniform(1.2, 2.2), height = random.Uniform(3.5, 6);
   const Vec3 dims = tree ? Vec3(crown, crown, height) : PoleDims(random);
@@ -118,8 +123,8 @@ void Churn(const HalvScene& scene, std::uint64_t seed, int frame, std::vector<Sl
 }
 
 void CheckCars(const std::vector<Slot>& parked, const HalvCourse& course) {
-  constexpr int kEnough = 8;
-  constexpr double kSeen = 15;
+  constexpr int kEnough = 8;    // set by hand
+  constexpr double kSeen = 15;  // largest distance from the path [m]; set by hand
   const auto beside = std::count_if(parked.begin(), parked.end(), [&](const Slot& slot) {
     return std::any_of(course.points.begin(), course.points.end(), [&](const Path::Point& point) {
       return std::hypot(slot.x - point.x, slot.z - point.z) < kSeen;

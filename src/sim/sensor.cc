@@ -40,8 +40,9 @@ std::vector<Sighting> InView(const World& world, int frame) {
   for (const WorldObject& object : world.objects) {
     if (!object.IsThereAt(frame)) continue;
     const Pose T_cam_object = T_cam_world * object.PoseAt(frame);
+    constexpr double kInFront = 0.5;  // [m] set by hand
     const double reach = 0.5 * object.dims.norm();
-    if (T_cam_object.translation().z() < reach + 0.5) continue;  // beside or behind the camera
+    if (T_cam_object.translation().z() < reach + kInFront) continue;  // beside or behind the camera
     const auto box = ProjectCuboid(T_cam_object, object.dims, world.camera);
     const auto whole = ProjectCuboid(T_cam_object, object.dims, endless);
     if (!box || !whole) continue;
@@ -61,6 +62,10 @@ class Detector {
   }
 
   void Detect(int frame, SimulatedDetections& result) {
+    // Scores: mean at range 0, its decrease up to the largest range, standard deviation and limits;
+    // range of those of false detections. Set by hand.
+    constexpr double kNearScore = 0.95, kDecrease = 0.25, kSigma = 0.04;
+    constexpr double kMinScore = 0.05, kMaxScore = 0.999, kFalseLow = 0.3, kFalseHigh = 0.7;
     result.frames.emplace_back();
     const std::vector<Sighting> sightings = InView(world_, frame);
     std::vector<Silhouette> silhouettes;
@@ -77,13 +82,15 @@ class Detector {
           noise_.miss_rate_near + far * (noise_.miss_rate_far - noise_.miss_rate_near);
       const double miss_hidden = (1 - visible) * noise_.miss_rate_hidden;
       if (random_.Chance(1 - (1 - miss_range) * (1 - miss_hidden))) continue;
-      const double score = std::clamp(random_.Normal(0.95 - 0.25 * far, 0.04), 0.05, 0.999);
+      const double score =
+          std::clamp(random_.Normal(kNearScore - kDecrease * far, kSigma), kMinScore, kMaxScore);
       Push(Measure(sighting), score, sighting.object->id, result);
     }
     const int false_positives = random_.Poisson(noise_.false_positives);
     for (int i = 0; i < false_positives; ++i) {
       Detection detection = Imagine();
-      if (detection.box) Push(std::move(detection), random_.Uniform(0.3, 0.7), -1, result);
+      if (detection.box)
+        Push(std::move(detection), random_.Uniform(kFalseLow, kFalseHigh), -1, result);
     }
   }
 
@@ -115,9 +122,10 @@ class Detector {
     if (world_.labels[object.label].symmetry == Symmetry::kFull) yaw = random_.Uniform(-M_PI, M_PI);
     detection.T_cam_object =
         Pose(upright_.Upright(WrapAngle(yaw)), position + RayFrame(position).transpose() * offset);
+    constexpr double kMinSize = 0.2;  // measured over true size; set by hand
     const double size_sigma = noise_.sigmas.size_relative * noise_.scale;
     for (int i = 0; i < 3; ++i)
-      detection.dims[i] = object.dims[i] * std::max(0.2, 1 + size_sigma * error[4 + i]);
+      detection.dims[i] = object.dims[i] * std::max(kMinSize, 1 + size_sigma * error[4 + i]);
     detection.box = Blur(sighting.box);
     return detection;
   }
@@ -144,11 +152,13 @@ class Detector {
 
   /// A false detection of a car on the ground, at a random place in the image.
   Detection Imagine() {
+    // Smallest range, height of a car's centre with its scatter. Set by hand, as the sizes. [m]
+    constexpr double kMinRange = 8, kCentreHeight = 0.75, kHeightSigma = 0.2;
     const double half_view = std::atan(0.5 * world_.camera.width / world_.camera.fx);
-    const double range = random_.Uniform(8, std::max(9., noise_.max_range_m));
+    const double range = random_.Uniform(kMinRange, std::max(kMinRange + 1, noise_.max_range_m));
     const double bearing = random_.Uniform(-half_view, half_view);
     const double yaw = random_.Uniform(-M_PI, M_PI);
-    const double down = random_.Normal(world_.camera_height_m - 0.75, 0.2);
+    const double down = random_.Normal(world_.camera_height_m - kCentreHeight, kHeightSigma);
     Detection detection;
     detection.label = "Car";
     detection.dims = {random_.Uniform(3, 5), random_.Uniform(1.4, 2), random_.Uniform(1.3, 1.9)};

@@ -9,14 +9,15 @@
 namespace sslcd::sim {
 namespace {
 
-constexpr double kLength = 4.8, kWidth = 1.9;  // size of a slot's vehicle [m]
-constexpr double kClearance = 1.2;             // from the camera's path to a vehicle
-constexpr double kStall = 2.6;                 // width of a stall
-constexpr double kAisles = 16.6;               // from one aisle's middle to the next one's
-constexpr double kToStall = 5.5;               // from an aisle's middle to that of a stall
-constexpr double kAround = 14;                 // margin of the car park around the path
-constexpr double kSpace = 5.8;                 // a kerb-side parking space
-constexpr double kRightKerb = 3.2, kLeftKerb = -6.6;
+// A car park and a street, all in metres. Set by hand.
+constexpr double kLength = 4.8, kWidth = 1.9;         // size of a slot's vehicle
+constexpr double kClearance = 1.2;                    // from the camera's path to a vehicle
+constexpr double kStall = 2.6;                        // width of a stall
+constexpr double kAisles = 16.6;                      // from one aisle's middle to the next one's
+constexpr double kToStall = 5.5;                      // from an aisle's middle to that of a stall
+constexpr double kAround = 14;                        // margin of the car park around the path
+constexpr double kSpace = 5.8;                        // a kerb-side parking space
+constexpr double kRightKerb = 3.2, kLeftKerb = -6.6;  // to the right of the path
 
 struct Range {
   int first, last;

@@ -10,6 +10,7 @@
 namespace sslcd::sim {
 namespace {
 
+// The left colour camera of KITTI's drives of 2011-09-26.
 World EmptyWorld() {
   World world;
   world.camera = {721.5377, 721.5377, 609.5593, 172.854, Vec3(0.06, 0, 0), 1242, 375};
@@ -20,10 +21,12 @@ World EmptyWorld() {
 
 void AddParkedCar(World& world, Random& random, const Path& path, double s_m, double right_m,
                   double turn_rad) {
+  // How exactly drivers park along and across the street. Set by hand. [m], [rad]
+  constexpr double kSigmaAlong = 0.2, kSigmaAcross = 0.1, kSigmaTurn = 0.03;
   const Vec3 dims = CarDims(random);
-  const double s = s_m + random.Normal(0, 0.2);
-  const double right = right_m + random.Normal(0, 0.1);
-  const double turn = turn_rad + random.Normal(0, 0.03);
+  const double s = s_m + random.Normal(0, kSigmaAlong);
+  const double right = right_m + random.Normal(0, kSigmaAcross);
+  const double turn = turn_rad + random.Normal(0, kSigmaTurn);
   Add(world, "Car", dims, {path.ObjectAt(s, right, CentreY(world, dims), turn)});
 }
 
@@ -39,33 +42,43 @@ World MakeStreet(std::uint64_t seed, const StreetOptions& options) {
   Random random(seed);
   World world = EmptyWorld();
 
-  constexpr double kAhead = 60;   // length of the street beyond the end of the drive
-  constexpr double kSpace = 5.8;  // one kerb-side parking space
+  // A street with kerb-side parking. All set by hand.
+  constexpr double kAhead = 60;   // length of the street beyond the end of the drive [m]
+  constexpr double kSpace = 5.8;  // one kerb-side parking space [m]
+  constexpr double kMinPiece = 15, kMaxPiece = 40;        // of constant curvature [m]
+  constexpr double kRightCars = 3.2, kLeftCars = -6.6;    // to the right of the path [m]
+  constexpr double kRightPoles = 5.2, kLeftPoles = -8.6;  // the same
+  constexpr double kOncomingLane = -3.4;                  // the same
+  constexpr double kPoleScatter = 4;                      // along the street [m]
+  constexpr double kTurnedRound = 0.1;                    // share of the parked cars
   const double driven = options.speed_mps * (options.frames - 1) / options.frame_rate_hz;
   std::vector<PathPiece> pieces;
   for (double length = 0; length < driven + kAhead; length += pieces.back().length_m) {
-    pieces.push_back(
-        {random.Uniform(15, 40), random.Uniform(-options.bend_rad_per_m, options.bend_rad_per_m)});
+    pieces.push_back({random.Uniform(kMinPiece, kMaxPiece),
+                      random.Uniform(-options.bend_rad_per_m, options.bend_rad_per_m)});
   }
   const Path path(pieces);
   Drive(path, options.frames, options.frame_rate_hz, options.speed_mps, world);
 
   for (double s = 4; s < driven + kAhead; s += kSpace) {
-    const bool turned_round = random.Chance(0.1);
+    const bool turned_round = random.Chance(kTurnedRound);
     if (!random.Chance(options.free_fraction))
-      AddParkedCar(world, random, path, s, 3.2, turned_round ? M_PI : 0);
+      AddParkedCar(world, random, path, s, kRightCars, turned_round ? M_PI : 0);
     if (!random.Chance(options.free_fraction))
-      AddParkedCar(world, random, path, s + 2, -6.6, turned_round ? 0 : M_PI);
+      AddParkedCar(world, random, path, s + 2, kLeftCars, turned_round ? 0 : M_PI);
   }
   for (double s = 8; s < driven + kAhead; s += options.pole_spacing_m) {
-    AddPole(world, random, path, s + random.Uniform(-4, 4), 5.2);
-    AddPole(world, random, path, s + random.Uniform(-4, 4) + 0.5 * options.pole_spacing_m, -8.6);
+    AddPole(world, random, path, s + random.Uniform(-kPoleScatter, kPoleScatter), kRightPoles);
+    AddPole(world, random, path,
+            s + random.Uniform(-kPoleScatter, kPoleScatter) + 0.5 * options.pole_spacing_m,
+            kLeftPoles);
   }
   for (int i = 0; i < options.driving_cars; ++i) {
     const double speed = options.speed_mps * random.Uniform(0.9, 1.3);
     const bool oncoming = i % 2 == 1;
     if (oncoming) {
-      AddDrivingCar(world, random, path, random.Uniform(0.3, 2) * driven + 30, -3.4, -speed);
+      AddDrivingCar(world, random, path, random.Uniform(0.3, 2) * driven + 30, kOncomingLane,
+                    -speed);
     } else {
       AddDrivingCar(world, random, path, 12 + 15 * i, 0, std::max(speed, options.speed_mps));
     }
