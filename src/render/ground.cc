@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All sizes [m], colours (linear red, green, blue) and frequencies [1/m] of this file were set by
+// hand.
 #include "render/ground.h"
 
 #include "render/noise.h"

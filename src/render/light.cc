@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// All sizes [m], colours (linear red, green, blue) and frequencies [1/m] of this file were set by
+// hand.
 #include "render/light.h"
 
 #include "render/noise.h"
@@ -77,7 +79,8 @@ Vec3f Shade(const Daylight& light, const Surface& surface, const Vec3f& normal, 
 }
 
 Vec3f ApplyHaze(const Daylight& light, const Vec3f& colour, float distance) {
-  return Mix(Vec3f(0.8f * light.horizon), colour, std::exp(-distance / 700));
+  constexpr float kVisibility = 700;  // distance over which light falls to 1 / e [m]
+  return Mix(Vec3f(0.8f * light.horizon), colour, std::exp(-distance / kVisibility));
 }
 
 }  // namespace sslcd::render
