@@ -8,14 +8,15 @@ namespace sslcd {
 void CheckGround(const StereoView& images, const StereoCamera& camera,
                  const std::vector<Detection>& objects, const GroundOptions& options,
                  GroundReport& report) {
-  constexpr int kSearched = 5;
+  constexpr int kSearched = 5;   // largest number of frames searched at other heights; set by hand
+  constexpr double kSigmas = 3;  // of the given height; set by hand
   std::vector<Box2d> boxes;
   for (const Detection& object : objects)
     if (object.box) boxes.push_back(*object.box);
   ++report.frames;
   const GroundPlane plane = EstimateGround(images, camera, boxes, options);
   if (plane.support >= kGroundSupport &&
-      std::abs(plane.height_m - options.height_m) <= 3 * options.height_sigma_m)
+      std::abs(plane.height_m - options.height_m) <= kSigmas * options.height_sigma_m)
     return;
   ++report.elsewhere;
   if (report.elsewhere > kSearched) return;

@@ -14,8 +14,9 @@
 namespace sslcd {
 namespace {
 
-constexpr int kGroundEvery = 10;  // frames
-// Frames in the queue between two stages, to even out slow frames; each has two images.
+constexpr int kGroundEvery = 10;  // frames from one check of the ground to the next; set by hand
+// Frames in the queue between two stages, to even out slow frames; each has two images. Set
+// by hand.
 constexpr std::size_t kAhead = 4;
 
 // An error of a frame's images, with their names.

@@ -21,7 +21,7 @@ constexpr double kShapeSigma = 0.06;     // [m] shape of the body, added to the 
 constexpr double kGroundSigma = 0.04;    // [m] height of the ground under an object over the plane
 constexpr double kSlopeSigma = 0.003;    // [rad] slope of the plane
 constexpr double kCauchy = 2;  // [sigmas] a scan point with this error has half the weight
-// Number of initial headings over half a turn. Set by hand.
+// Number of initial headings over half a turn, and of steps from each. Set by hand.
 constexpr int kStarts = 12, kIterations = 15;
 // Initial offset of the contour's middle from the centre, share of half the size along the ray. Set
 // by hand.
@@ -235,7 +235,8 @@ Solution Solve(const Problem& problem, Parameters p) {
   // successful one.
   constexpr double kDamping = 1e-2, kLeastDamping = 1e-6, kMostDamping = 1e6;
   constexpr double kMoreDamping = 8, kLessDamping = 5;
-  constexpr double kLeastGain = 1e-4;  // share of the cost; a smaller gain is irrelevant
+  constexpr double kLeastGain =
+      1e-4;  // share of the cost; a smaller gain is irrelevant; set by hand
   Eigen::VectorXd residuals(problem.residuals()), tried(problem.residuals());
   problem.Residuals(p, residuals);
   Solution solution{p, Normal::Identity(), problem.Cost(residuals)};

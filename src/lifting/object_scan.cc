@@ -49,7 +49,7 @@ std::vector<Column> Columns(const DisparityPatch& patch, const Box2d& box,
                             const GroundFrame& ground, const ScanRules& rules) {
   const Camera& left = camera.left;
   const double bf = camera.baseline_m * left.fx;
-  constexpr double kNarrowest = 2;  // [px]
+  constexpr double kNarrowest = 2;  // [px] width of a column; set by hand
   const double width = std::max((box.right - box.left) / rules.columns, kNarrowest);
   std::vector<Column> columns(static_cast<std::size_t>((box.right - box.left) / width) + 1);
   for (int y = 0; y < patch.values.rows; ++y) {
