@@ -53,9 +53,12 @@ SUBJECTS = {
                 ("src/closing/loop_prior.cc", "sslcd_closing_tests", "OdometryPrior*"),
                 ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*"),
                 ("src/closing/mean_place.cc", "sslcd_closing_tests", "Drive*"),
+                ("src/closing/loop_closer.cc", "sslcd_closing_tests", "LoopCloser*:SecondSearch*:Review*:Adjustment*"),
+                ("src/closing/global_layout.cc", "sslcd_closing_tests", "GlobalLayout*"),
                 ("src/closing/remeasure.cc", "sslcd_closing_tests",
                  "ReviewLoops*:ByViews*:LearnOdometry*")],
     "fusion": [("src/refine/fuse.cc", "sslcd_refine_tests", "Fuse*:SeenTogether*:PathSegments*")],
+    "refinement": [("src/refine/refine_map.cc", "sslcd_refine_tests", "RefineMap*")],
 }
 
 SWAPS = {  # binary operators; the house format puts a blank on both sides of them and of no others
