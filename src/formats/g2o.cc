@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "formats/information.h"
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
 #include "formats/rigid.h"
@@ -50,23 +51,42 @@ Pose ReadSe2(const TextRows& row, std::size_t column) {
   return Pose(lie::SO3<double>::RotZ(FiniteNumber(row, column + 2)), t);
 }
 
-// Reads the upper triangle of a matrix over the given components of [tx ty tz rx ry rz]. The other
+// Reads the upper triangle of a symmetric matrix.
+Eigen::MatrixXd ReadUpperTriangle(const TextRows& row, std::size_t column, int size) {
+  Eigen::MatrixXd matrix(size, size);
+  for (int i = 0; i < size; ++i)
+    for (int j = i; j < size; ++j) matrix(i, j) = matrix(j, i) = FiniteNumber(row, column++);
+  return matrix;
+}
+
+// Puts a matrix over the given components of [tx ty tz rx ry rz] into the full one. The other
 // components keep a fixed value.
-Information ReadInformation(const TextRows& row, std::size_t column,
-                            const std::vector<int>& components) {
+Information Lift(const Eigen::MatrixXd& matrix, const std::vector<int>& components) {
   Information information = kLiftedInformation * Information::Identity();
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    for (std::size_t j = i; j < components.size(); ++j) {
-      information(components[i], components[j]) = FiniteNumber(row, column++);
-      information(components[j], components[i]) = information(components[i], components[j]);
-    }
-  }
-  if (Eigen::LLT<Information>(information).info() != Eigen::Success) {
-    row.Fail(
-        "the information matrix is not positive definite: check its order (upper triangle, row by "
-        "row)");
-  }
+  for (std::size_t i = 0; i < components.size(); ++i)
+    for (std::size_t j = 0; j < components.size(); ++j)
+      information(components[i], components[j]) = matrix(i, j);
   return information;
+}
+
+bool IsPositiveDefinite(const Information& information) {
+  return Eigen::LLT<Information>(information).info() == Eigen::Success;
+}
+
+// Rounding and components without a measurement do not explain such rows: the projection would hide
+// a broken writer.
+void CheckDiagonal(const TextRows& row, const Eigen::MatrixXd& matrix) {
+  const double largest = matrix.diagonal().maxCoeff();
+  if (largest <= 0) {
+    row.Fail(
+        "the information matrix has no positive diagonal entry: an edge without information "
+        "measures nothing, remove the row or give it its information");
+  }
+  if (matrix.diagonal().minCoeff() < -kInformationFloor * largest) {
+    row.Fail(
+        "the information matrix has a negative diagonal entry, which no measurement has: check the "
+        "order of its columns (upper triangle, row by row)");
+  }
 }
 
 struct G2oReader {
@@ -99,6 +119,22 @@ struct G2oReader {
         planar ? ReadInformation(row, 6, {0, 1, 5}) : ReadInformation(row, 10, {0, 1, 2, 3, 4, 5});
     file.graph.edges.push_back(edge);
     edge_rows.push_back(row.where());
+  }
+
+  // Projects before lifting, so that the floor is relative to the row's own numbers.
+  Information ReadInformation(const TextRows& row, std::size_t column,
+                              const std::vector<int>& components) {
+    const Eigen::MatrixXd given =
+        ReadUpperTriangle(row, column, static_cast<int>(components.size()));
+    const Information information = Lift(given, components);
+    if (IsPositiveDefinite(information)) return information;
+    CheckDiagonal(row, given);
+    const std::optional<ProjectedInformation> projected = ProjectInformation(given);
+    if (!projected || !IsPositiveDefinite(Lift(projected->information, components)))
+      row.Fail("the information matrix is out of the range of numbers: check its unit");
+    if (file.information_projected++ == 0) file.first_projected = row.where();
+    file.least_eigenvalue = std::min(file.least_eigenvalue, projected->least_eigenvalue);
+    return Lift(projected->information, components);
   }
 
   void Read(const std::string& path) {

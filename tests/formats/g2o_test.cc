@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
+#include "formats/information.h"
 #include "temp_folder.h"
 
 namespace sslcd {
@@ -132,9 +135,73 @@ TEST(G2o, RefusesBadRows) {
   ExpectRefused(two + "EDGE_SE3:QUAT 1 1" + step + kUnit3d + "\n", {"a.g2o:3", "to itself"});
   ExpectRefused(two + "FIX 5\n", {"a.g2o:3", "FIX names vertex 5"});
   ExpectRefused("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 nan\n", {"a.g2o:1", "not finite"});
-  for (const char* bad : {"0 0 0 1 0 1", "-1 0 0 1 0 1", "1 2 0 1 0 1"})
+  for (const char* bad : {"-1 0 0 1 0 1", "1 0 0 1 0 -1e-6"})
     ExpectRefused(std::string("EDGE_SE2 0 1 1 0 0 ") + bad + "\n",
-                  {"a.g2o:1", "not positive definite"});
+                  {"a.g2o:1", "negative diagonal entry", "upper triangle"});
+  for (const char* bad : {"0 0 0 0 0 0", "0 1 0 0 0 0", "-1 0 0 -1 0 -1"})
+    ExpectRefused(std::string("EDGE_SE2 0 1 1 0 0 ") + bad + "\n",
+                  {"a.g2o:1", "no positive diagonal entry", "remove the row"});
+  ExpectRefused("EDGE_SE2 0 1 1 0 0 1e-320 0 0 1e-320 0 0\n", {"a.g2o:1", "out of the range"});
+}
+
+using Information = Eigen::Matrix<double, 6, 6>;
+
+double SmallestEigenvalue(const Information& information) {
+  return Eigen::SelfAdjointEigenSolver<Information>(information).eigenvalues()[0];
+}
+
+TEST(G2o, ProjectsInformationThatIsNotPositiveDefinite) {
+  const G2oFile file = Read(
+      "EDGE_SE2 0 1 1 0 0 4 0 0 4 0 9\n"
+      "EDGE_SE2 1 2 1 0 0 4 5 0 4 0 9\n"         // eigenvalues -1, 9, 9
+      "EDGE_SE2 2 3 1 0 0 0 0 0 0 0 9\n"         // measures yaw only
+      "EDGE_SE2 3 4 1 0 0 4 0 0 4 0 -1e-12\n");  // rounding
+  EXPECT_EQ(file.information_projected, 3);
+  EXPECT_EQ(file.first_projected.line, 2);
+  EXPECT_NEAR(file.least_eigenvalue, -1. / 9, 1e-15);
+  const auto information = [&](int edge) {
+    return Information(file.graph.edges[edge].information);
+  };
+  EXPECT_EQ(information(0).diagonal(), (Vec6() << 4, 4, 1e8, 1e8, 1e8, 9).finished());
+  EXPECT_NEAR(information(1)(0, 0), 4.5, 1e-7);
+  EXPECT_NEAR(information(1)(0, 1), 4.5, 1e-7);
+  EXPECT_NEAR(information(1)(5, 5), 9, 1e-12);
+  EXPECT_NEAR(information(2)(0, 0), 9 * kInformationFloor, 1e-20)
+      << "not relative to the lifted 1e8";
+  EXPECT_NEAR(information(3)(5, 5), 4 * kInformationFloor, 1e-20);
+  for (int edge = 1; edge < 4; ++edge) {
+    EXPECT_GT(SmallestEigenvalue(information(edge)), 0.99 * 4 * kInformationFloor);
+    for (const int i : {2, 3, 4}) EXPECT_EQ(information(edge)(i, i), kLiftedInformation);
+  }
+}
+
+TEST(G2o, ReadsEdgesWithoutSomeComponents) {
+  const std::string bearing_only = "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 40 0 0 40 0 40";
+  const std::string flat = "10 0 0 0 0 2 10 0 0 0 1 0 0 0 0 0 0 0 0 0 40";
+  const std::string one = "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1e-300";
+  for (const std::string& information : {bearing_only, flat, one}) {
+    const G2oFile file = Read("EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 " + information + "\n");
+    EXPECT_EQ(file.information_projected, 1);
+    EXPECT_EQ(file.least_eigenvalue, 0);
+    EXPECT_GT(SmallestEigenvalue(file.graph.edges[0].information), 0);
+  }
+}
+
+TEST(G2o, KeepsPositiveDefiniteInformationBitByBit) {
+  // An eigenvalue far below the floor, but a Cholesky factor exists.
+  const G2oFile file = Read("EDGE_SE2 0 1 1 0 0 1e12 0.1 0 1e-6 0 0.3\n");
+  EXPECT_EQ(file.information_projected, 0);
+  EXPECT_EQ(file.first_projected.line, 0);
+  EXPECT_EQ(file.graph.edges[0].information(0, 0), 1e12);
+  EXPECT_EQ(file.graph.edges[0].information(1, 1), 1e-6);
+  EXPECT_EQ(file.graph.edges[0].information(5, 5), 0.3);
+}
+
+TEST(G2o, ProjectedInformationIsWrittenAndReadAsItIs) {
+  const PoseGraph graph = Read("EDGE_SE2 0 1 1 0 0 4 5 1 4 0.3 9\n").graph;
+  const G2oFile back = Read(G2oText(graph));
+  EXPECT_EQ(back.information_projected, 0);
+  EXPECT_EQ(back.graph.edges[0].information, graph.edges[0].information);
 }
 
 }  // namespace
