@@ -23,7 +23,7 @@ const std::map<std::string, Vec3> kUpAxes = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}
 
 struct GraphArguments {
   std::string in, out, dof = "auto", up = "z", start = "auto";
-  bool robust = false, json = false;
+  bool robust = false, strict = false, json = false;
   int threads = 1;
 
   PoseGraphOptions Options(bool planar) const {
@@ -54,13 +54,32 @@ RobustPoseGraphSummary Solve(PoseGraph& graph, const PoseGraphOptions& options, 
   return summary;
 }
 
-Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bool robust,
+// Refuses or reports information matrices that the reader has projected.
+void CheckInformation(const G2oFile& file, const std::string& path, bool strict) {
+  if (file.information_projected == 0) return;
+  if (strict) {
+    throw Error(ErrorKind::kBadInput, file.first_projected,
+                "the information matrix is not positive definite: correct it (upper triangle, row "
+                "by row), or leave out --strict to have it projected to the nearest one that is");
+  }
+  Log(LogLevel::kWarning,
+      path + ": " + std::to_string(file.information_projected) + " of " +
+          std::to_string(file.graph.edges.size()) +
+          " information matrices are not positive definite and were projected to the nearest ones "
+          "that are (first: line " +
+          std::to_string(file.first_projected.line) + "; smallest eigenvalue " +
+          Number("%.2g", file.least_eigenvalue) + " of the largest); --strict refuses them");
+}
+
+Metrics Report(const G2oFile& file, const RobustPoseGraphSummary& summary, bool robust,
                double seconds) {
+  const PoseGraph& given = file.graph;
   const auto loops = std::count_if(given.edges.begin(), given.edges.end(),
                                    [](const auto& edge) { return edge.loop; });
   Metrics metrics = {{"vertices", given.vertices.size()},
                      {"edges", given.edges.size()},
                      {"loops", loops},
+                     {"information_projected", file.information_projected},
                      {"components", summary.graph.components},
                      {"chi2_before", summary.graph.initial_chi2},
                      {"chi2_after", summary.graph.final_chi2},
@@ -77,7 +96,7 @@ Metrics Report(const PoseGraph& given, const RobustPoseGraphSummary& summary, bo
 }
 
 int Graph(const GraphArguments& a, const Console& console) {
-  G2oFile file = ReadG2o(a.in);
+  const G2oFile file = ReadG2o(a.in);
   if (file.graph.edges.empty()) {
     throw Error(ErrorKind::kBadInput,
                 a.in + ": no EDGE_SE3:QUAT or EDGE_SE2 rows: there is nothing to optimise");
@@ -85,9 +104,10 @@ int Graph(const GraphArguments& a, const Console& console) {
   if (file.rows_ignored > 0)
     Log(LogLevel::kWarning,
         a.in + ": " + std::to_string(file.rows_ignored) + " rows of other kinds were left out");
-  const PoseGraph given = file.graph;
+  CheckInformation(file, a.in, a.strict);
+  PoseGraph graph = file.graph;
   const auto start = std::chrono::steady_clock::now();
-  const RobustPoseGraphSummary summary = Solve(file.graph, a.Options(file.planar), a.robust);
+  const RobustPoseGraphSummary summary = Solve(graph, a.Options(file.planar), a.robust);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!summary.graph.usable)
@@ -98,9 +118,9 @@ int Graph(const GraphArguments& a, const Console& console) {
         std::to_string(summary.graph.components) +
             " parts that no edge joins: each keeps its first vertex, unless another one is fixed");
   }
-  WriteFileAtomically(a.out, G2oText(file.graph));
+  WriteFileAtomically(a.out, G2oText(graph));
 
-  const Metrics metrics = Report(given, summary, a.robust, seconds);
+  const Metrics metrics = Report(file, summary, a.robust, seconds);
   if (a.json) {
     std::fputs(MetricsJson(metrics).c_str(), stdout);
     return 0;
@@ -138,6 +158,9 @@ Command AddGraphCommand(CLI::App& app, Console& console) {
       ->add_option("--start", arguments->start,
                    "poses to start from: as given, chordal, or the better ones")
       ->check(CLI::IsMember({"auto", "given", "chordal"}));
+  command->add_flag("--strict", arguments->strict,
+                    "refuse information matrices that are not positive definite; otherwise they "
+                    "are projected to the nearest ones that are, and counted");
   AddThreads(*command, arguments->threads);
   command->add_flag("--json", arguments->json, "print JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");

@@ -65,6 +65,37 @@ class GraphMatchTest(CliCase):
         self.assertAlmostEqual(moved['6'][3], 0)
         self.assertNotAlmostEqual(moved['4'][3], 0)
 
+    def test_graph_projects_information(self):
+        rows = self.square('EDGE_SE2 0 8 0 0.1 0', 'EDGE_SE2 0 4 0.1 0 0').splitlines()
+        definite = '\n'.join(rows) + '\n'
+        rows[3] = 'EDGE_SE2 3 4 10 0 1.5707963267948966 100 120 0 100 0 1000'  # eigenvalues -20, 220, 1000
+        rows[8] = 'EDGE_SE2 0 8 0 0.1 0 0 0 0 0 0 1000'  # measures yaw only
+        text = '\n'.join(rows) + '\n'
+
+        result = self.graph(text, '--json')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        figures = json.loads(result.stdout)
+        self.assertEqual((figures['information_projected'], figures['converged']), (2, 1))
+        self.assertEqual(result.stderr.count('\n'), 1, result.stderr)
+        for words in ('warning', 'in.g2o: 2 of 10 information matrices are not positive definite and were projected',
+                      'first: line 4', 'smallest eigenvalue -0.02 of the largest', '--strict'):
+            self.assertIn(words, result.stderr)
+        # What was written holds the projected matrices.
+        again = call('graph', self.out + '.g2o', '--out', self.out + '.g2o', '--dof', '3', '--json', '--strict')
+        self.assertEqual((again.returncode, again.stderr), (0, ''))
+        self.assertAlmostEqual(json.loads(again.stdout)['chi2_before'], figures['chi2_after'], places=6)
+
+        self.assertRegex(self.graph(text).stdout, r'information_projected +2\n')
+        self.assertRegex(self.graph(text, '--robust').stdout, r'information_projected +2\n')
+        result = self.graph(definite, '--json', '--strict')
+        self.assertEqual((result.returncode, result.stderr), (0, ''))
+        self.assertEqual(json.loads(result.stdout)['information_projected'], 0)
+
+        os.remove(self.out + '.g2o')
+        self.refused(self.graph(text, '--strict'), 3, 'in.g2o:4: the information matrix is not positive definite',
+                     'leave out --strict')
+        self.assertFalse(os.path.exists(self.out + '.g2o'))
+
     def test_graph_parts(self):
         result = self.graph(self.square() + 'EDGE_SE2 20 21 1 0 0 1 0 0 1 0 1\n')
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -77,7 +108,9 @@ class GraphMatchTest(CliCase):
                 ('', 'in.g2o: no EDGE'), (one, 'nothing to optimise'), (one + edge, 'in.g2o:2', 'vertex 1 has no VERTEX'),
                 (two + one + edge, 'in.g2o:3', 'vertex 0 is a duplicate of line'),
                 (two + 'EDGE_SE2 0 1 1 0 nan 1 0 0 1 0 1\n', 'in.g2o:3', 'not finite'),
-                (two + 'EDGE_SE2 0 1 1 0 0 1 0 0 -1 0 1\n', 'in.g2o:3', 'not positive definite'),
+                (two + 'EDGE_SE2 0 1 1 0 0 1 0 0 nan 0 1\n', 'in.g2o:3', 'not finite'),
+                (two + 'EDGE_SE2 0 1 1 0 0 1 0 0 -1 0 1\n', 'in.g2o:3', 'negative diagonal entry'),
+                (two + 'EDGE_SE2 0 1 1 0 0 0 0 0 0 0 0\n', 'in.g2o:3', 'no positive diagonal entry'),
                 (two + 'EDGE_SE2 0 1 1 0\n', 'in.g2o:3', 'expected 11 fields')):
             self.refused(self.graph(text), 3, *messages)
             self.assertFalse(os.path.exists(self.out + '.g2o'))
