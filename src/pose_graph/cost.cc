@@ -29,6 +29,10 @@ void StoreAmbient(const Matrix6& J, const double* pose, double* jacobian) {
 // Information of the fixed components, larger than that of any measurement. [1/m^2, 1/rad^2]
 constexpr double kCertain = 1e8;
 
+// What rounding leaves of a matrix with kCertain in it, relative to its largest entry: some 50
+// units in the last place.
+constexpr double kRounding = 1e-14;
+
 }  // namespace
 
 PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& measured,
@@ -50,6 +54,11 @@ PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph:
         R_from.inverse() *
         Vec3(up * up.dot(step - R_from * Vec3(measured.T_from_to.translation())));
     edge.information.topLeftCorner<3, 3>() += kCertain * vertical;
+  }
+  // An edge that knows next to nothing of yaw loses that in the rounding of the fixed components.
+  if (Eigen::LLT<Matrix6>(edge.information).info() != Eigen::Success) {
+    const double largest = edge.information.diagonal().maxCoeff();
+    edge.information += kRounding * largest * Matrix6::Identity();
   }
   return edge;
 }

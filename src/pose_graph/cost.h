@@ -11,7 +11,7 @@ namespace sslcd {
 
 /// Restricts an edge to the degrees of freedom of its vertices. The fixed components (roll, pitch,
 /// and height if planar) come from the poses of its ends with a high information; the measurement
-/// keeps yaw and translation. kFull: the edge itself.
+/// keeps yaw and translation. Its information stays positive definite. kFull: the edge itself.
 PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& edge,
                            const Pose& T_world_from, const Pose& T_world_to);
 

@@ -45,6 +45,26 @@ TEST(EdgeCost, SquaredNormIsChi2) {
   }
 }
 
+TEST(EdgeWithin, StaysPositiveDefiniteWithoutInformationOnYaw) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  PoseNoise noise(5);
+  for (const PoseFreedom freedom : {PoseFreedom::kUpright, PoseFreedom::kPlanar}) {
+    for (const double position : {1e-3, 1., 1e3}) {
+      for (int i = 0; i < 50; ++i) {
+        PoseGraph::Edge edge = SomeEdge(noise);
+        Vec6 diagonal = Vec6::Constant(1e-9 * position);
+        diagonal.head<3>().setConstant(position);
+        edge.information = diagonal.asDiagonal();
+        const auto within = EdgeWithin(freedom, kUp, edge, SomePose(noise), SomePose(noise));
+        const Matrix6 information = within.information;
+        ASSERT_EQ(information.llt().info(), Eigen::Success) << position << ", " << i;
+        if (freedom == PoseFreedom::kPlanar) continue;
+        EXPECT_NEAR(information(0, 0), position, 1e-5) << "what the edge knows is kept";
+      }
+    }
+  }
+}
+
 TEST(EdgeCost, DerivativesOnBothManifolds) {
   PoseNoise noise(4);
   const double weight = 0.7;
