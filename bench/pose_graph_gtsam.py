@@ -15,12 +15,12 @@ REPETITIONS = 5
 
 
 def best_of(run):
-    """The result, and the fastest run's seconds."""
+    """The result, and the fastest run's CPU seconds."""
     best = float('inf')
     for _ in range(REPETITIONS):
-        start = time.perf_counter()
+        start = time.process_time()
         result = run()
-        best = min(best, time.perf_counter() - start)
+        best = min(best, time.process_time() - start)
     return result, best
 
 
@@ -42,6 +42,17 @@ def read(path):
     return graph, start
 
 
+def minimum(path, chordal):
+    graph, start = read(path)
+
+    def solve():
+        first = gtsam.InitializePose3.initialize(graph) if chordal else start
+        return gtsam.LevenbergMarquardtOptimizer(graph, first, gtsam.LevenbergMarquardtParams()).optimize()
+    values, seconds = best_of(solve)
+    name = os.path.basename(path)[:-4] + (' chordal' if chordal else '')
+    print(f'{name:24} chi2 {2 * graph.error(start):.6g} -> {2 * graph.error(values):.6g}  seconds {seconds:.3f}', flush=True)
+
+
 def main(bench, data):
     with tempfile.TemporaryDirectory() as folder:
         print('sslcd', flush=True)
@@ -54,11 +65,11 @@ def main(bench, data):
             path = f'{data}/g2o/{name}.g2o'
             if not os.path.exists(path):
                 continue
-            graph, start = read(path)
-            values, seconds = best_of(lambda: gtsam.LevenbergMarquardtOptimizer(
-                graph, start, gtsam.LevenbergMarquardtParams()).optimize())
-            print(f'{name:16} chi2 {2 * graph.error(start):.6g} -> {2 * graph.error(values):.6g}  seconds {seconds:.3f}')
-        for path in sorted(glob.glob(folder + '/*.g2o')):
+            minimum(path, chordal=False)
+            minimum(path, chordal=True)
+        for name in ('torus', 'torus-indefinite'):  # from their odometry GTSAM ends in another minimum, or not at all
+            minimum(f'{folder}/{name}.g2o', chordal=True)
+        for path in sorted(glob.glob(folder + '/synthetic*.g2o')):
             graph, start = read(path)
             truth = np.loadtxt(path.replace('.g2o', '.truth'))
             params = gtsam.GncLMParams(gtsam.LevenbergMarquardtParams())
@@ -70,7 +81,7 @@ def main(bench, data):
             print(f'{os.path.basename(path)[:-4]:16} ATE plain {ate(plain, truth):.2f}  GNC {ate(values, truth):.3f} m  '
                   f'seconds {seconds:.3f}', flush=True)
         print('sslcd again', flush=True)
-        subprocess.run([bench, data], check=True)
+        subprocess.run([bench, data, folder], check=True)
 
 
 if __name__ == '__main__':
