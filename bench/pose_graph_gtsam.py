@@ -67,7 +67,7 @@ def main(bench, data):
                 continue
             minimum(path, chordal=False)
             minimum(path, chordal=True)
-        for name in ('torus', 'torus-indefinite'):  # from their odometry GTSAM ends in another minimum, or not at all
+        for name in ('torus', 'torus-indefinite'):  # ours, too, takes the chordal start
             minimum(f'{folder}/{name}.g2o', chordal=True)
         for path in sorted(glob.glob(folder + '/synthetic*.g2o')):
             graph, start = read(path)
