@@ -47,16 +47,16 @@ class Fusion {
   // Whether the detector's errors explain the distance. They rotate with the viewing ray and
   // correlate from frame to frame, so a mean over sightings has the error of a single one.
   bool InOnePlace(const MapLandmark& a, const MapLandmark& b) const {
-    constexpr double kChiSquare99 = 9.21;  // 2 degrees of freedom
-    constexpr double kInside = 0.25;  // share of both widths: half of a mean width. Set by hand
-    const GravityFrame& gravity = map_.gravity();
-    const Vec3 apart = a.pose.position - b.pose.position;
-    const Vec2 d(apart.dot(gravity.forward), apart.dot(gravity.left));
-    if (!(d.norm() <= options_.refine.duplicate_m)) return false;
-    const double room = kInside * (a.dims.head<2>().minCoeff() + b.dims.head<2>().minCoeff());
-    if (d.norm() < room) return true;  // the objects would overlap
-    const Eigen::Matrix2d covariance = OneSighting(a) + OneSighting(b);
-    return d.dot(covariance.ldlt().solve(Eigen::Vector2d(d))) <= kChiSquare99;
+    constexpr double kChiSquare99 = 11.34;  // 3 degrees of freedom
+    constexpr double kInside = 0.25;        // share of both sizes: half of a mean size. Set by hand
+    const Vec3 d = map_.gravity().Basis().transpose() * (a.pose.position - b.pose.position);
+    const double apart = d.head<2>().norm();
+    if (!(apart <= options_.refine.duplicate_m)) return false;
+    const double width = kInside * (a.dims.head<2>().minCoeff() + b.dims.head<2>().minCoeff());
+    const double height = kInside * (a.dims.z() + b.dims.z());
+    if (apart < width && std::abs(d.z()) < height) return true;  // the objects would overlap
+    const Eigen::Matrix3d covariance = OneSighting(a) + OneSighting(b);
+    return d.dot(covariance.ldlt().solve(d)) <= kChiSquare99;
   }
 
  private:
@@ -75,16 +75,15 @@ class Fusion {
     return sum;
   }
 
-  // Horizontal covariance of a typical sighting, with the safety factor of association; NaN
-  // without sightings.
-  Eigen::Matrix2d OneSighting(const MapLandmark& landmark) const {
+  // Covariance of a typical sighting [forward, left, up], with the safety factor of association;
+  // NaN without sightings.
+  Eigen::Matrix3d OneSighting(const MapLandmark& landmark) const {
     NoiseScale scale = map_.noise_scale();
     for (double* component : {&scale.radial, &scale.lateral, &scale.vertical})
       *component = std::hypot(kNoiseCaution * *component, kLongTailScale);
     const Information sum = InformationOf(landmark, scale);
-    Eigen::Matrix<double, 2, 3> to_plane;
-    to_plane << map_.gravity().forward.transpose(), map_.gravity().left.transpose();
-    return to_plane * (sum.position / sum.sightings).inverse() * to_plane.transpose();
+    const Eigen::Matrix3d basis = map_.gravity().Basis();
+    return basis.transpose() * (sum.position / sum.sightings).inverse() * basis;
   }
 
   ObjectMap& map_;
