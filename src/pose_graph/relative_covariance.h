@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace sslcd {
+
+/// A measurement of the difference x_to - x_from of two six-vectors.
+struct DifferenceMeasurement {
+  int from = 0, to = 0;  ///< indices of the unknowns
+  Eigen::Matrix<double, 6, 6> covariance;
+};
+
+/// The covariance of the difference of any two unknowns of which only differences are measured.
+///
+/// The measurements are a network of matrix-valued resistors, and the covariance of x_b - x_a is
+/// its effective resistance between a and b: in series covariances add up, in parallel information
+/// does (Barooah and Hespanha, "Estimation on graphs from relative measurements", 2007). For poses
+/// Exp(xi) T_world_v, an edge of a pose graph with the information I measures xi_to - xi_from with
+/// the covariance Adj(T_world_to) I^-1 Adj(T_world_to)^T.
+class RelativeCovariances {
+ public:
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+  /// The measurements must connect all `unknowns`. O(unknowns) along a chain with few loops.
+  RelativeCovariances(int unknowns, const std::vector<DifferenceMeasurement>& measurements);
+
+  /// Covariance of x_b - x_a.
+  Mat6 Between(int a, int b) const;
+
+ private:
+  int unknowns_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> information_;
+};
+
+}  // namespace sslcd
