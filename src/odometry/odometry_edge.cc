@@ -3,12 +3,12 @@
 
 namespace sslcd {
 
-OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryNoise& noise,
+OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryModel& model,
                              const Vec3& up, double scale) {
   OdometryEdge edge;
   edge.T_from_to = frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam;
   const Vec3 up_here = frames[to].T_world_cam.so3().inverse() * up;
-  edge.information = InformationOf(SigmasOf(edge.T_from_to, noise), up_here);
+  edge.information = InformationOf(SigmasOf(edge.T_from_to, model.noise), up_here, model.factors);
   edge.T_from_to.translation() *= scale;
   return edge;
 }

@@ -17,7 +17,7 @@ struct OdometryEdge {
 
 /// Makes the edge between two frames, given by index. `up` is the unit vector against gravity in
 /// the world, `scale` is metres per odometry metre.
-OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryNoise& noise,
+OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryModel& model,
                              const Vec3& up, double scale);
 
 }  // namespace sslcd

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "odometry/pattern_search.h"
+
 namespace sslcd {
 namespace {
 
@@ -20,8 +22,6 @@ constexpr double kApart = 40;
 // and HALV-sim, seeds 1-10: 1 is better on Victoria Park and worse on HALV-sim (docs/notes,
 // "Loops on real sequences: the odometry's model").
 constexpr double kPriorSigma = 0.3;
-// Steps of the search for the log of a factor: from a factor of e to a few per cent.
-constexpr double kFirstStep = 1, kLastStep = 0.02;
 
 /// The odometry alone: its trajectory and path, and the covariances and the up direction of the
 /// step to each vertex.
@@ -150,24 +150,8 @@ double LogPosterior(const std::vector<Cycle>& cycles, const std::array<double, 2
 OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up) {
   const Chain chain = ChainOf(graph, up);
   const std::vector<Cycle> cycles = CyclesOf(chain, LoopsApart(graph, chain));
-  // Pattern search over two numbers with an accuracy of a few per cent.
-  std::array<double, 2> best{0, 0};
-  double best_value = LogPosterior(cycles, best);
-  for (double step = kFirstStep; step > kLastStep;) {
-    bool better = false;
-    for (const int i : {0, 1})
-      for (const double move : {-step, step}) {
-        std::array<double, 2> tried = best;
-        tried[i] += move;
-        const double value = LogPosterior(cycles, tried);
-        if (value > best_value) {
-          best = tried;
-          best_value = value;
-          better = true;
-        }
-      }
-    if (!better) step /= 2;
-  }
+  const std::array<double, 2> best = MaximiseOverLogs(
+      [&](const std::array<double, 2>& factors) { return LogPosterior(cycles, factors); });
   return {std::exp(best[0]), std::exp(best[1])};
 }
 

@@ -35,12 +35,14 @@ OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactor
                               const Vec3& up) {
   const Eigen::Matrix3d vertical = up * up.transpose(),
                         horizontal = Eigen::Matrix3d::Identity() - vertical;
-  return {horizontal / (factors.horizontal * sigmas.horizontal) + vertical / sigmas.vertical,
-          (horizontal + vertical / factors.heading) / sigmas.rotation};
+  return {horizontal / (factors.horizontal * sigmas.horizontal) +
+              vertical / (factors.vertical * sigmas.vertical),
+          (horizontal / factors.tilt + vertical / factors.heading) / sigmas.rotation};
 }
 
-Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up) {
-  const OdometryWhitening whitening = WhiteningOf(sigmas, {}, up);
+Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up,
+                                          const OdometryFactors& factors) {
+  const OdometryWhitening whitening = WhiteningOf(sigmas, factors, up);
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   information.topLeftCorner<3, 3>() = whitening.translation * whitening.translation;
   information.bottomRightCorner<3, 3>() = whitening.rotation * whitening.rotation;

@@ -12,10 +12,16 @@ struct OdometrySigmas {
 };
 OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise);
 
-/// Factors on the standard deviations that loops measure: the horizontal translation and the
-/// heading of a step.
+/// Factors on the standard deviations of a step: of its horizontal translation and its heading, and
+/// of its height and its tilt (roll and pitch).
 struct OdometryFactors {
-  double horizontal = 1, heading = 1;
+  double horizontal = 1, heading = 1, vertical = 1, tilt = 1;
+};
+
+/// The noise of a certain odometry: the configured one with factors learnt from the run.
+struct OdometryModel {
+  OdometryNoise noise;
+  OdometryFactors factors;
 };
 
 /// Symmetric whitening matrices of the two halves of the error Log(measured^-1 * T_from_to) of a
@@ -29,6 +35,7 @@ OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactor
                               const Vec3& up);
 
 /// The information of an edge between two poses [translation, rotation].
-Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up);
+Eigen::Matrix<double, 6, 6> InformationOf(const OdometrySigmas& sigmas, const Vec3& up,
+                                          const OdometryFactors& factors = {});
 
 }  // namespace sslcd

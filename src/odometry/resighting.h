@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "odometry/odometry_noise.h"
+
+namespace sslcd {
+
+/// Two sightings of a parked object on one pass. The detector's errors and those of odometry
+/// between the two frames explain why they put the object in two places. Coordinates [forward,
+/// left, up] of GravityFrame.
+struct Resighting {
+  Eigen::Vector3d moved;      ///< place by the second sighting minus that by the first one [m]
+  Eigen::Matrix3d detection;  ///< covariance by the detector's noise as configured [m^2]
+  Eigen::Matrix3d odometry;   ///< covariance by the noise of odometry as configured [m^2]
+};
+
+/// Learns how accurate this odometry is before any loop closes: the factors on the configured noise
+/// that make the resightings most likely, with unknown factors on the detector's noise. Horizontal
+/// and heading share a factor, height and tilt another one, because over the path that an object
+/// stays in sight they look alike. The likelihood is a Student-t, since some matches are wrong. A
+/// log-normal prior keeps factors at one where no resightings tell otherwise.
+OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings);
+
+}  // namespace sslcd
