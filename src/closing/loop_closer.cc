@@ -5,6 +5,7 @@
 
 #include "closing/loop_corrector.h"
 #include "closing/remeasure.h"
+#include "closing/resightings.h"
 
 namespace sslcd {
 namespace {
@@ -30,7 +31,9 @@ LoopCloser::LoopCloser(const LoopCloser& other)
       passes_(other.passes_),
       finder_(other.finder_->Clone()),
       ledger_(other.ledger_),
-      last_attempt_m_(other.last_attempt_m_) {}
+      last_attempt_m_(other.last_attempt_m_),
+      odometry_factors_(other.odometry_factors_),
+      learnt_at_m_(other.learnt_at_m_) {}
 
 void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing) {
   const double end_m = state.frames.back().travelled;
@@ -66,6 +69,7 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
                                   TimingTable& timing) {
   {
     const ScopedTimer timer(timing, "loop detection");
+    LearnOdometry(state, scale);
     if (!Search(state, window)) return;
   }
   const ScopedTimer timer(timing, "drift correction");
@@ -75,13 +79,24 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   if (!moves) return;
   const int here = state.frames.AtPath(window.end_m);
   const Pose before = state.frames[here].T_world_cam;
-  AdjustAfterLoop(state, scale, options_, whole_map_);
+  AdjustAfterLoop(state, scale, options_, whole_map_, odometry_factors_);
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
+}
+
+// Learns again whenever the path has grown by a tenth.
+void LoopCloser::LearnOdometry(const MapState& state, double scale) {
+  constexpr double kGrowth = 1.1;
+  const double path_m = state.frames.back().travelled;
+  if (path_m < kGrowth * learnt_at_m_) return;
+  learnt_at_m_ = path_m;
+  odometry_factors_ = LearnOdometryInSight(state, passes_, options_.odometry, scale);
 }
 
 // Returns true if a loop was accepted.
 bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
-  const std::optional<FoundLoop> found = finder_->Find({state, passes_, ledger_.path(), window});
+  const std::vector<LoopEdge> loops = ledger_.AcceptedEdges();
+  const std::optional<FoundLoop> found =
+      finder_->Find({state, passes_, loops, odometry_factors_, window});
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;
   ledger_.AcceptNewest(state.frames);
@@ -91,7 +106,8 @@ bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
 void LoopCloser::Correct(MapState& state, double end_m, double scale) {
   const int here = state.frames.AtPath(end_m);
   const Pose before = state.frames[here].T_world_cam;
-  if (!CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise)) return;
+  if (!CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise, odometry_factors_))
+    return;
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
 }
 

@@ -37,12 +37,16 @@ class LoopCloser {
   /// Reviews the loops after the refinement, see ReviewLoops.
   void Review(const MapState& state);
 
+  /// Factors on LoopOptions::odometry that the resightings of the run have taught so far.
+  const OdometryFactors& odometry_factors() const { return odometry_factors_; }
+
   LoopLedger& ledger() { return ledger_; }
   const LoopLedger& ledger() const { return ledger_; }
 
  private:
   void SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                         TimingTable& timing);
+  void LearnOdometry(const MapState& state, double scale);
   bool Search(const MapState& state, const SearchWindow& window);
   void Correct(MapState& state, double end_m, double scale);
   void SearchAgain(MapState& state, double scale, TimingTable& timing);
@@ -53,6 +57,8 @@ class LoopCloser {
   std::unique_ptr<LoopFinder> finder_;
   LoopLedger ledger_;
   double last_attempt_m_ = 0;
+  OdometryFactors odometry_factors_;
+  double learnt_at_m_ = 0;  // path at which they were learnt
 };
 
 }  // namespace sslcd

@@ -41,7 +41,8 @@ bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger) {
 }
 
 bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
-                       const LoopOptions& options, const DetectionNoise& noise) {
+                       const LoopOptions& options, const DetectionNoise& noise,
+                       const OdometryFactors& factors) {
   std::vector<LoopAttempt*> loops;
   std::vector<LoopEdge> edges;
   for (LoopAttempt& attempt : ledger.attempts()) {
@@ -50,7 +51,8 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
     loops.push_back(&attempt);
     edges.push_back({attempt.found.loop.match, attempt.found.loop.query, &attempt.row()});
   }
-  LoopGraph graph = BuildLoopGraph(state.frames, edges, scale, state.gravity().up, options);
+  LoopGraph graph =
+      BuildLoopGraph(state.frames, edges, scale, state.gravity().up, options, factors);
   if (!SolveGraph(graph, loops, options)) return false;
   const std::vector<Pose> before = PosesOf(state.frames);
   MoveKeyframes(state.frames, graph.keyframes, PosesOf(graph.graph));
@@ -78,7 +80,7 @@ MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
 }
 
 BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,
-                          const WholeMapOptions& whole_map) {
+                          const WholeMapOptions& whole_map, const OdometryFactors& factors) {
   // Starts at the solution of the pose graph, where more iterations hardly change the result.
   constexpr int kMaxSteps = 4;
   const std::vector<int> keyframes =
@@ -90,7 +92,7 @@ BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& opti
   adjust.ba.odometry = options.odometry;
   adjust.ba.odometry.scale_prior = 0;  // fixes the scale
   double log_scale = std::log(scale);
-  return OptimiseMap(state, keyframes, log_scale, {}, adjust);
+  return OptimiseMap(state, keyframes, log_scale, {factors, {}}, adjust);
 }
 
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity) {

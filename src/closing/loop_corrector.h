@@ -7,7 +7,7 @@
 namespace sslcd {
 
 /// The steps that correct trajectory and map by the accepted loops, in their order. Each is a
-/// function of the state and the ledger.
+/// function of the state and the ledger. `factors` are on LoopOptions::odometry.
 
 /// Whether the trajectory already agrees with all loops that are not solved yet.
 bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger);
@@ -16,7 +16,8 @@ bool AgreesWithNewLoops(const MapState& state, const LoopLedger& ledger);
 /// `options.robust`, it decides about each of these loops again. False: not solvable, nothing has
 /// moved.
 bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
-                       const LoopOptions& options, const DetectionNoise& noise);
+                       const LoopOptions& options, const DetectionNoise& noise,
+                       const OdometryFactors& factors);
 
 /// Fuses matched objects of accepted loops that are within `fuse_m` of each other, and the
 /// duplicates that this reveals. Updates the ids of the ledger.
@@ -27,7 +28,7 @@ MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
 /// keyframes of the pose graph, with fixed scale and the odometry noise of the pose graph. Not
 /// usable, and nothing moves, if there are more keyframes than `options.adjust_keyframes`.
 BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,
-                          const WholeMapOptions& whole_map);
+                          const WholeMapOptions& whole_map, const OdometryFactors& factors);
 
 /// The motion of the layout around a camera: yaw about the camera and shift. Heights are relative
 /// to the layout and stay.

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "closing/loop_graph.h"
 #include "closing/loop_meter.h"
 #include "closing/pass_map.h"
-#include "closing/path_graph.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/closing/place_matcher.h"
 
@@ -28,7 +28,8 @@ struct SearchWindow {
 struct FinderInput {
   const MapState& state;
   const PassMap& passes;
-  const PathGraph& path;  ///< accepted loops are its shortcuts
+  const std::vector<LoopEdge>& loops;  ///< the accepted ones
+  const OdometryFactors& odometry;     ///< on LoopOptions::odometry
   SearchWindow window;
 };
 

@@ -10,7 +10,8 @@
 namespace sslcd {
 
 LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,
-                         const Vec3& up, const LoopOptions& options) {
+                         const Vec3& up, const LoopOptions& options,
+                         const OdometryFactors& factors) {
   LoopGraph result;
   std::set<int> chosen;
   for (const int keyframe : SelectKeyframes(frames, options.keyframe_m, kGraphKeyframeRad))
@@ -26,7 +27,7 @@ LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& 
     edge.from = result.keyframes[k - 1];
     edge.to = result.keyframes[k];
     const OdometryEdge step =
-        OdometryBetween(frames, edge.from, edge.to, options.odometry, up, scale);
+        OdometryBetween(frames, edge.from, edge.to, {options.odometry, factors}, up, scale);
     edge.T_from_to = step.T_from_to;
     edge.information = step.information;
   }

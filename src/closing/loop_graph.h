@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/frame_store.h"
+#include "odometry/odometry_noise.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose_graph.h"
@@ -31,8 +32,9 @@ struct LoopGraph {
 };
 
 /// Builds the graph. `scale` is metres per odometry metre, `up` the unit vector against gravity in
-/// the world.
+/// the world, `factors` are on `options.odometry`.
 LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,
-                         const Vec3& up, const LoopOptions& options);
+                         const Vec3& up, const LoopOptions& options,
+                         const OdometryFactors& factors);
 
 }  // namespace sslcd

@@ -35,16 +35,6 @@ void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
                   "objects with fewer sightings on a pass take no part in loop closure");
 }
 
-void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options) {
-  visitor.Everyday("larger: loops far from where odometry has the camera get a chance")
-      .Real("drift_share", options.drift_share, 0, 1,
-            "standard deviation of odometry's position, share of the path");
-  visitor.Real("drift_yaw", options.drift_yaw, 0, 1,
-               "random walk of odometry's yaw, rad per sqrt(m) of path");
-  visitor.Real("surprise", options.surprise, 1e-9, 1,
-               "share of loops for which odometry is worse than loop.prior says");
-}
-
 void DescribeFields(FieldVisitor& visitor, LoopViewOptions& options) {
   visitor.Everyday("false: faster, but centimetres less exact where stereo images are given")
       .Flag("enabled", options.enabled,
@@ -73,7 +63,6 @@ void DescribeFields(FieldVisitor& visitor, LoopOptions& options) {
   visitor.Nested("layout", options.layout, "the local and the global map (paper IV-A)");
   visitor.Nested("match", options.match, "layout matching (paper IV-B, IV-C)");
   visitor.Nested("tracks", options.tracks, "agreement of consecutive attempts");
-  visitor.Nested("prior", options.prior, "expected errors of odometry where a loop closes");
   visitor.Nested("acceptance", options.acceptance, "rules that accept and withdraw loops");
   visitor.Nested("views", options.views, "ties between images of different passes");
   visitor.Real("lag_m", options.lag_m, 0, 1000,

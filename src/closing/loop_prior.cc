@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_prior.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -9,38 +10,103 @@
 namespace sslcd {
 namespace {
 
-// Standard deviations of the drift at path length 0. Set by hand. [m, rad]
-constexpr double kStartMetres = 1., kStartRad = 0.02;
-// At a sigma of sqrt(2 pi) = 2.5 the peak density of a Gaussian equals the uniform density 1 / (2
-// pi), so the sigma is limited to it. [rad]
-constexpr double kWidestYaw = 2.5;
+// Degrees of freedom of the Student-t distribution. With 4 as with 8, copies of a street 60 m aside
+// are refused, and Victoria Park closes the same loops.
+constexpr double kFreedom = 8;
+// Standard deviations without any path: those of the places and headings of two layouts. Set by
+// hand. [m, rad]
+constexpr double kLayoutMetres = 0.5, kLayoutRad = 0.02;
+constexpr double kOutlier = 3;  // in standard deviations
+
+// Log density of the standard Student-t distribution at the squared distance m2 from its centre.
+double LogStudent(double m2, int dimensions) {
+  return std::lgamma(0.5 * (kFreedom + dimensions)) - std::lgamma(0.5 * kFreedom) -
+         0.5 * dimensions * std::log(kFreedom * M_PI) -
+         0.5 * (kFreedom + dimensions) * std::log1p(m2 / kFreedom);
+}
+
+// Of the horizontal coordinates and the yaw.
+Eigen::Matrix3d WithoutHeight(const Eigen::Matrix4d& covariance) {
+  Eigen::Matrix3d level;
+  level << covariance.topLeftCorner<2, 2>(), covariance.topRightCorner<2, 1>(),
+      covariance.bottomLeftCorner<1, 2>(), covariance(3, 3);
+  return level;
+}
 
 }  // namespace
 
-PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances,
-                                const PassLayout& local, const LayoutIndex& index,
-                                const LoopPriorOptions& options) {
-  const double searched = index.pose_volume();
-  return [=, &passes, &local, &index](const YawShift& pose, const LayoutFit& fit) {
-    if (fit.matches.empty()) return 0.;
-    std::vector<double> paths;
-    Vec3 centre = Vec3::Zero();
-    for (const auto& [i, j] : fit.matches) {
-      const int first_pass = passes.PassesOf({index.objects()[j].id}).front();
-      paths.push_back(distances.To(passes.passes()[first_pass].last_m));
-      centre += local.objects[i].position / static_cast<double>(fit.matches.size());
-    }
-    const double path = Median(std::move(paths));
-    const double sigma_yaw = std::hypot(kStartRad, options.drift_yaw * std::sqrt(path));
-    const double sigma =
-        std::hypot(kStartMetres, options.drift_share * path, sigma_yaw * path / std::sqrt(3.));
-    const double moved = (Apply(pose, centre) - centre).head<2>().norm() / sigma;
-    const double turned = WrapAngle(pose.yaw) / sigma_yaw;
-    const double density =
-        std::exp(-0.5 * (moved * moved + turned * turned)) /
-        (std::pow(2 * M_PI, 1.5) * sigma * sigma * std::min(sigma_yaw, kWidestYaw));
-    return std::log(options.surprise + (1 - options.surprise) * searched * density);
-  };
+// Of the motion of the world at frame `to` against that at `from` [forward, left, up; yaw].
+Eigen::Matrix4d OdometryPrior::Covariance(int from, int to) const {
+  const GravityFrame& gravity = state_.gravity();
+  // A perturbation [rho, phi] of the world moves its point c by rho + phi x c.
+  Eigen::Matrix<double, 3, 6> motion;
+  motion << Eigen::Matrix3d::Identity(),
+      -lie::SO3<double>::hat(state_.frames[to].T_world_cam.translation());
+  Eigen::Matrix<double, 4, 6> to_layout;
+  to_layout << gravity.Basis().transpose() * motion, Vec3::Zero().transpose(),
+      gravity.up.transpose();
+  Eigen::Matrix4d covariance = to_layout * uncertainty_.Between(from, to) * to_layout.transpose();
+  covariance.diagonal().head<3>().array() += kLayoutMetres * kLayoutMetres;
+  covariance(3, 3) += kLayoutRad * kLayoutRad;
+  return covariance;
+}
+
+// Motion of the point midway between the camera, which odometry places, and `centre`, where the
+// matched objects place the pose; and the yaw.
+Vec3 OdometryPrior::LevelError(const YawShift& pose, const Vec3& centre) const {
+  const Vec3 camera =
+      state_.gravity().Basis().transpose() * state_.frames[here_].T_world_cam.translation();
+  const Vec3 at = 0.5 * (camera + centre);
+  const Vec3 moved = Apply(pose, at) - at;
+  return {moved.x(), moved.y(), WrapAngle(pose.yaw)};
+}
+
+PosePrior OdometryPrior::Of(const YawShift& pose, const LayoutFit& fit) const {
+  if (fit.matches.empty()) return {};
+  std::vector<double> old_m, rise;
+  Vec3 centre = Vec3::Zero();
+  for (const auto& [i, j] : fit.matches) {
+    const LayoutObject& old = index_.objects()[j];
+    old_m.push_back(passes_.passes()[passes_.PassesOf({old.id}).front()].last_m);
+    rise.push_back(old.altitude - local_.objects[i].altitude);
+    centre += local_.objects[i].position / static_cast<double>(fit.matches.size());
+  }
+  const int old = state_.frames.AtPath(Median(std::move(old_m)));
+  const Eigen::Matrix3d covariance = WithoutHeight(Covariance(old, here_));
+  const Vec3 error = LevelError(pose, centre);
+  PosePrior prior;
+  prior.level = std::log(index_.pose_volume()) - 0.5 * std::log(covariance.determinant()) +
+                LogStudent(error.dot(covariance.inverse() * error), 3);
+  prior.height = OfRise(old, here_, Median(std::move(rise)));
+  return prior;
+}
+
+double OdometryPrior::OfHeight(const LoopMeasurement& loop) const {
+  const Pose &T_world_match = state_.frames[loop.match].T_world_cam,
+             &T_world_query = state_.frames[loop.query].T_world_cam;
+  const Vec3 moved =
+      (T_world_match * loop.row.T_match_query).translation() - T_world_query.translation();
+  return OfRise(loop.match, loop.query, state_.gravity().up.dot(moved));
+}
+
+double OdometryPrior::OfRise(int from, int to, double rise_m) const {
+  const double variance = Covariance(from, to)(2, 2);
+  return LogStudent(rise_m * rise_m / variance, 1) - LogStudent(0, 1);
+}
+
+double OdometryPrior::Rank(const YawShift& pose) const {
+  const Vec3 camera =
+      state_.gravity().Basis().transpose() * state_.frames[here_].T_world_cam.translation();
+  const Vec3 error = LevelError(pose, camera);
+  return -error.dot(WithoutHeight(Covariance(0, here_)).inverse() * error);
+}
+
+double OdometryPrior::LargestRise() const {
+  constexpr int kTried = 6;  // frames along the path: the variance changes slowly
+  double variance = 0;
+  for (int i = 0; i < kTried; ++i)
+    variance = std::max(variance, Covariance(here_ * i / kTried, here_)(2, 2));
+  return kOutlier * std::sqrt(variance);
 }
 
 }  // namespace sslcd

@@ -1,18 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "closing/loop_meter.h"
 #include "closing/pass_layout.h"
-#include "closing/path_graph.h"
+#include "closing/trajectory_uncertainty.h"
 #include "loop/pose_tracks.h"
-#include "sslcd/closing/options.h"
 
 namespace sslcd {
 
-/// The prior log odds of a pose: the likelihood of the required odometry error over the path with
-/// shortcuts, against poses uniformly distributed over the searched map, like LayoutFit::evidence.
-/// Keeps references to passes, layout and index.
-PoseTracks::Prior OdometryPrior(const PassMap& passes, const PathGraph::Distances& distances,
-                                const PassLayout& local, const LayoutIndex& index,
-                                const LoopPriorOptions& options);
+/// What odometry and the accepted loops say of a pose of the local map, before objects are
+/// compared. The error of the trajectory that a pose implies follows a Student-t distribution
+/// (docs/decision.md) with the covariance of TrajectoryUncertainty. Its heavy tail is for errors
+/// that the noise learnt in sight does not foresee.
+class OdometryPrior {
+ public:
+  /// `here` is the frame in the middle of the local map. Keeps references to the other arguments.
+  OdometryPrior(const MapState& state, const PassMap& passes, const PassLayout& local,
+                const LayoutIndex& index, const TrajectoryUncertainty& uncertainty, int here)
+      : state_(state),
+        passes_(passes),
+        local_(local),
+        index_(index),
+        uncertainty_(uncertainty),
+        here_(here) {}
+
+  /// The prior of a pose with its matches; without any it says nothing.
+  PosePrior Of(const YawShift& pose, const LayoutFit& fit) const;
+
+  /// Log likelihood of a loop's measured height against the height of the trajectory; never
+  /// positive. [nats]
+  double OfHeight(const LoopMeasurement& loop) const;
+
+  /// Orders poses by the drift since the first frame that they imply; the larger, the more
+  /// probable.
+  double Rank(const YawShift& pose) const;
+
+  /// Largest rise of the world between here and an old frame that is no outlier. [m]
+  double LargestRise() const;
+
+ private:
+  Eigen::Matrix4d Covariance(int from, int to) const;
+  Vec3 LevelError(const YawShift& pose, const Vec3& centre) const;
+  double OfRise(int from, int to, double rise_m) const;
+
+  const MapState& state_;
+  const PassMap& passes_;
+  const PassLayout& local_;
+  const LayoutIndex& index_;
+  const TrajectoryUncertainty& uncertainty_;
+  int here_;
+};
 
 }  // namespace sslcd

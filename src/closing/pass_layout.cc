@@ -27,6 +27,7 @@ LayoutObject ObjectOf(const MapLandmark& landmark, const GravityFrame& gravity,
   object.id = landmark.id.value;
   object.symmetry = landmark.symmetry;
   object.position = gravity.Basis().transpose() * place.pose.position;
+  object.altitude = object.position.z();
   object.position.z() = place.height_m;
   object.yaw = landmark.symmetry == Symmetry::kFull ? std::numeric_limits<double>::quiet_NaN()
                                                     : place.pose.yaw;

@@ -67,7 +67,7 @@ void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, dou
     return std::abs(frames[a].travelled - frames[b].travelled);
   };
   const auto walk = [&](int from, int to) {
-    return OdometryBetween(frames, from, to, noise, state.gravity().up, scale).Measurement();
+    return OdometryBetween(frames, from, to, {noise, {}}, state.gravity().up, scale).Measurement();
   };
   for (LoopAttempt& attempt : ledger.attempts()) {
     if (!attempt.accepted()) continue;
@@ -100,7 +100,7 @@ OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, d
   if (!options.learn_odometry) return {};
   const Vec3 up = state.gravity().up;
   return LearnOdometryFactors(
-      BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options).graph, up);
+      BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options, {}).graph, up);
 }
 
 }  // namespace sslcd

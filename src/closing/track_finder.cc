@@ -8,6 +8,7 @@
 #include "closing/loop_finder.h"
 #include "closing/loop_prior.h"
 #include "closing/pass_layout.h"
+#include "closing/trajectory_uncertainty.h"
 #include "loop/decision.h"
 #include "loop/pose_tracks.h"
 
@@ -32,7 +33,11 @@ class TrackFinder : public LoopFinder {
     const LayoutIndex& index = global_.Update(input.state, input.passes, global_end_m);
     const std::size_t few = static_cast<std::size_t>(options_.match.search.min_matches);
     if (std::min(local.objects.size(), index.objects().size()) < few) return std::nullopt;
-    UpdateTracks(input, local, index);
+    const TrajectoryUncertainty uncertainty(input.state, input.loops,
+                                            {options_.odometry, input.odometry});
+    const OdometryPrior prior(input.state, input.passes, local, index, uncertainty,
+                              input.state.frames.AtPath(window.end_m - 0.5 * window.local_m));
+    UpdateTracks(input, local, index, prior);
     if (tracks_.tracks().empty()) return std::nullopt;
 
     const PoseTrack& best = tracks_.tracks()[0];
@@ -41,35 +46,39 @@ class TrackFinder : public LoopFinder {
     const LoopMeter meter(input.state, input.passes, options_);
     auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
-    return Decide(std::move(*loop), best, index.pose_volume());
+    return Decide(std::move(*loop), best, index.pose_volume(), prior);
   }
 
   void MoveLocalMap(const YawShift& change) override { tracks_.Move(change); }
   void Reset() override { tracks_.Forget(); }
 
  private:
-  void UpdateTracks(const FinderInput& input, const PassLayout& local, const LayoutIndex& index) {
-    const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood);
+  void UpdateTracks(const FinderInput& input, const PassLayout& local, const LayoutIndex& index,
+                    const OdometryPrior& prior) {
+    const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood,
+                                      prior.LargestRise());
     PoseSearchOptions search = options_.match.search;
     // fewer, since the tracks keep the poses of earlier attempts
     search.refine = options_.tracks.max_tracks;
-    std::vector<PoseHypothesis> found = SearchPoses(likelihood, search);
+    std::vector<PoseHypothesis> found = SearchPoses(
+        likelihood, search, [&prior](const YawShift& pose) { return prior.Rank(pose); });
     PoseHypothesis no_drift;  // the current pose of the trajectory as hypothesis
     no_drift.fit = likelihood.Refine(no_drift.pose, kRefineRounds);
     if (static_cast<int>(no_drift.fit.matches.size()) >= search.min_matches)
       found.insert(found.begin(), no_drift);
-    const double end_m = input.window.end_m;
     tracks_.Update(
-        likelihood, found, search, end_m,
-        OdometryPrior(input.passes, input.path.From(end_m), local, index, options_.prior));
+        likelihood, found, search, input.window.end_m,
+        [&prior](const YawShift& pose, const LayoutFit& fit) { return prior.Of(pose, fit); });
   }
 
-  FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double searched) const {
+  FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double searched,
+                   const OdometryPrior& prior) const {
     TrackEvidence evidence;
     evidence.evidence = best.evidence;
     evidence.margin = tracks_.Margin(0);
     evidence.second_margin = tracks_.Margin(1);
     evidence.own_evidence = EvidenceOnTrack(best.fit.evidence, searched);
+    evidence.height = prior.OfHeight(loop);
     evidence.heading_sigma_rad = loop.heading_sigma;
     evidence.apart_m = loop.row.T_match_query.translation().norm();
     const TrackVerdict verdict = DecideTrack(evidence, options_.acceptance);

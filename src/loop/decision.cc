@@ -8,6 +8,9 @@
 namespace sslcd {
 namespace {
 
+// Least log likelihood of a measured height: 2.7 standard deviations. Set by hand. [nats]
+constexpr double kLeastHeight = -3;
+
 std::string Nats(double value) { return std::to_string(std::lround(value)) + " nats"; }
 
 // Log odds of one of the poses against all others and chance.
@@ -81,6 +84,8 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
   std::string weakness;
   if (track.own_evidence < 0)
     weakness = "too few objects of its own agree";
+  else if (track.height < kLeastHeight)
+    weakness = "odometry is at another height";
   else if (track.heading_sigma_rad >= options.max_heading_sigma_rad)
     weakness = "heading too uncertain";
   else if (track.apart_m >= options.max_apart_m)

@@ -27,6 +27,8 @@ struct TrackEvidence {
   double second_margin = 0;  ///< the same for the second best track, or for "nowhere"
   /// evidence of the objects of this attempt alone, at the track's pose [nats]
   double own_evidence = 0;
+  /// log likelihood of the measured height against that of the trajectory, never positive [nats]
+  double height = 0;
   double heading_sigma_rad = 0;  ///< standard deviation of the heading of the measured loop
   double apart_m = 0;            ///< distance between query and match camera
 };

@@ -55,10 +55,11 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
 }
 
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                                   const LayoutLikelihoodOptions& options)
+                                   const LayoutLikelihoodOptions& options, double max_rise_m)
     : local_(local),
       index_(index),
       options_(options),
+      max_rise_m_(max_rise_m),
       semantics_(local, index, options),
       view_(local) {
   for (std::size_t n = 0; n <= local.size(); ++n)
@@ -79,7 +80,7 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
       const double dx = object.position.x() - x, dy = object.position.y() - y;
       const double dz = object.position.z() - p.z() - pose.t.z();
       const double d2 = dx * dx + dy * dy;
-      if (d2 >= reach2) continue;
+      if (d2 >= reach2 || std::abs(object.altitude - local_[i].altitude) > max_rise_m_) continue;
       const int local = static_cast<int>(i);
       const double gain = semantics_.Gain(local, j, pose.yaw);
       candidates.push_back(

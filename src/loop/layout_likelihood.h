@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <vector>
@@ -26,8 +27,10 @@ inline constexpr int kRefineRounds = 4;
 /// caches, so it is not thread-safe.
 class LayoutLikelihood {
  public:
+  /// Objects whose altitudes differ by more than `max_rise_m` do not match.
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                   const LayoutLikelihoodOptions& options);
+                   const LayoutLikelihoodOptions& options,
+                   double max_rise_m = std::numeric_limits<double>::infinity());
 
   const std::vector<LayoutObject>& local() const { return local_; }
   const LayoutIndex& index() const { return index_; }
@@ -69,6 +72,7 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
+  double max_rise_m_;
   SemanticEvidence semantics_;
   ViewHull view_;
   // log probability that none of n objects is mapped, by n

@@ -14,8 +14,34 @@ void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options) {
                "objects that have to fit for a pose to count");
 }
 
+namespace {
+
+// The poses to refine: the best coarse ones, and the best of the prior among more of them.
+std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3& centre,
+                             const LayoutIndex& index, PoseSearchOptions options,
+                             const std::function<double(const YawShift&)>& prior) {
+  constexpr int kMore = 10;
+  const std::size_t refine = options.refine;
+  if (prior) options.refine *= kMore;
+  std::vector<YawShift> starts;
+  for (const CoarsePose& coarse : CoarsePoses(local, centre, index, options)) {
+    YawShift& pose = starts.emplace_back();
+    pose.yaw = std::atan2(coarse.sine, coarse.cosine);
+    pose.t = Vec3(coarse.x, coarse.y, coarse.z) - Apply(pose, centre);
+  }
+  if (starts.size() <= refine) return starts;
+  const auto rest = starts.begin() + static_cast<std::ptrdiff_t>(refine);
+  std::stable_sort(rest, starts.end(),
+                   [&](const YawShift& a, const YawShift& b) { return prior(a) > prior(b); });
+  starts.resize(std::min(starts.size(), 2 * refine));
+  return starts;
+}
+
+}  // namespace
+
 std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
-                                        const PoseSearchOptions& options) {
+                                        const PoseSearchOptions& options,
+                                        const std::function<double(const YawShift&)>& prior) {
   const std::vector<LayoutObject>& local = likelihood.local();
   const LayoutIndex& index = likelihood.index();
   std::vector<PoseHypothesis> found;
@@ -23,13 +49,10 @@ std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
   Vec3 centre = Vec3::Zero();
   for (const LayoutObject& object : local)
     centre += object.position / static_cast<double>(local.size());
-  for (const CoarsePose& start : CoarsePoses(local, centre, index, options)) {
+  for (const YawShift& start : Starts(local, centre, index, options, prior)) {
     PoseHypothesis hypothesis;
-    YawShift& pose = hypothesis.pose;
-    pose.yaw = std::atan2(start.sine, start.cosine);
-    pose.t = Vec3::Zero();
-    pose.t = Vec3(start.x, start.y, start.z) - Apply(pose, centre);
-    hypothesis.fit = likelihood.Refine(pose, kRefineRounds);
+    hypothesis.pose = start;
+    hypothesis.fit = likelihood.Refine(hypothesis.pose, kRefineRounds);
     if (static_cast<int>(hypothesis.fit.matches.size()) >= options.min_matches)
       found.push_back(hypothesis);
   }

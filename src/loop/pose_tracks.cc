@@ -39,6 +39,9 @@ double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
 void DescribeFields(FieldVisitor& visitor, PoseTrackOptions& options) {
   visitor.Real("agree_m", options.agree_m, 0, 10000,
                "attempts farther back on the path than this do not count for a track");
+  visitor.Everyday("higher: fewer wrong loops where places look alike, and fewer loops")
+      .Real("look_alike", options.look_alike, 1e-12, 1,
+            "probability that a place that is not in the map looks like one that is");
 }
 
 // One attempt: the data common to all tracks, and the tracks so far.
@@ -77,8 +80,8 @@ void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit&
     objects += static_cast<double>(vote.objects.size());
   }
   track.prior = attempt.prior(pose, fit);
-  track.evidence =
-      track.prior + fit.evidence - fit.score + scores * attempt.Different(track.votes) / objects;
+  track.evidence = track.prior.level + track.prior.height + fit.evidence - fit.score +
+                   scores * attempt.Different(track.votes) / objects;
   attempt.tracks.push_back(std::move(track));
 }
 
@@ -109,7 +112,13 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
 }
 
 double PoseTracks::Margin(std::size_t track) const {
-  std::vector<double> evidence = {0.};  // of "nowhere", then of the tracks
+  // A place that looks like a track's may be anywhere, also above it: neither of the priors that
+  // speak against the track speaks against such a place.
+  double alike = 0;
+  for (const PoseTrack& each : tracks_)
+    alike = std::max(alike, each.evidence - each.prior.height - std::min(0., each.prior.level) +
+                                std::log(options_.look_alike));
+  std::vector<double> evidence = {LogSumExp({0., alike})};  // of "nowhere", then of the tracks
   for (const PoseTrack& each : tracks_) evidence.push_back(each.evidence);
   const std::size_t subject = track < tracks_.size() ? track + 1 : 0;
   const double own = evidence[subject];

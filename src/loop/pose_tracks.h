@@ -9,6 +9,12 @@
 
 namespace sslcd {
 
+/// Prior log odds of a pose against poses uniformly distributed over the searched map. [nats]
+struct PosePrior {
+  double level = 0;   ///< of its horizontal position and heading
+  double height = 0;  ///< of its height, never positive
+};
+
 /// A pose that several attempts have found.
 struct PoseTrack {
   struct Vote {
@@ -16,9 +22,9 @@ struct PoseTrack {
     std::vector<int> objects;  ///< the local map, by id
   };
   int id = 0;
-  YawShift pose;     ///< T_global_local of the last attempt
-  LayoutFit fit;     ///< of the last attempt
-  double prior = 0;  ///< prior log odds of the pose
+  YawShift pose;  ///< T_global_local of the last attempt
+  LayoutFit fit;  ///< of the last attempt
+  PosePrior prior;
   /// log odds of the pose against chance from all attempts [nats]
   double evidence = 0;
   std::vector<Vote> votes;  ///< attempts so far, oldest first
@@ -27,13 +33,13 @@ struct PoseTrack {
 /// Temporal consistency: the true pose continues to fit while the camera moves, an accidental one
 /// does not. The next attempt evaluates the poses of the previous ones again. Scores add up in
 /// proportion to the new objects:
-///   evidence = prior + volume + mean(score) (different objects in all local maps) / (mean objects
-///   in one)
+///   evidence = prior + layout, layout = volume + mean(score) (different objects in all local maps)
+///   / (mean objects in one)
 /// with score and volume of LayoutFit (evidence = score + volume). For one attempt this is
 /// LayoutFit's evidence.
 class PoseTracks {
  public:
-  using Prior = std::function<double(const YawShift&, const LayoutFit&)>;
+  using Prior = std::function<PosePrior(const YawShift&, const LayoutFit&)>;
 
   explicit PoseTracks(const PoseTrackOptions& options) : options_(options) {}
 
@@ -45,7 +51,8 @@ class PoseTracks {
   const std::vector<PoseTrack>& tracks() const { return tracks_; }
 
   /// Log odds of a track against all others and against "nowhere"; those of "nowhere" against all
-  /// tracks where there is no track of that number. At least one track. [nats]
+  /// tracks where there is no track of that number. At least one track. "Nowhere" is a place that
+  /// is not in the map: it looks like chance, or like the place of a track. [nats]
   double Margin(std::size_t track) const;
 
   /// Transforms the tracks after a change of the local map's coordinates: new = change(old).

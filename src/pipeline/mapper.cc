@@ -140,6 +140,8 @@ BaSummary Mapper::Refine() {
   if (m.loops.ledger().AnyAccepted()) {  // later frames keep the correction of the loops
     whole_map.ba.odometry = loop.odometry;
     evidence.odometry_factors = LearnOdometry(m.state, m.loops.ledger(), m.scale(), loop);
+    evidence.odometry_factors.vertical = m.loops.odometry_factors().vertical;
+    evidence.odometry_factors.tilt = m.loops.odometry_factors().tilt;
   }
   m.view_ties.clear();
   BaSummary summary = m.Adjust(whole_map, evidence);
@@ -171,8 +173,8 @@ PoseGraph Mapper::Graph() const {
   for (int i = 0; i < frames.size(); ++i) {
     graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
     if (i == 0) continue;
-    const OdometryEdge step =
-        OdometryBetween(frames, i - 1, i, impl_->options.ba.odometry, gravity().up, impl_->scale());
+    const OdometryEdge step = OdometryBetween(frames, i - 1, i, {impl_->options.ba.odometry, {}},
+                                              gravity().up, impl_->scale());
     graph.edges.push_back(
         {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }

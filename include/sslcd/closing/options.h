@@ -23,15 +23,6 @@ struct LoopLayoutOptions {
 };
 void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options);
 
-/// The prior of the drift, before objects are compared. Closed loops are shortcuts of the path:
-/// after the first one the prior is narrow.
-struct LoopPriorOptions {
-  double drift_share = 0.02;  ///< standard deviation of the position, share of the path
-  double drift_yaw = 0.02;    ///< random walk of the yaw [rad per sqrt(m)]
-  double surprise = 1e-6;     ///< share of loops that violate the two values above
-};
-void DescribeFields(FieldVisitor& visitor, LoopPriorOptions& options);
-
 /// The selection of camera pairs of different passes to align by their images (ViewAligner).
 /// Odometry with closed loops as shortcuts gives the initial guess.
 struct LoopViewOptions {
@@ -65,7 +56,6 @@ struct LoopOptions {
   LoopLayoutOptions layout;
   LayoutMatchOptions match;  ///< matching of the local with the global map
   PoseTrackOptions tracks;
-  LoopPriorOptions prior;
   LoopAcceptanceOptions acceptance;
   LoopViewOptions views;
   /// path from the query camera to the newest one, so that matched objects lie on both sides of it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "sslcd/core/cue.h"
@@ -23,8 +24,10 @@ struct LayoutObject {
   int label = 0;  ///< number of the label
   Symmetry symmetry = Symmetry::kNone;
   Vec3 position{0, 0, 0};  ///< centre [m]
-  double yaw = 0;          ///< about z; NaN: unknown [rad]
-  Vec3 dims{0, 0, 0};      ///< length, width, height [m]; zero: unknown
+  /// height of the centre in the world, which tells storeys apart; NaN: unknown [m]
+  double altitude = std::numeric_limits<double>::quiet_NaN();
+  double yaw = 0;      ///< about z; NaN: unknown [rad]
+  Vec3 dims{0, 0, 0};  ///< length, width, height [m]; zero: unknown
   /// views of each cue, one per viewing direction; empty: unknown
   PerCue<std::vector<AppearanceView>> appearance;
 };

@@ -57,6 +57,10 @@ void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
 /// Options of tracking hypotheses from one attempt to the next.
 struct PoseTrackOptions {
   double agree_m = 100.;  ///< largest path from an attempt that counts
+  /// Probability that a place outside of the map looks like one in it. Objects alone give odds of
+  /// at most 1 / look_alike; odometry has to give the rest. e^-8: on the worlds of docs/decision.md
+  /// e^-6 to e^-10 accept no wrong loop more.
+  double look_alike = 3.4e-4;
   /// no key: largest translation and rotation of a hypothesis from one attempt to the next. Set by
   /// hand.
   double step_m = 3.;
@@ -81,7 +85,7 @@ void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options);
 /// to 10), Victoria Park and the pole sequences, with the same values for all.
 struct LoopAcceptanceOptions {
   /// smallest log odds of the track against all others and against "nowhere" [nats]
-  double min_margin = 13.;
+  double min_margin = 5.;
   double max_heading_sigma_rad = 0.042;  ///< largest standard deviation of the measured heading
   double max_apart_m = 30.;              ///< largest distance between the two cameras
   /// a loop is withdrawn if the refined trajectory differs by at least this distance

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "closing/trajectory_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "refine/trajectory_correction.h"
+
+namespace sslcd {
+namespace {
+
+using Mat6 = TrajectoryUncertainty::Mat6;
+
+// Path from one vertex to the next, and most vertices: a covariance need not be more exact, and is
+// asked for dozens of times per attempt. Set by hand.
+constexpr double kVertexM = 20, kMostVertices = 100;
+constexpr double kAnyTurn = 10;  // more than any rotation [rad]
+
+// In the world: of perturbations Exp(xi) T_world_cam.
+Mat6 InWorld(const Mat6& covariance, const Pose& T_world_cam) {
+  const Mat6 to_world = T_world_cam.Adj();
+  return to_world * covariance * to_world.transpose();
+}
+
+}  // namespace
+
+TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
+                                             const std::vector<LoopEdge>& loops,
+                                             const OdometryModel& odometry)
+    : frames_(SelectKeyframes(state.frames,
+                              std::max(kVertexM, state.frames.back().travelled / kMostVertices),
+                              kAnyTurn)) {
+  const FrameStore& frames = state.frames;
+  for (const FrameRecord& frame : frames) path_of_all_.push_back(frame.travelled);
+  for (const int frame : frames_) path_m_.push_back(path_of_all_[frame]);
+  const auto walk = [&](int from, int to) -> Mat6 {
+    if (from == to) return Mat6::Zero();
+    const Pose& T_world_to = frames[to].T_world_cam;
+    const OdometrySigmas sigmas =
+        SigmasOf(frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam, odometry.noise);
+    const Vec3 up = T_world_to.so3().inverse() * state.gravity().up;
+    return InWorld(InformationOf(sigmas, up, odometry.factors).inverse(), T_world_to);
+  };
+  std::vector<DifferenceMeasurement> measured;
+  for (std::size_t v = 1; v < frames_.size(); ++v)
+    measured.push_back(
+        {static_cast<int>(v - 1), static_cast<int>(v), walk(frames_[v - 1], frames_[v])});
+  // Loops between the same two vertices share their objects: the most certain one stands for all.
+  std::map<std::pair<int, int>, const LoopEdge*> best;
+  const auto variance = [](const LoopEdge& loop) {
+    return Mat6(loop.closure->covariance).topLeftCorner<3, 3>().trace();
+  };
+  for (const LoopEdge& loop : loops) {
+    const std::pair<int, int> ends{NearestVertex(loop.match), NearestVertex(loop.query)};
+    if (ends.first == ends.second) continue;
+    const auto [known, is_new] = best.insert({ends, &loop});
+    if (!is_new && variance(loop) < variance(*known->second)) known->second = &loop;
+  }
+  for (const auto& [ends, loop] : best)
+    measured.push_back({ends.first, ends.second,
+                        walk(frames_[ends.first], loop->match) +
+                            InWorld(loop->closure->covariance, frames[loop->query].T_world_cam) +
+                            walk(loop->query, frames_[ends.second])});
+  covariances_.emplace(static_cast<int>(frames_.size()), measured);
+}
+
+int TrajectoryUncertainty::NearestVertex(int frame) const {
+  const double at_m = path_of_all_[frame];
+  const auto after = std::lower_bound(path_m_.begin(), path_m_.end(), at_m);
+  int vertex = static_cast<int>(after - path_m_.begin());
+  if (vertex == static_cast<int>(path_m_.size())) return vertex - 1;
+  if (vertex > 0 && at_m - path_m_[vertex - 1] < path_m_[vertex] - at_m) --vertex;
+  return vertex;
+}
+
+const Mat6& TrajectoryUncertainty::Between(int from, int to) const {
+  const std::pair<int, int> ends{NearestVertex(from), NearestVertex(to)};
+  const auto known = known_.find(ends);
+  if (known != known_.end()) return known->second;
+  return known_.insert({ends, covariances_->Between(ends.first, ends.second)}).first->second;
+}
+
+}  // namespace sslcd

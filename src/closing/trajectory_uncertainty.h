@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "closing/loop_graph.h"
+#include "map/map_state.h"
+#include "odometry/odometry_noise.h"
+#include "pose_graph/relative_covariance.h"
+
+namespace sslcd {
+
+/// How far odometry and the accepted loops leave the relative pose of two frames open. Computed
+/// from the pose graph of both with a vertex every 20 m of path. Has no references.
+class TrajectoryUncertainty {
+ public:
+  using Mat6 = RelativeCovariances::Mat6;
+
+  TrajectoryUncertainty(const MapState& state, const std::vector<LoopEdge>& loops,
+                        const OdometryModel& odometry);
+
+  /// Covariance of the motion [translation, rotation] of the world around the frame `to` relative
+  /// to the world around `from`. Accurate to the 10 m of path to the nearest vertex.
+  const Mat6& Between(int from, int to) const;
+
+  /// Index of every vertex' frame.
+  const std::vector<int>& frames() const { return frames_; }
+
+ private:
+  int NearestVertex(int frame) const;
+
+  std::vector<int> frames_;
+  std::vector<double> path_m_;       // of the vertices
+  std::vector<double> path_of_all_;  // of all frames
+  std::optional<RelativeCovariances> covariances_;
+  mutable std::map<std::pair<int, int>, Mat6> known_;
+};
+
+}  // namespace sslcd
