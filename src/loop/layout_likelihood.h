@@ -32,6 +32,11 @@ class LayoutLikelihood {
                    const LayoutLikelihoodOptions& options,
                    double max_rise_m = std::numeric_limits<double>::infinity());
 
+  /// The same for another local layout, which must outlive it.
+  LayoutLikelihood Of(const std::vector<LayoutObject>& local) const {
+    return LayoutLikelihood(local, index_, options_, max_rise_m_);
+  }
+
   const std::vector<LayoutObject>& local() const { return local_; }
   const LayoutIndex& index() const { return index_; }
 

@@ -25,6 +25,12 @@ bool AreNear(const YawShift& a, const YawShift& b, const Vec3& point, double dis
          std::abs(WrapAngle(a.yaw - b.yaw)) < angle_rad;
 }
 
+std::vector<int> IdsOf(const std::vector<LayoutObject>& objects) {
+  std::vector<int> ids;
+  for (const LayoutObject& object : objects) ids.push_back(object.id);
+  return ids;
+}
+
 // Number of different objects in the local maps of several attempts.
 double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
   std::vector<int> all;
@@ -51,7 +57,13 @@ struct PoseTracks::Attempt {
   Vec3 centre;               // of the local map, where poses are compared
   const PoseSearchOptions& search;
   const Prior& prior;
-  // Number of different objects by first vote and number of votes: tracks of the same age have the
+  std::vector<int> IdsOf(const std::vector<LayoutObject>& objects) {
+  std::vector<int> ids;
+  for (const LayoutObject& object : objects) ids.push_back(object.id);
+  return ids;
+}
+
+// Number of different objects by first vote and number of votes: tracks of the same age have the
   // same local maps.
   std::map<std::pair<double, std::size_t>, double> different_since;
   std::vector<PoseTrack> tracks;
@@ -90,8 +102,9 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
                         double path_m, const Prior& prior) {
   const std::vector<LayoutObject>& local = likelihood.local();
   if (local.empty()) return;
-  Attempt attempt{path_m, {}, CentreOf(local), search, prior, {}, {}};
-  for (const LayoutObject& object : local) attempt.objects.push_back(object.id);
+  while (!earlier_.empty() && path_m - earlier_.front().path_m > options_.agree_m)
+    earlier_.erase(earlier_.begin());
+  Attempt attempt{path_m, IdsOf(local), CentreOf(local), search, prior, {}, {}};
   for (PoseTrack& track : tracks_) {
     YawShift pose = track.pose;
     LayoutFit fit = likelihood.Refine(pose, kRefineRounds);
@@ -102,6 +115,8 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
   for (const PoseHypothesis& hypothesis : found) {
     PoseTrack track;
     track.id = next_id_++;
+    const PosePrior odds = prior(hypothesis.pose, hypothesis.fit);
+    if (odds.level + odds.height > 0) FollowBack(likelihood, hypothesis.pose, attempt, track);
     AddVote(std::move(track), hypothesis.pose, hypothesis.fit, attempt);
   }
   std::vector<PoseTrack>& now = attempt.tracks;
@@ -109,6 +124,25 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
                    [](const PoseTrack& a, const PoseTrack& b) { return a.evidence > b.evidence; });
   if (static_cast<int>(now.size()) > options_.max_tracks) now.resize(options_.max_tracks);
   tracks_ = std::move(now);
+  earlier_.push_back({path_m, local});
+}
+
+// Adds the votes that a track at `pose` would have got from earlier attempts.
+void PoseTracks::FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose,
+                            const Attempt& attempt, PoseTrack& track) const {
+  for (const PoseTrack& other : attempt.tracks)
+    if (AreNear(other.pose, pose, attempt.centre, attempt.search.distinct_m,
+                attempt.search.distinct_rad))
+      return;
+  YawShift now = pose;
+  for (auto map = earlier_.rbegin(); map != earlier_.rend(); ++map) {
+    YawShift before = now;
+    const LayoutFit fit = likelihood.Of(map->objects).Refine(before, kRefineRounds);
+    if (!AreNear(before, now, CentreOf(map->objects), options_.step_m, options_.step_rad)) break;
+    if (static_cast<int>(fit.matches.size()) < attempt.search.min_matches) break;
+    track.votes.insert(track.votes.begin(), {map->path_m, fit.score, IdsOf(map->objects)});
+    now = before;
+  }
 }
 
 double PoseTracks::Margin(std::size_t track) const {
@@ -134,6 +168,11 @@ void PoseTracks::Move(const YawShift& change) {
     track.pose.t = Vec3::Zero();
     track.pose.t = before.t - Apply(track.pose, change.t);
   }
+  for (LocalMap& map : earlier_)
+    for (LayoutObject& object : map.objects) {
+      object.position = Apply(change, object.position);
+      object.yaw = WrapAngle(object.yaw + change.yaw);
+    }
 }
 
 }  // namespace sslcd

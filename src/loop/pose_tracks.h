@@ -36,7 +36,8 @@ struct PoseTrack {
 ///   evidence = prior + layout, layout = volume + mean(score) (different objects in all local maps)
 ///   / (mean objects in one)
 /// with score and volume of LayoutFit (evidence = score + volume). For one attempt this is
-/// LayoutFit's evidence.
+/// LayoutFit's evidence. A new pose that odometry favours is followed back through the attempts so
+/// far, since the search may not have found it there: otherwise older tracks would win by their age.
 class PoseTracks {
  public:
   using Prior = std::function<PosePrior(const YawShift&, const LayoutFit&)>;
@@ -59,15 +60,25 @@ class PoseTracks {
   void Move(const YawShift& change);
 
   /// Removes all tracks. New tracks get new ids.
-  void Forget() { tracks_.clear(); }
+  void Forget() {
+    tracks_.clear();
+    earlier_.clear();
+  }
 
  private:
   struct Attempt;
+  struct LocalMap {
+    double path_m;
+    std::vector<LayoutObject> objects;
+  };
   /// Continues or starts a track at `pose`, unless the attempt already has a track there.
   void AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit, Attempt& attempt) const;
+  void FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose, const Attempt& attempt,
+                  PoseTrack& track) const;
 
   PoseTrackOptions options_;
   std::vector<PoseTrack> tracks_;
+  std::vector<LocalMap> earlier_;  // local maps of the attempts that count, oldest first
   int next_id_ = 0;
 };
 
