@@ -95,7 +95,7 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
 
 void BaTerms::AddOdometry(const BaProblem& problem, const BaOptions& options) {
   for (const BaOdometry& edge : problem.odometry) {
-    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options.odometry);
+    const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, options.odometry, edge.failures);
     const Vec3 up = problem.cameras[edge.to].T_world_cam.so3().inverse() * problem.gravity.up;
     const OdometryResidual residual{edge.T_from_to,
                                     WhiteningOf(sigmas, problem.odometry_factors, up)};

@@ -111,10 +111,9 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   // Outside of the range of the common objects the camera pose depends on odometry.
   const auto [first_m, last_m] = SeenBetween(common);
   const int in_sight = frames_.AtPath(std::clamp(frames_[query].travelled, first_m, last_m));
-  if (query != in_sight) {
-    const Pose walked = frames_[in_sight].T_odom_cam.inverse() * frames_[query].T_odom_cam;
-    row.covariance += InformationOf(SigmasOf(walked, options_.odometry), up).inverse();
-  }
+  if (query != in_sight)
+    row.covariance +=
+        InformationOf(SigmasBetween(frames_, in_sight, query, options_.odometry), up).inverse();
   return loop;
 }
 
@@ -139,11 +138,11 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
 // Standard deviation of the odometry drift between a frame and an object seen at `seen_m` of path.
 // [m]
 double LoopMeter::OdometrySigma(int frame, double seen_m) const {
-  const Pose step =
-      frames_[frame].T_odom_cam.inverse() * frames_[frames_.AtPath(seen_m)].T_odom_cam;
-  const OdometrySigmas sigmas = SigmasOf(step, options_.odometry);
-  return std::hypot(sigmas.horizontal,
-                    sigmas.rotation * (0.5 * step.translation().norm() + kSeenFrom));
+  const int seen = frames_.AtPath(seen_m);
+  const OdometrySigmas sigmas = SigmasBetween(frames_, frame, seen, options_.odometry);
+  const double step = (frames_[frame].T_odom_cam.translation() -
+                       frames_[seen].T_odom_cam.translation()).norm();
+  return std::hypot(sigmas.horizontal, sigmas.rotation * (0.5 * step + kSeenFrom));
 }
 
 // Rotates the world about a camera so that the cameras around it are upright on average.

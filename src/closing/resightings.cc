@@ -25,7 +25,7 @@ OdometryNoise WithoutFloors(OdometryNoise noise) {
 }
 
 OdometrySigmas SigmasOfStep(const FrameStore& frames, int to, const OdometryNoise& walk) {
-  return SigmasOf(frames[to - 1].T_odom_cam.inverse() * frames[to].T_odom_cam, walk);
+  return SigmasBetween(frames, to - 1, to, walk);
 }
 
 // Sums of the variances of the steps up to a frame, and of those of the rotations times the first

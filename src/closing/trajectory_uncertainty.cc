@@ -38,8 +38,7 @@ TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
   const auto walk = [&](int from, int to) -> Mat6 {
     if (from == to) return Mat6::Zero();
     const Pose& T_world_to = frames[to].T_world_cam;
-    const OdometrySigmas sigmas =
-        SigmasOf(frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam, odometry.noise);
+    const OdometrySigmas sigmas = SigmasBetween(frames, from, to, odometry.noise);
     const Vec3 up = T_world_to.so3().inverse() * state.gravity().up;
     return InWorld(InformationOf(sigmas, up, odometry.factors).inverse(), T_world_to);
   };

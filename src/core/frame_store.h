@@ -11,11 +11,18 @@
 
 namespace sslcd {
 
+/// The variance that failures of odometry add to what its noise explains: the squares of the steps
+/// in which it failed, summed.
+struct OdometryFailures {
+  double translation_m2 = 0, rotation_rad2 = 0;
+};
+
 /// A stored frame.
 struct FrameRecord {
   int frame = 0;                      ///< frame number in the dataset
   double stamp = 0;                   ///< [s]
   double travelled = 0;               ///< path of the odometry up to this frame [m]
+  OdometryFailures failures;          ///< up to this frame
   Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
   Pose T_world_cam;                   ///< the current estimate
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors
@@ -30,7 +37,8 @@ class FrameStore {
   /// A counter of changes.
   using Revision = std::uint64_t;
 
-  /// Adds the newest frame and sets its `travelled`.
+  /// Adds the newest frame and sets its `travelled` and `failures`. Odometry has failed in a step
+  /// that is much longer than any of the steps before it, or turns by much more.
   void Append(FrameRecord record);
 
   int size() const { return static_cast<int>(frames_.size()); }
@@ -68,6 +76,9 @@ class FrameStore {
   // replaces previous entries.
   std::vector<std::pair<Revision, int>> changes_;
 };
+
+/// The failures of odometry between two frames.
+OdometryFailures FailuresBetween(const FrameStore& frames, int a, int b);
 
 /// T_world_cam of all frames.
 std::vector<Pose> PosesOf(const FrameStore& frames);

@@ -22,13 +22,22 @@ void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise) {
                "standard deviation of the logarithm of the odometry's scale; 0: the scale is one");
 }
 
-OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise) {
+OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise,
+                        const OdometryFailures& failures) {
   const double root = std::sqrt(T_from_to.translation().norm());
   const double turn = T_from_to.so3().Log().norm();
   const double walked = std::hypot(noise.rotation_floor_rad, noise.rotation_walk * root);
-  return {std::hypot(noise.translation_floor_m, noise.translation_walk * root),
-          std::hypot(noise.translation_floor_m, noise.vertical_walk * root),
-          std::hypot(walked, noise.rotation_turn * turn)};
+  const double jumped = std::sqrt(failures.translation_m2);
+  const double turned = std::sqrt(failures.rotation_rad2);
+  return {std::hypot(noise.translation_floor_m, noise.translation_walk * root, jumped),
+          std::hypot(noise.translation_floor_m, noise.vertical_walk * root, jumped),
+          std::hypot(walked, noise.rotation_turn * turn, turned)};
+}
+
+OdometrySigmas SigmasBetween(const FrameStore& frames, int from, int to,
+                             const OdometryNoise& noise) {
+  return SigmasOf(frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam, noise,
+                  FailuresBetween(frames, from, to));
 }
 
 OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,

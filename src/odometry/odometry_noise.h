@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "core/frame_store.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/odometry/options.h"
 
@@ -10,7 +11,12 @@ namespace sslcd {
 struct OdometrySigmas {
   double horizontal = 0, vertical = 0, rotation = 0;
 };
-OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise);
+OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise,
+                        const OdometryFailures& failures = {});
+
+/// The same for the odometry between two frames, given by index.
+OdometrySigmas SigmasBetween(const FrameStore& frames, int from, int to,
+                             const OdometryNoise& noise);
 
 /// Factors on the standard deviations of a step: of its horizontal translation and its heading, and
 /// of its height and its tilt (roll and pitch).

@@ -106,7 +106,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     const ScopedTimer timer(m.timing, "data association");
     report.filter = FilterDetections(seen, m.options.filter);
     frames.Append(
-        {frame.index, frame.stamp, 0., T_odom_cam, T_world_cam, WithoutAppearance(seen), {}});
+        {frame.index, frame.stamp, 0., {}, T_odom_cam, T_world_cam, WithoutAppearance(seen), {}});
     report.map = m.state.map.AddFrame(frame.index, frame.stamp, T_world_cam, seen, m.camera(),
                                       frames.back().travelled);
     frames.SetMatched(frames.size() - 1, report.map.matched);

@@ -65,7 +65,8 @@ BaProblem SlidingWindow::Problem(const MapState& state, double log_scale,
     if (i == 0) continue;
     const FrameRecord& before = state.frames[keyframes_[i - 1]];
     problem.odometry.push_back({static_cast<int>(i) - 1, static_cast<int>(i),
-                                before.T_odom_cam.inverse() * record.T_odom_cam});
+                                before.T_odom_cam.inverse() * record.T_odom_cam,
+                                FailuresBetween(state.frames, keyframes_[i - 1], keyframes_[i])});
   }
   AddObjects(state, problem);
   return problem;
