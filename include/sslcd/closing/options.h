@@ -61,8 +61,8 @@ struct LoopOptions {
   /// path from the query camera to the newest one, so that matched objects lie on both sides of it
   double lag_m = 25.;
   /// Additional standard deviations per axis of every loop measured by objects.
-  double sigma_m = 0.15;
-  double sigma_rad = 0.02;  ///< the same for rotations
+  double sigma_m = 0.05;
+  double sigma_rad = 0.007;  ///< the same for rotations
   /// largest distance of matched landmarks after the correction that are fused
   double fuse_m = 3.;
   DriftOptions drift;
