@@ -58,8 +58,7 @@ void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
 struct PoseTrackOptions {
   double agree_m = 100.;  ///< largest path from an attempt that counts
   /// Probability that a place outside of the map looks like one in it. Objects alone give odds of
-  /// at most 1 / look_alike; odometry has to give the rest. e^-8: on the worlds of docs/decision.md
-  /// e^-6 to e^-10 accept no wrong loop more.
+  /// at most 1 / look_alike; odometry has to give the rest. e^-8, see docs/decision.md.
   double look_alike = 3.4e-4;
   /// no key: largest translation and rotation of a hypothesis from one attempt to the next. Set by
   /// hand.
