@@ -114,7 +114,7 @@ void LoopCloser::Correct(MapState& state, double end_m, double scale) {
 void LoopCloser::Review(const MapState& state) {
   passes_.Rebuild(state);
   finder_->Reset();  // its poses are invalid after the correction
-  ReviewLoops(state, passes_, ledger_, options_);
+  ReviewLoops(state, passes_, ledger_, options_, odometry_factors_);
 }
 
 }  // namespace sslcd

@@ -113,7 +113,8 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   const int in_sight = frames_.AtPath(std::clamp(frames_[query].travelled, first_m, last_m));
   if (query != in_sight)
     row.covariance +=
-        InformationOf(SigmasBetween(frames_, in_sight, query, options_.odometry), up).inverse();
+        InformationOf(SigmasBetween(frames_, in_sight, query, options_.odometry), up, factors_)
+            .inverse();
   return loop;
 }
 
@@ -140,9 +141,11 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
 double LoopMeter::OdometrySigma(int frame, double seen_m) const {
   const int seen = frames_.AtPath(seen_m);
   const OdometrySigmas sigmas = SigmasBetween(frames_, frame, seen, options_.odometry);
-  const double step = (frames_[frame].T_odom_cam.translation() -
-                       frames_[seen].T_odom_cam.translation()).norm();
-  return std::hypot(sigmas.horizontal, sigmas.rotation * (0.5 * step + kSeenFrom));
+  const double step =
+      (frames_[frame].T_odom_cam.translation() - frames_[seen].T_odom_cam.translation()).norm();
+  // The local map is short, and the caution of the factors is for long paths.
+  return std::hypot(std::min(1., factors_.horizontal) * sigmas.horizontal,
+                    std::min(1., factors_.heading) * sigmas.rotation * (0.5 * step + kSeenFrom));
 }
 
 // Rotates the world about a camera so that the cameras around it are upright on average.

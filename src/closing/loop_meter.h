@@ -9,6 +9,7 @@
 #include "closing/pass_map.h"
 #include "loop/drift.h"
 #include "loop/layout_index.h"
+#include "odometry/odometry_noise.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/core/loop_closure.h"
 
@@ -42,13 +43,15 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(
 /// maps are aligned with gravity first, since the ground at one place has one slope.
 class LoopMeter {
  public:
-  /// Keeps references to all arguments.
-  LoopMeter(const MapState& state, const PassMap& passes, const LoopOptions& options)
+  /// Keeps references to all other arguments; `factors` are on `options.odometry`.
+  LoopMeter(const MapState& state, const PassMap& passes, const LoopOptions& options,
+            const OdometryFactors& factors = {})
       : state_(state),
         frames_(state.frames),
         gravity_(state.gravity()),
         passes_(passes),
-        options_(options) {}
+        options_(options),
+        factors_(factors) {}
 
   /// Tries the camera at `query_m` of path and, while the heading is too uncertain, earlier
   /// cameras. Excludes cameras more than `beyond_m` before the first common object or after the
@@ -72,6 +75,7 @@ class LoopMeter {
   const GravityFrame& gravity_;
   const PassMap& passes_;
   const LoopOptions& options_;
+  OdometryFactors factors_;
 };
 
 /// Horizontal angle between the viewing directions of two cameras. [rad]

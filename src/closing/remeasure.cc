@@ -15,7 +15,8 @@ namespace {
 
 // Measures the loop in the refined map; none if its objects do not determine it well enough.
 std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& passes,
-                                        const LoopAttempt& attempt, const LoopOptions& options) {
+                                        const LoopAttempt& attempt, const LoopOptions& options,
+                                        const OdometryFactors& factors) {
   if (attempt.found.sigma_m <= 0) return std::nullopt;
   const LoopLayoutOptions& o = options.layout;
   const SearchWindow& window = attempt.window;
@@ -29,7 +30,8 @@ std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& pa
       common.pairs.push_back({static_cast<int>(i), id});
   }
   const LoopMeasurement& loop = attempt.found.loop;
-  auto now = LoopMeter(state, passes, options).MeasureBetween(loop.query, loop.match, common);
+  const LoopMeter meter(state, passes, options, factors);
+  auto now = meter.MeasureBetween(loop.query, loop.match, common);
   if (!now || now->heading_sigma >= options.acceptance.max_heading_sigma_rad) return std::nullopt;
   return std::move(now->row);
 }
@@ -41,7 +43,7 @@ double Uncertainty(const Pose::Matrix6& covariance) {
 }  // namespace
 
 void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledger,
-                 const LoopOptions& options) {
+                 const LoopOptions& options, const OdometryFactors& factors) {
   for (LoopAttempt& attempt : ledger.attempts()) {
     if (!attempt.accepted()) continue;
     const LoopMeasurement& loop = attempt.found.loop;
@@ -51,7 +53,7 @@ void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledge
       attempt.row().decision = LoopDecision::kAmbiguous;
       attempt.row().reason = "the refined trajectory disagrees";
     } else {
-      attempt.remeasured = MeasureAgain(state, passes, attempt, options);
+      attempt.remeasured = MeasureAgain(state, passes, attempt, options, factors);
     }
   }
 }

@@ -15,7 +15,7 @@ namespace sslcd {
 /// errors. Changes only the measurements that a host reads: decisions keep the first measurement,
 /// because the loop itself has corrected the maps.
 void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledger,
-                 const LoopOptions& options);
+                 const LoopOptions& options, const OdometryFactors& factors = {});
 
 /// Measures accepted loops through a tie of aligned images if this is more certain than their
 /// objects: from the match camera along its pass to the tie, across the tie, and along the other

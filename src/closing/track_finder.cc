@@ -43,7 +43,7 @@ class TrackFinder : public LoopFinder {
     const PoseTrack& best = tracks_.tracks()[0];
     const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma,
                                global_end_m};
-    const LoopMeter meter(input.state, input.passes, options_);
+    const LoopMeter meter(input.state, input.passes, options_, input.odometry);
     auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
     return Decide(std::move(*loop), best, index.pose_volume(), prior);

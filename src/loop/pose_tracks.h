@@ -37,7 +37,8 @@ struct PoseTrack {
 ///   / (mean objects in one)
 /// with score and volume of LayoutFit (evidence = score + volume). For one attempt this is
 /// LayoutFit's evidence. A new pose that odometry favours is followed back through the attempts so
-/// far, since the search may not have found it there: otherwise older tracks would win by their age.
+/// far, since the search may not have found it there: otherwise older tracks would win by their
+/// age.
 class PoseTracks {
  public:
   using Prior = std::function<PosePrior(const YawShift&, const LayoutFit&)>;

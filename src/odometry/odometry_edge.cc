@@ -8,7 +8,8 @@ OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const O
   OdometryEdge edge;
   edge.T_from_to = frames[from].T_odom_cam.inverse() * frames[to].T_odom_cam;
   const Vec3 up_here = frames[to].T_world_cam.so3().inverse() * up;
-  edge.information = InformationOf(SigmasBetween(frames, from, to, model.noise), up_here, model.factors);
+  edge.information =
+      InformationOf(SigmasBetween(frames, from, to, model.noise), up_here, model.factors);
   edge.T_from_to.translation() *= scale;
   return edge;
 }

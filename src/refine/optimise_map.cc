@@ -58,9 +58,9 @@ BaProblem FullProblem(const MapState& state, const std::vector<int>& keyframes, 
     const int camera = static_cast<int>(problem.cameras.size());
     if (camera > 0) {
       const FrameRecord& before = frames[keyframes[camera - 1]];
-      problem.odometry.push_back(
-          {camera - 1, camera, before.T_odom_cam.inverse() * record.T_odom_cam,
-           FailuresBetween(frames, keyframes[camera - 1], keyframe)});
+      problem.odometry.push_back({camera - 1, camera,
+                                  before.T_odom_cam.inverse() * record.T_odom_cam,
+                                  FailuresBetween(frames, keyframes[camera - 1], keyframe)});
     }
     problem.cameras.push_back({record.frame, record.T_world_cam});
   }
