@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/math.h"
@@ -148,7 +149,7 @@ void PoseTracks::FollowBack(const LayoutLikelihood& likelihood, const YawShift& 
 double PoseTracks::Margin(std::size_t track) const {
   // A place that looks like a track's may be anywhere, also above it: neither of the priors that
   // speak against the track speaks against such a place.
-  double alike = 0;
+  double alike = -std::numeric_limits<double>::infinity();
   for (const PoseTrack& each : tracks_)
     alike = std::max(alike, each.evidence - each.prior.height - std::min(0., each.prior.level) +
                                 std::log(options_.look_alike));
