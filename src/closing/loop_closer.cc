@@ -54,7 +54,6 @@ void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
 }
 
 void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing) {
-  ledger_.ResetPath(state.frames);
   finder_->Reset();
   const std::size_t first_search = ledger_.attempts().size();
   const LoopLayoutOptions& o = options_.layout;
@@ -99,7 +98,7 @@ bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
       finder_->Find({state, passes_, loops, odometry_factors_, window});
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;
-  ledger_.AcceptNewest(state.frames);
+  ledger_.AcceptNewest();
   return true;
 }
 

@@ -5,6 +5,14 @@
 #include <cmath>
 
 namespace sslcd {
+namespace {
+
+void AddToGraph(LoopAttempt& attempt) {
+  attempt.in_graph = true;
+  attempt.row().decision = LoopDecision::kAccepted;
+}
+
+}  // namespace
 
 bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int newest_frame) {
   const bool known =
@@ -22,7 +30,7 @@ bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int new
   return true;
 }
 
-void LoopLedger::AcceptNewest(const FrameStore& frames) {
+void LoopLedger::AcceptNewest() {
   LoopAttempt& newest = attempts_.back();
   const std::string settled = "settled by frame " + std::to_string(newest.row().query_frame);
   for (LoopAttempt& earlier : attempts_) {
@@ -30,16 +38,9 @@ void LoopLedger::AcceptNewest(const FrameStore& frames) {
     if (&earlier == &newest || found.track < 0 || found.track != newest.found.track) continue;
     if (!found.confirmed || earlier.in_graph) continue;
     earlier.row().reason = settled;
-    AddToGraph(earlier, frames);
+    AddToGraph(earlier);
   }
-  AddToGraph(newest, frames);
-}
-
-void LoopLedger::AddToGraph(LoopAttempt& attempt, const FrameStore& frames) {
-  const LoopMeasurement& loop = attempt.found.loop;
-  attempt.in_graph = true;
-  attempt.row().decision = LoopDecision::kAccepted;
-  path_.AddShortcut(frames[loop.query].travelled, frames[loop.match].travelled);
+  AddToGraph(newest);
 }
 
 void LoopLedger::DropUnaccepted(std::size_t first) {

@@ -38,7 +38,7 @@ class LoopLedger {
 
   /// Adds the newest attempt, which its finder has accepted, to the pose graph, together with the
   /// confirmed attempts of its track.
-  void AcceptNewest(const FrameStore& frames);
+  void AcceptNewest();
 
   /// Removes attempts from index `first` on that were never accepted.
   void DropUnaccepted(std::size_t first);
@@ -56,18 +56,11 @@ class LoopLedger {
   std::vector<LoopEdge> AcceptedEdges() const;
   /// The path with the accepted loops as shortcuts.
   PathGraph AcceptedPath(const FrameStore& frames) const;
-  /// The same with all loops accepted since the last call of ResetPath, including those refused
-  /// later.
-  const PathGraph& path() const { return path_; }
-  void ResetPath(const FrameStore& frames) { path_ = AcceptedPath(frames); }
   /// The rows of all attempts in order, with their last measurement.
   std::vector<LoopClosure> Rows() const;
 
  private:
-  void AddToGraph(LoopAttempt& attempt, const FrameStore& frames);
-
   std::vector<LoopAttempt> attempts_;
-  PathGraph path_;
 };
 
 }  // namespace sslcd

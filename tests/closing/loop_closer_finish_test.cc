@@ -71,18 +71,6 @@ TEST_F(SecondSearch, DropsWhatItDoesNotAccept) {
   EXPECT_GT(attempts().size(), 1u) << "those of the first search stay";
 }
 
-TEST_F(SecondSearch, KnowsOnlyLoopsThatAreStillAccepted) {
-  AcceptNothing();
-  DriveAndAccept();
-  Accept(TwoPasses::kSecond + 31);
-  closer_->ledger().attempts()[0].row().decision = LoopDecision::kAmbiguous;
-  const double query_m = state_.frames[TwoPasses::kSecond + 30].travelled;
-  const double match_m = state_.frames[TwoPasses::kFrames / 2].travelled;
-  EXPECT_EQ(closer_->ledger().path().From(query_m).To(match_m), 0);
-  Finish();
-  EXPECT_EQ(closer_->ledger().path().From(query_m).To(match_m), 1);
-}
-
 TEST_F(SecondSearch, NotWithoutAnAcceptedLoop) {
   AcceptNothing();
   DriveOnly();
@@ -108,7 +96,7 @@ TEST_F(Adjustment, FollowsACorrectionUpToANumberOfKeyframes) {
   std::vector<std::vector<Pose>> results;
   for (const int keyframes : {0, 500}) {
     options_.adjust_keyframes = keyframes;
-    DriveOnly({}, Pose::Trans(4, 0, -3) * Pose::RotY(0.1));
+    DriveOnly({}, SmallDrift());
     Finish();
     EXPECT_GT(CountAccepted(), 0);
     results.push_back(PosesOf(state_.frames));

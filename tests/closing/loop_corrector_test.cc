@@ -27,7 +27,7 @@ void Accept(LoopLedger& ledger, const TwoPasses& world, int match, int query,
   found.loop.row.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
   for (const auto& [early, late] : world.trees) found.loop.row.pairs.push_back({late, early});
   ASSERT_TRUE(ledger.Add(found, {}, query));
-  ledger.AcceptNewest(world.state.frames);
+  ledger.AcceptNewest();
 }
 
 const Pose kDrift = Pose::Trans(4, 0, -3) * Pose::RotY(0.1);
@@ -75,7 +75,7 @@ TEST(CorrectTrajectory, NothingMovesWhereTheGraphCannotBeSolved) {
     LoopOptions options;
     options.robust = robust;
     const FrameStore::Revision before = world.state.frames.revision();
-    EXPECT_FALSE(CorrectTrajectory(world.state, ledger, 1., options, {}));
+    EXPECT_FALSE(CorrectTrajectory(world.state, ledger, 1., options, {}, {}));
     EXPECT_EQ(world.state.frames.revision(), before);
     EXPECT_TRUE(ledger.attempts()[0].accepted());
   }
@@ -98,7 +98,7 @@ TEST(CorrectTrajectory, MovesFramesAndObjectsOfTheSecondPass) {
   };
   EXPECT_GT(error(0), 2);
   EXPECT_GT(apart(3), 1);
-  ASSERT_TRUE(CorrectTrajectory(world.state, ledger, 1., LoopOptions(), {}));
+  ASSERT_TRUE(CorrectTrajectory(world.state, ledger, 1., LoopOptions(), {}, {}));
   for (const LoopAttempt& attempt : ledger.attempts()) EXPECT_TRUE(attempt.accepted());
   for (const int i : {-25, 0, 25}) EXPECT_LT(error(i), 0.05) << i;
   for (std::size_t tree = 0; tree < world.trees.size(); ++tree) EXPECT_LT(apart(tree), 0.6) << tree;
@@ -113,7 +113,7 @@ TEST(CorrectTrajectory, TheGraphRefusesALoopThatContradictsTheOthers) {
     Accept(ledger, world, kFirst, kSecond, Pose::Trans(20, 0, 0));
     LoopOptions options;
     options.robust = robust;
-    ASSERT_TRUE(CorrectTrajectory(world.state, ledger, 1., options, {}));
+    ASSERT_TRUE(CorrectTrajectory(world.state, ledger, 1., options, {}, {}));
     EXPECT_EQ(ledger.attempts().back().accepted(), !robust);
     for (std::size_t i = 0; i + 1 < ledger.attempts().size(); ++i)
       EXPECT_TRUE(ledger.attempts()[i].accepted());
@@ -172,10 +172,10 @@ TEST(AdjustAfterLoop, LeavesLongRunsAloneAndKeepsTheScale) {
   LoopOptions options;
   options.adjust_keyframes = 3;
   const FrameStore::Revision before = world.state.frames.revision();
-  EXPECT_FALSE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+  EXPECT_FALSE(AdjustAfterLoop(world.state, 1., options, {}, {}).usable);
   EXPECT_EQ(world.state.frames.revision(), before);
   options.adjust_keyframes = 500;
-  EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+  EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}, {}).usable);
   EXPECT_NE(world.state.frames.revision(), before);
 }
 
@@ -184,9 +184,9 @@ TEST(AdjustAfterLoop, UpToThatManyKeyframes) {
   TwoPasses world;
   const auto keyframes = SelectKeyframes(world.state.frames, options.keyframe_m, kGraphKeyframeRad);
   options.adjust_keyframes = static_cast<int>(keyframes.size()) - 1;
-  EXPECT_FALSE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+  EXPECT_FALSE(AdjustAfterLoop(world.state, 1., options, {}, {}).usable);
   ++options.adjust_keyframes;
-  EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}).usable);
+  EXPECT_TRUE(AdjustAfterLoop(world.state, 1., options, {}, {}).usable);
 }
 
 // Trees that were fused, but a trajectory that was not corrected: far from its minimum.
@@ -200,7 +200,7 @@ TEST(AdjustAfterLoop, TakesFourStepsAtMostAndLearnsNoNoise) {
     TwoPasses copy = world;
     WholeMapOptions whole_map;
     whole_map.ba.max_iterations = max_iterations;
-    const int evaluations = AdjustAfterLoop(copy.state, 1., {}, whole_map).iterations;
+    const int evaluations = AdjustAfterLoop(copy.state, 1., {}, whole_map, {}).iterations;
     EXPECT_EQ(copy.state.map.noise_scale().radial, before.radial);
     return evaluations - 1;
   };
@@ -212,7 +212,7 @@ TEST(AdjustAfterLoop, TakesFourStepsAtMostAndLearnsNoNoise) {
 TEST(AdjustAfterLoop, KeepsTheScaleThatItIsGiven) {
   const auto length_with = [](double scale) {
     TwoPasses world;
-    EXPECT_TRUE(AdjustAfterLoop(world.state, scale, {}, {}).usable);
+    EXPECT_TRUE(AdjustAfterLoop(world.state, scale, {}, {}, {}).usable);
     return world.state.frames[60].T_world_cam.translation().norm();
   };
   EXPECT_NEAR(length_with(1), 60, 1e-3);

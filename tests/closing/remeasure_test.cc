@@ -26,7 +26,7 @@ LoopLedger LedgerOf(const TwoPasses& world, const Pose& error = {}, double sigma
   window.local_m = 75;
   LoopLedger ledger;
   ledger.Add(found, window, world.state.frames.back().frame);
-  ledger.AcceptNewest(world.state.frames);
+  ledger.AcceptNewest();
   return ledger;
 }
 
