@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "loop/coarse_poses.h"
 
@@ -30,10 +31,13 @@ std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3&
     pose.t = Vec3(coarse.x, coarse.y, coarse.z) - Apply(pose, centre);
   }
   if (starts.size() <= refine) return starts;
-  const auto rest = starts.begin() + static_cast<std::ptrdiff_t>(refine);
-  std::stable_sort(rest, starts.end(),
-                   [&](const YawShift& a, const YawShift& b) { return prior(a) > prior(b); });
-  starts.resize(std::min(starts.size(), 2 * refine));
+  std::vector<std::pair<double, YawShift>> rest;
+  for (std::size_t i = refine; i < starts.size(); ++i)
+    rest.emplace_back(prior(starts[i]), starts[i]);
+  std::stable_sort(rest.begin(), rest.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  starts.resize(refine);
+  for (std::size_t i = 0; i < std::min(refine, rest.size()); ++i) starts.push_back(rest[i].second);
   return starts;
 }
 
