@@ -26,10 +26,14 @@ TEST(OdometryNoise, InformationIsThatOfTheAxes) {
       << information;
 }
 
-TEST(OdometryNoise, FactorsAreOnTheHorizontalPartAndTheHeading) {
-  const OdometryWhitening whitening = WhiteningOf({0.1, 0.2, 0.01}, {2, 5}, Vec3::UnitZ());
-  EXPECT_TRUE(whitening.translation.diagonal().isApprox(Vec3(5, 5, 5), 1e-12));
-  EXPECT_TRUE(whitening.rotation.diagonal().isApprox(Vec3(100, 100, 20), 1e-12));
+TEST(OdometryNoise, FactorsAreOnTheHorizontalPartTheHeadingTheHeightAndTheTilt) {
+  const OdometryWhitening whitening = WhiteningOf({0.1, 0.2, 0.01}, {2, 5, 10, 4}, Vec3::UnitZ());
+  EXPECT_TRUE(whitening.translation.diagonal().isApprox(Vec3(5, 5, 0.5), 1e-12));
+  EXPECT_TRUE(whitening.rotation.diagonal().isApprox(Vec3(25, 25, 20), 1e-12));
+  const auto information = InformationOf({0.1, 0.2, 0.01}, Vec3::UnitZ(), {2, 5, 10, 4});
+  Eigen::Matrix<double, 6, 1> expected;
+  expected << 25, 25, 0.25, 625, 625, 400;
+  EXPECT_TRUE(information.diagonal().isApprox(expected, 1e-12)) << information;
 }
 
 }  // namespace
