@@ -249,10 +249,35 @@ TEST(FuseDuplicates, NearerThanHalfTheirWidthIsOnePlace) {
   }
 }
 
+// A car park: y is down.
+TEST(FuseDuplicates, CarsAboveEachOtherAreTwo) {
+  TwoVisits world;
+  const LandmarkId lower = world.Add({4, 1, 12}, 0, 4, "Car"),
+                   upper = world.Add({4, -2, 12}, 4, 3, "Car"),
+                   shifted = world.Add({4.3, 1, 12.3}, 4, 3, "Car");
+  FuseDuplicates(world.state, world.options);
+  EXPECT_FALSE(world.Gone(lower));
+  EXPECT_FALSE(world.Gone(upper)) << "on the storey above";
+  EXPECT_TRUE(world.Gone(shifted)) << "it overlaps the lower one";
+  EXPECT_EQ(world.map.at(upper).pose.position.y(), -2);
+}
+
+// With a detector that is next to exact, as above, but one above the other: half of 1.5 m.
+TEST(FuseDuplicates, NearerThanHalfTheirHeightIsOnePlace) {
+  for (const double share : {0.49, 0.51}) {
+    TwoVisits world;
+    world.options.noise = EvenNoise(1e-4, 0.02);
+    world.Add({4, 1, 12}, 0, 4, "Car");
+    const LandmarkId twin = world.Add({4, 1 - share * 1.5, 12}, 4, 3, "Car");
+    FuseDuplicates(world.state, world.options);
+    EXPECT_EQ(world.Gone(twin), share < 0.5);
+  }
+}
+
 // Two trees, each seen once, by a detector that is as exact in all directions. Their distance is
-// explained where its square is within the 99 % quantile (two components) of both variances.
+// explained where its square is within the 99 % quantile (three components) of both variances.
 TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
-  constexpr double kSigma = 0.05, kQuantile = 9.21;
+  constexpr double kSigma = 0.05, kQuantile = 11.34;
   for (const double learnt : {1., 2.}) {
     for (const double share : {0.98, 1.02}) {
       TwoVisits world;
@@ -267,6 +292,18 @@ TEST(FuseDuplicates, WhatTheDetectorsErrorsExplainIsOnePlace) {
       FuseDuplicates(world.state, world.options);
       EXPECT_EQ(world.Gone(twin), share < 1) << apart;
     }
+  }
+}
+
+TEST(FuseDuplicates, TheDetectorsErrorsExplainHeightsToo) {
+  for (const double vertical_m : {0.05, 0.8}) {
+    TwoVisits world;
+    world.options.noise = EvenNoise(0.05, 0.02);
+    world.options.noise.vertical_m = vertical_m;
+    world.Add({4, 1, 12}, 0, 1, "Car");
+    const LandmarkId twin = world.Add({4, -1, 12}, 4, 1, "Car");
+    FuseDuplicates(world.state, world.options);
+    EXPECT_EQ(world.Gone(twin), vertical_m > 0.5);
   }
 }
 
