@@ -44,7 +44,11 @@ TEST_F(LoopCloserTest, ARefusedLoopIsListedAndChangesNothing) {
 }
 
 TEST_F(LoopCloserTest, AnAcceptedLoopCorrectsTheTrajectoryAndFusesItsObjects) {
-  Start(Pose::Trans(4, 0, -3) * Pose::RotY(0.1), true);
+  LoopOptions options = WithoutAdjustment();
+  // Objects in sight show no error, so a tenth of this is learnt.
+  options.odometry.translation_walk *= 10;
+  options.odometry.rotation_walk *= 10;
+  Start(Pose::Trans(4, 0, -3) * Pose::RotY(0.1), true, options);
   while (CountAccepted() == 0 && state_.frames.size() < world_.state.frames.size())
     DriveFrame(*closer_, state_);
   ASSERT_EQ(CountAccepted(), 1);
@@ -52,7 +56,7 @@ TEST_F(LoopCloserTest, AnAcceptedLoopCorrectsTheTrajectoryAndFusesItsObjects) {
   EXPECT_LT(
       Apart(state_.frames[loop.match].T_world_cam.inverse() * state_.frames[loop.query].T_world_cam,
             world_.TrueLoop(loop.match, loop.query)),
-      0.2)
+      0.8)
       << "it was 5 m away";
   EXPECT_LT(state_.map.landmarks().size(), 2 * world_.trees.size());
   for (const auto& [local, global] : attempts().back().pairs) EXPECT_EQ(local, global);
@@ -60,7 +64,7 @@ TEST_F(LoopCloserTest, AnAcceptedLoopCorrectsTheTrajectoryAndFusesItsObjects) {
 }
 
 TEST_F(LoopCloserTest, TheTrackOfALoopContinuesAfterTheCorrection) {
-  Start(Pose::Trans(4, 0, -3) * Pose::RotY(0.1), WithoutAdjustment(), {});
+  Start(SmallDrift(), WithoutAdjustment(), {});
   Drive();
   std::size_t first = 0;
   while (first < attempts().size() && !attempts()[first].accepted()) ++first;

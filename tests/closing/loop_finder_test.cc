@@ -12,11 +12,14 @@
 namespace sslcd {
 namespace {
 
+// Odometry that may be off by what TwoPasses adds on its detour.
+const OdometryFactors kPoor{5, 5, 1, 1};
+
 // The local map ends `back_m` before the end of the second pass.
 std::optional<FoundLoop> Find(LoopFinder& finder, const TwoPasses& world, double back_m = 0,
                               double lag_m = 25) {
-  static const PathGraph kNoLoops;
-  return finder.Find({world.state, world.passes, kNoLoops, {world.end_m() - back_m, lag_m, 75, 0}});
+  return finder.Find(
+      {world.state, world.passes, {}, kPoor, {world.end_m() - back_m, lag_m, 75, 0}});
 }
 
 double Apart(const Pose& a, const Pose& b) { return (a.inverse() * b).Log().norm(); }
@@ -52,7 +55,7 @@ TEST(TrackFinder, WithoutARivalTheSecondScoreIsTheOddsAgainstTheOnlyTrack) {
   options.tracks.max_tracks = 1;
   const auto only = Find(*MakeTrackFinder(options), world);
   ASSERT_TRUE(only);
-  EXPECT_GT(only->loop.row.score, 13);
+  EXPECT_GT(only->loop.row.score, 5);
   EXPECT_EQ(only->loop.row.second_score, -only->loop.row.score);
 }
 
@@ -94,11 +97,10 @@ TEST(TrackFinder, ATrackSurvivesAStretchWithFewObjects) {
   for (Vec3& place : places) place.z() *= 0.7;
   places.insert(places.end(), {Vec3(3, 1, 57), Vec3(-5, 1, 58)});
   const TwoPasses world(Pose::Trans(5, 0, -3), false, places);
-  const PathGraph no_loops;
   const auto finder = MakeTrackFinder(LoopOptions());
   const auto find = [&](double back_m, double local_m) {
     return finder->Find(
-        {world.state, world.passes, no_loops, {world.end_m() - back_m, 25, local_m, 0}});
+        {world.state, world.passes, {}, kPoor, {world.end_m() - back_m, 25, local_m, 0}});
   };
   const auto before = find(10, 75);
   ASSERT_TRUE(before);
@@ -133,6 +135,7 @@ TEST(TrackFinder, TheSecondScoreIsOfTheSecondBestPlace) {
   const TwoPasses world(Pose::Trans(0, 0, 5), false, places);
   LoopOptions options;
   options.tracks.max_tracks = 2;
+  options.tracks.look_alike = 1e-12;
   const auto found = Find(*MakeTrackFinder(options), world);
   ASSERT_TRUE(found);
   const LoopClosure& row = found->loop.row;

@@ -34,7 +34,7 @@ TEST(BuildLoopGraph, KeyframesByPathAndTheEndsOfLoops) {
   const LoopClosure closure = Closure(LoopDecision::kAccepted, 0.25);
   LoopOptions options;
   options.keyframe_m = 10;
-  const LoopGraph loop = BuildLoopGraph(frames, {{3, 37, &closure}}, 1.1, kUp, options);
+  const LoopGraph loop = BuildLoopGraph(frames, {{3, 37, &closure}}, 1.1, kUp, options, {});
   EXPECT_EQ(loop.keyframes, (std::vector<int>{0, 3, 10, 20, 30, 37, 40}));
   ASSERT_EQ(loop.graph.vertices.size(), loop.keyframes.size());
   for (std::size_t k = 0; k < loop.keyframes.size(); ++k) {
@@ -52,7 +52,7 @@ TEST(BuildLoopGraph, MetricOdometryBetweenKeyframesThenTheLoops) {
   LoopOptions options;
   options.keyframe_m = 10;
   const LoopGraph loop =
-      BuildLoopGraph(frames, {{0, 40, &kept}, {10, 30, &refused}}, 1.1, kUp, options);
+      BuildLoopGraph(frames, {{0, 40, &kept}, {10, 30, &refused}}, 1.1, kUp, options, {});
   ASSERT_EQ(loop.first_loop, 4u);
   ASSERT_EQ(loop.graph.edges.size(), 6u);
   EXPECT_EQ(loop.kept_before, (std::vector<double>{1, 1, 1, 1, 1, 0}));
@@ -74,7 +74,7 @@ TEST(BuildLoopGraph, OdometryOfALongerStepIsLessCertain) {
   LoopOptions options;
   options.keyframe_m = 10;
   const LoopClosure closure = Closure(LoopDecision::kAccepted, 1);
-  const PoseGraph graph = BuildLoopGraph(frames, {{3, 40, &closure}}, 1.1, kUp, options).graph;
+  const PoseGraph graph = BuildLoopGraph(frames, {{3, 40, &closure}}, 1.1, kUp, options, {}).graph;
   ASSERT_EQ(graph.edges[0].to, 3);
   ASSERT_EQ(graph.edges[1].to, 10);
   EXPECT_GT(graph.edges[0].information(0, 0), graph.edges[1].information(0, 0));

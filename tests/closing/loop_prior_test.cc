@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
-#include "core/median.h"
 #include "two_passes.h"
 
 namespace sslcd {
 namespace {
+
+constexpr double kFreedom = 8;
 
 // The second pass of a grove against the first one. Both coordinates agree: no drift.
 struct Prior {
@@ -18,9 +20,11 @@ struct Prior {
   LayoutIndex index{PassLayouts(world.passes, world.state).ChangesBefore(100, 2, mark).objects, 50,
                     2};
   PassLayout local = PassLayouts(world.passes, world.state).Recent(world.end_m() - 60, 2);
-  LoopPriorOptions options;
-  PathGraph path;
+  int here = world.state.frames.AtPath(world.end_m() - 30);
   LayoutFit fit = Matches();
+  std::optional<TrajectoryUncertainty> uncertainty;
+
+  Prior() { CloseLoops({}); }
 
   // All trees: of the second pass, of the first.
   LayoutFit Matches() const {
@@ -31,77 +35,190 @@ struct Prior {
           matches.matches.emplace_back(i, j);
     return matches;
   }
+  void CloseLoops(const std::vector<LoopEdge>& loops, const OdometryModel& model = {}) {
+    uncertainty.emplace(world.state, loops, model);
+  }
 
-  // Log odds of a turn about the objects' centre, and a shift.
-  double Of(double turn_rad, const Vec3& shift) const {
-    Vec3 centre = Vec3::Zero();
+  OdometryPrior Odometry() const {
+    return {world.state, world.passes, local, index, *uncertainty, here};
+  }
+  // Midway between the camera and the mean of the objects.
+  Vec3 Centre() const {
+    const GravityFrame& gravity = world.state.gravity();
+    Vec3 sum = gravity.Basis().transpose() * world.state.frames[here].T_world_cam.translation();
     for (const auto& [i, j] : fit.matches)
-      centre += local.objects[i].position / static_cast<double>(fit.matches.size());
+      sum += local.objects[i].position / static_cast<double>(fit.matches.size());
+    return 0.5 * sum;
+  }
+  // A turn about Centre(), and a shift.
+  YawShift Moved(double turn_rad, const Vec3& shift) const {
     YawShift pose{turn_rad, Vec3::Zero()};
-    pose.t = centre + shift - Apply(pose, centre);
-    const PathGraph::Distances distances = path.From(world.end_m());
-    return OdometryPrior(world.passes, distances, local, index, options)(pose, fit);
+    pose.t = Centre() + shift - Apply(pose, Centre());
+    return pose;
+  }
+  PosePrior Of(double turn_rad, const Vec3& shift) const {
+    return Odometry().Of(Moved(turn_rad, shift), fit);
+  }
+  double Level(double turn_rad, const Vec3& shift) const { return Of(turn_rad, shift).level; }
+  // All matched objects seem to have risen.
+  double Height(double rise_m) {
+    const PassLayout before = local;
+    for (LayoutObject& object : local.objects) object.altitude -= rise_m;
+    const double height = Of(0, Vec3::Zero()).height;
+    local = before;
+    return height;
   }
 };
 
 TEST(OdometryPrior, FallsWithEveryMetreAndEveryTurn) {
   const Prior prior;
   ASSERT_GE(prior.fit.matches.size(), 15u);
-  EXPECT_GT(prior.Of(0, Vec3::Zero()), prior.Of(0, Vec3(20, 0, 0)));
-  EXPECT_GT(prior.Of(0, Vec3(20, 0, 0)), prior.Of(0, Vec3(80, 0, 0)));
-  EXPECT_GT(prior.Of(0, Vec3::Zero()), prior.Of(0.5, Vec3::Zero()));
-  EXPECT_GT(prior.Of(0.5, Vec3::Zero()), prior.Of(1, Vec3::Zero()));
-}
-
-TEST(OdometryPrior, IsTheSameInAllDirectionsAndSaysNothingOfHeight) {
-  const Prior prior;
-  EXPECT_NEAR(prior.Of(0, Vec3(20, 0, 0)), prior.Of(0, Vec3(0, -20, 0)), 1e-9);
-  EXPECT_NEAR(prior.Of(0.5, Vec3::Zero()), prior.Of(-0.5, Vec3::Zero()), 1e-9);
-  EXPECT_NEAR(prior.Of(2 * M_PI, Vec3::Zero()), prior.Of(0, Vec3::Zero()), 1e-9);
-  EXPECT_NEAR(prior.Of(0, Vec3(0, 0, 30)), prior.Of(0, Vec3::Zero()), 1e-9);
-}
-
-TEST(OdometryPrior, TheShareOfSurprisesIsLeftForThePosesThatOdometryExcludes) {
-  Prior prior;
-  EXPECT_NEAR(prior.Of(0, Vec3(1e5, 0, 0)), std::log(prior.options.surprise), 1e-6);
-  prior.options.surprise = 1;
-  EXPECT_NEAR(prior.Of(0, Vec3::Zero()), 0, 1e-9) << "odometry says nothing";
-}
-
-TEST(OdometryPrior, AShortcutNarrowsIt) {
-  Prior prior;
-  const double near = prior.Of(0, Vec3::Zero()), far = prior.Of(0, Vec3(60, 0, 0));
-  prior.path.AddShortcut(prior.world.end_m() - 5, 30);
-  EXPECT_GT(prior.Of(0, Vec3::Zero()), near + 1);
-  EXPECT_LT(prior.Of(0, Vec3(60, 0, 0)), far - 1);
-}
-
-// sigma = share of the path (1 m at its start), and the yaw's walk over the path's lever.
-TEST(OdometryPrior, AGaussianWhoseWidthsGrowWithThePath) {
-  Prior prior;
-  prior.options.surprise = 0;
-  std::vector<double> paths;
-  for (const auto& [i, j] : prior.fit.matches) {
-    const int pass = prior.world.passes.PassesOf({prior.index.objects()[j].id}).front();
-    paths.push_back(prior.world.end_m() - prior.world.passes.passes()[pass].last_m);
+  for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-0.6, 0.8, 0)}) {
+    double before = prior.Level(0, Vec3::Zero());
+    for (const double metres : {1., 5., 20., 80., 1000.}) {
+      const double now = prior.Level(0, metres * way);
+      EXPECT_LT(now, before - 0.1) << metres;
+      before = now;
+    }
   }
-  const double path = Median(paths);
-  const double yaw = std::hypot(0.02, prior.options.drift_yaw * std::sqrt(path));
-  const double m = std::hypot(1., prior.options.drift_share * path, yaw * path / std::sqrt(3.));
-  const double here = prior.Of(0, Vec3::Zero());
-  EXPECT_NEAR(here - prior.Of(0, Vec3(m, 0, 0)), 0.5, 1e-6);
-  EXPECT_NEAR(here - prior.Of(2 * yaw, Vec3::Zero()), 2, 1e-6);
-  const double density = 1 / (std::pow(2 * M_PI, 1.5) * m * m * yaw);
-  EXPECT_NEAR(here, std::log(prior.index.pose_volume() * density), 1e-6);
+  for (const double sign : {-1., 1.}) {
+    double before = prior.Level(0, Vec3::Zero());
+    for (const double rad : {0.1, 0.5, 1., 3.}) {
+      const double now = prior.Level(sign * rad, Vec3::Zero());
+      EXPECT_LT(now, before - 0.1) << rad;
+      before = now;
+    }
+  }
+  EXPECT_NEAR(prior.Level(2 * M_PI, Vec3::Zero()), prior.Level(0, Vec3::Zero()), 1e-9);
+  EXPECT_NEAR(prior.Level(0, Vec3(0, 0, 30)), prior.Level(0, Vec3::Zero()), 1e-9)
+      << "layouts have heights of their own";
+}
+
+// Next to the centre the log density falls by (nu + 3) / (2 nu) times the squared Mahalanobis
+// distance, far from it by (nu + 3) / 2 times its logarithm.
+TEST(OdometryPrior, IsAStudentTAndHasHeavierTailsThanAGaussian) {
+  const Prior prior;
+  const double here = prior.Level(0, Vec3::Zero());
+  constexpr double kNear = 1e-3;
+  for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
+    const double distance2_per_m2 =
+        (here - prior.Level(0, kNear * way)) / (kNear * kNear) * 2 * kFreedom / (kFreedom + 3);
+    for (const double sigmas : {1., 5., 20.}) {
+      const double metres = sigmas / std::sqrt(distance2_per_m2);
+      const double loss = here - prior.Level(0, metres * way);
+      EXPECT_NEAR(loss, 0.5 * (kFreedom + 3) * std::log1p(sigmas * sigmas / kFreedom), 1e-2 * loss);
+      EXPECT_LT(loss, 0.5 * (1 + 3 / kFreedom) * sigmas * sigmas) << "a Gaussian as narrow";
+    }
+  }
+}
+
+TEST(OdometryPrior, GrowsWithTheSearchedMap) {
+  Prior prior;
+  const double before = prior.Level(0, Vec3::Zero()), volume = prior.index.pose_volume();
+  std::vector<LayoutObject> more = prior.index.objects();
+  for (std::size_t i = 0, count = more.size(); i < count; ++i) {
+    more.push_back(more[i]);
+    more.back().position.x() += 1000;
+  }
+  prior.index = LayoutIndex(more, 50, 2);
+  ASSERT_GT(prior.index.pose_volume(), 1.5 * volume);
+  EXPECT_NEAR(prior.Level(0, Vec3::Zero()) - before, std::log(prior.index.pose_volume() / volume),
+              1e-9);
+}
+
+TEST(OdometryPrior, ALoopNarrowsIt) {
+  Prior prior;
+  OdometryModel poor;
+  poor.factors = {5, 5, 5, 5};
+  prior.CloseLoops({}, poor);
+  const double near = prior.Level(0, Vec3::Zero()), far = prior.Level(0, Vec3(20, 0, 0)),
+               rise = prior.Height(3);
+  LoopClosure closure;
+  closure.covariance *= 1e-4;
+  const int match = 30, query = prior.here;
+  prior.CloseLoops({{match, query, &closure}}, poor);
+  EXPECT_GT(prior.Level(0, Vec3::Zero()), near + 1);
+  EXPECT_LT(prior.Level(0, Vec3(20, 0, 0)), far - 1);
+  EXPECT_LT(prior.Height(3), rise - 0.5);
+}
+
+TEST(OdometryPrior, PoorerOdometryForgivesMore) {
+  Prior prior;
+  const double far = prior.Level(0, Vec3(20, 0, 0)), turned = prior.Level(0.5, Vec3::Zero()),
+               risen = prior.Height(3);
+  OdometryModel poor;
+  poor.factors = {5, 5, 5, 5};
+  prior.CloseLoops({}, poor);
+  EXPECT_GT(prior.Level(0, Vec3(20, 0, 0)), far + 1);
+  EXPECT_GT(prior.Level(0.5, Vec3::Zero()), turned + 1);
+  EXPECT_GT(prior.Height(3), risen + 1);
+}
+
+TEST(OdometryPrior, AHeightOnlyRefutes) {
+  Prior prior;
+  EXPECT_EQ(prior.Height(0), 0);
+  double before = 0;
+  for (const double metres : {0.5, 2., 5., 20.}) {
+    const double now = prior.Height(metres);
+    EXPECT_LT(now, before) << metres;
+    EXPECT_NEAR(prior.Height(-metres), now, 1e-9) << "up and down";
+    before = now;
+  }
+  EXPECT_NEAR(prior.Of(0.3, Vec3(20, 0, 0)).height, 0, 1e-9) << "whatever the pose";
+}
+
+TEST(OdometryPrior, TheHeightOfALoopIsThatOfItsCamera) {
+  Prior prior;
+  const OdometryPrior odometry = prior.Odometry();
+  LoopMeasurement loop;
+  loop.match = 30;
+  loop.query = prior.here;
+  const auto of = [&](const Vec3& shift) {
+    loop.row.T_match_query = Pose::Trans(shift) * prior.world.TrueLoop(loop.match, loop.query);
+    return odometry.OfHeight(loop);
+  };
+  EXPECT_NEAR(of({0, 0, 0}), 0, 1e-9);
+  EXPECT_NEAR(of({30, 0, -20}), 0, 1e-9) << "horizontal";
+  EXPECT_LT(of({0, 3, 0}), -3) << "the first camera's y is down";
+  EXPECT_NEAR(of({0, 3, 0}), of({0, -3, 0}), 1e-9);
+  EXPECT_NEAR(of({0, -3, 0}), prior.Height(3), 0.3) << "as that of its objects";
+}
+
+TEST(OdometryPrior, RankPutsThePosesNextToTheTrajectoryFirst) {
+  const Prior prior;
+  const OdometryPrior odometry = prior.Odometry();
+  const auto rank = [&](double turn, const Vec3& shift) {
+    return odometry.Rank(prior.Moved(turn, shift));
+  };
+  EXPECT_EQ(odometry.Rank({}), 0);
+  double before = 0;
+  for (const double metres : {1., 5., 20., 80.}) {
+    EXPECT_LT(rank(0, Vec3(metres, 0, 0)), before);
+    before = rank(0, Vec3(metres, 0, 0));
+  }
+  EXPECT_GT(rank(0.1, Vec3::Zero()), rank(0.5, Vec3::Zero()));
+  EXPECT_GT(rank(-0.5, Vec3::Zero()), rank(2, Vec3::Zero()));
+}
+
+// Three standard deviations of where the map is least certain.
+TEST(OdometryPrior, TheLargestRiseHoldsForTheWholePath) {
+  Prior prior;
+  const double rise = prior.Odometry().LargestRise();
+  EXPECT_GE(rise, 3 * 0.5) << "that of the layouts themselves";
+  OdometryModel poor;
+  poor.factors.vertical = 10;
+  prior.CloseLoops({}, poor);
+  EXPECT_GT(prior.Odometry().LargestRise(), 1.5 * rise);
+  prior.here = 0;
+  EXPECT_NEAR(prior.Odometry().LargestRise(), 3 * 0.5, 1e-9) << "no path";
 }
 
 TEST(OdometryPrior, NoMatchNoOpinion) {
   Prior prior;
   prior.fit.matches.clear();
-  const PathGraph::Distances distances = prior.path.From(prior.world.end_m());
-  EXPECT_EQ(OdometryPrior(prior.world.passes, distances, prior.local, prior.index, prior.options)(
-                {0, Vec3(500, 0, 0)}, prior.fit),
-            0);
+  const PosePrior nothing = prior.Odometry().Of({0, Vec3(500, 0, 0)}, prior.fit);
+  EXPECT_EQ(nothing.level, 0);
+  EXPECT_EQ(nothing.height, 0);
 }
 
 }  // namespace

@@ -133,6 +133,7 @@ TEST(DecideTrack, APoorMeasurementIsNotAcceptedHoweverSureTheTrackIs) {
   };
   for (const Case& c :
        {Case{&TrackEvidence::own_evidence, 0., -0.01, "too few objects of its own agree"},
+        Case{&TrackEvidence::height, -3., -3.01, "odometry is at another height"},
         Case{&TrackEvidence::heading_sigma_rad, 0.0399, 0.04, "heading too uncertain"},
         Case{&TrackEvidence::apart_m, 29.9, 30., "no old camera stood near"}}) {
     TrackEvidence track = GoodTrack();

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "layout_cases.h"
 
@@ -60,6 +62,55 @@ TEST(SearchPoses, NoMorePosesThanAreRefined) {
     EXPECT_FALSE(found.empty());
     EXPECT_LE(static_cast<int>(found.size()), refine);
   }
+}
+
+// 80 equal trees in a row: the local map of 12 of them fits at 69 places, both ways round.
+struct EvenRow {
+  static constexpr int kSeen = 12;
+  std::vector<LayoutObject> row;
+
+  EvenRow() {
+    for (int i = 0; i < 80; ++i) row.push_back(ObjectAt({6. * i, 0, 0}));
+  }
+  // Whether the local map of the trees from `first` on is found where it is.
+  bool FindsTruth(int first, const std::function<double(const YawShift&)>& prior) const {
+    std::vector<LayoutObject> local(row.begin() + first, row.begin() + first + kSeen);
+    PoseSearchOptions options;
+    options.refine = 15;
+    const LayoutIndex index(row, 50, 2);
+    for (const PoseHypothesis& found :
+         SearchPoses(LayoutLikelihood(local, index, {}), options, prior))
+      if (ShiftBetween(found.pose, {}, local[0].position) < 1 &&
+          std::abs(WrapAngle(found.pose.yaw)) < 0.1)
+        return true;
+    return false;
+  }
+};
+
+TEST(SearchPoses, ThePriorSavesThePoseNextToItWhereTheMapRepeatsItself) {
+  const EvenRow trees;
+  const auto near_truth = [](const YawShift& pose) {
+    return -pose.t.head<2>().norm() - std::abs(WrapAngle(pose.yaw));
+  };
+  int without = 0, with = 0;
+  const std::vector<int> firsts{0, 9, 21, 34, 47, 55, 68};
+  for (const int first : firsts) {
+    without += trees.FindsTruth(first, {}) ? 1 : 0;
+    with += trees.FindsTruth(first, near_truth) ? 1 : 0;
+  }
+  EXPECT_EQ(with, static_cast<int>(firsts.size()));
+  EXPECT_LE(without, 3) << "15 of 138 equal poses";
+}
+
+TEST(SearchPoses, ThePriorCostsNoPoseThatFitsBest) {
+  const std::vector<LayoutObject> map = Strewn(80, 80, 3);
+  const std::vector<LayoutObject> local = SeenFrom(map, kPose, {10, 0}, 18, 0.2, 3);
+  const auto far = [](const YawShift& pose) { return -(pose.t - Vec3(5000, 0, 0)).norm(); };
+  const LayoutIndex index(map, 50, 2);
+  const auto found = SearchPoses(LayoutLikelihood(local, index, {}), {}, far);
+  ASSERT_FALSE(found.empty());
+  EXPECT_LT(ShiftBetween(found[0].pose, kPose, local[0].position), 1.);
+  EXPECT_EQ(found[0].fit.evidence, Search(local, map)[0].fit.evidence);
 }
 
 TEST(SearchPoses, TheOrderOfTheObjectsDoesNotMatter) {

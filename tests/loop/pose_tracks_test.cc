@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -13,7 +14,7 @@ namespace {
 
 const YawShift kPose{2.5, {30, -20, 1.5}};
 
-double NoPrior(const YawShift&, const LayoutFit&) { return 0.; }
+PosePrior NoPrior(const YawShift&, const LayoutFit&) { return {}; }
 
 // A map, and attempts to find parts of it.
 struct Attempts {
@@ -80,9 +81,10 @@ TEST(PoseTracks, ThePriorCounts) {
   Attempts without(Strewn(60, 80, 1)), with(Strewn(60, 80, 1));
   const auto local = without.SeenAt(10, 5);
   without.Update(local, 100);
-  with.Update(local, 100, [](const YawShift&, const LayoutFit&) { return -3.; });
+  with.Update(local, 100, [](const YawShift&, const LayoutFit&) { return PosePrior{-1, -2}; });
   EXPECT_NEAR(with.tracks.tracks()[0].evidence, without.tracks.tracks()[0].evidence - 3, 1e-9);
-  EXPECT_EQ(with.tracks.tracks()[0].prior, -3);
+  EXPECT_EQ(with.tracks.tracks()[0].prior.level, -1);
+  EXPECT_EQ(with.tracks.tracks()[0].prior.height, -2);
 }
 
 TEST(PoseTracks, TheSameObjectsAgainSayNothingNew) {
@@ -141,19 +143,66 @@ TEST(PoseTracks, TwinsHaveNoMargin) {
   EXPECT_NEAR(attempts.tracks.Margin(1), 0, 0.1);
   // A prior settles it: the margin is that of the two, as "nowhere" is far behind.
   attempts.Update(local, 105, [](const YawShift& pose, const LayoutFit&) {
-    return pose.t.x() > 150 ? -4. : 0.;
+    return PosePrior{pose.t.x() > 150 ? -4. : 0., 0};
   });
   EXPECT_NEAR(attempts.tracks.Margin(0), 4, 0.2);
   EXPECT_NEAR(attempts.tracks.Margin(1), -4, 0.2);
 }
 
-TEST(PoseTracks, AloneTheyCompeteWithNowhere) {
-  PoseTrackOptions options;
-  options.max_tracks = 1;
-  Attempts attempts(Strewn(60, 80, 1), options);
-  attempts.Update(attempts.SeenAt(10, 5), 100);
-  ASSERT_EQ(attempts.tracks.tracks().size(), 1u);
-  EXPECT_NEAR(attempts.tracks.Margin(0), attempts.tracks.tracks()[0].evidence, 1e-9);
+// One track, found with this prior, where a place outside of the map looks like one in it with the
+// probability `look_alike`.
+struct Alone {
+  PoseTrack track;
+  double margin = 0;
+
+  Alone(const PosePrior& prior, double look_alike, int objects = 60) {
+    PoseTrackOptions options;
+    options.max_tracks = 1;
+    options.look_alike = look_alike;
+    Attempts attempts(Strewn(objects, 80, 1), options);
+    attempts.Update(attempts.SeenAt(10, 5), 100,
+                    [&](const YawShift&, const LayoutFit&) { return prior; });
+    EXPECT_EQ(attempts.tracks.tracks().size(), 1u);
+    track = attempts.tracks.tracks()[0];
+    margin = attempts.tracks.Margin(0);
+  }
+  double layout() const { return track.evidence - track.prior.level - track.prior.height; }
+};
+
+TEST(PoseTracks, AloneTheyCompeteWithChanceWhereNothingLooksAlike) {
+  const Alone alone({}, 1e-300);
+  EXPECT_NEAR(alone.margin, alone.track.evidence, 1e-9);
+}
+
+TEST(PoseTracks, ObjectsAloneGiveNoMoreOddsThanAPlaceThatLooksAlike) {
+  for (const double look_alike : {1e-2, 1e-4}) {
+    const Alone alone({}, look_alike);
+    ASSERT_GT(alone.track.evidence, -std::log(look_alike) + 5);
+    EXPECT_NEAR(alone.margin, -std::log(look_alike), 0.01);
+    const Alone more({}, look_alike, 120);
+    ASSERT_GT(more.track.evidence, alone.track.evidence + 3);
+    EXPECT_NEAR(more.margin, alone.margin, 0.01) << "more objects do not help";
+    EXPECT_NEAR(Alone({3, 0}, look_alike).margin, alone.margin, 0.01)
+        << "neither does odometry that has a look-alike there, too";
+  }
+}
+
+TEST(PoseTracks, APoseThatOdometryExcludesIsNotSavedByItsObjects) {
+  constexpr double kLookAlike = 1e-4;
+  for (const double level : {-3., -10., -30.}) {
+    const Alone alone({level, 0}, kLookAlike, 120);
+    ASSERT_GT(alone.layout(), -std::log(kLookAlike) + 5);
+    EXPECT_NEAR(alone.margin, -std::log(kLookAlike) + level, 0.01);
+  }
+}
+
+TEST(PoseTracks, AHeightThatOdometryExcludesIsNotSavedByAGoodHorizontalFit) {
+  constexpr double kLookAlike = 1e-4;
+  for (const double level : {0., 5.}) {
+    const Alone alone({level, -12}, kLookAlike, 120);
+    ASSERT_GT(alone.layout(), -std::log(kLookAlike) + 5);
+    EXPECT_NEAR(alone.margin, -std::log(kLookAlike) - 12, 0.01) << level;
+  }
 }
 
 TEST(PoseTracks, StartAgainUnderNewNames) {
@@ -202,18 +251,51 @@ TEST(PoseTracks, EvidenceGrowsWithWhatIsNewInTheLocalMaps) {
               volume + mean_score * static_cast<double>(different.size()) / mean_objects, 1e-9);
 }
 
+// Odds of "nowhere": of chance, or of a place that looks like the best one but for the priors
+// against it.
+double OddsOfNowhere(const std::vector<PoseTrack>& tracks, double look_alike) {
+  double best = 0;
+  for (const PoseTrack& track : tracks)
+    best = std::max(
+        best, std::exp(track.evidence - track.prior.height - std::min(0., track.prior.level)));
+  return 1 + look_alike * best;
+}
+
 TEST(PoseTracks, MarginIsTheLogOddsAgainstAllOthersAndNowhere) {
   std::vector<LayoutObject> grid;
   for (int i = 0; i < 30; ++i) grid.push_back(ObjectAt({2.5 * (i % 6), 6. * (i / 6), 0}));
-  Attempts attempts(grid);
-  attempts.Update(attempts.SeenAt(5, 12, 7.5), 100);
-  const std::vector<PoseTrack>& tracks = attempts.tracks.tracks();
-  ASSERT_GE(tracks.size(), 3u);
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    double others = 1;  // nowhere has evidence 0
-    for (std::size_t j = 0; j < tracks.size(); ++j)
-      if (j != i) others += std::exp(tracks[j].evidence);
-    EXPECT_NEAR(attempts.tracks.Margin(i), tracks[i].evidence - std::log(others), 1e-9);
+  for (const double look_alike : {0.5, 1e-2, 1e-12}) {
+    PoseTrackOptions options;
+    options.look_alike = look_alike;
+    Attempts attempts(grid, options);
+    attempts.Update(attempts.SeenAt(5, 12, 7.5), 100, [](const YawShift& pose, const LayoutFit&) {
+      return PosePrior{0.1 * pose.t.x() - 3, -0.1 * std::abs(pose.t.y())};
+    });
+    const std::vector<PoseTrack>& tracks = attempts.tracks.tracks();
+    ASSERT_GE(tracks.size(), 3u);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      double others = OddsOfNowhere(tracks, look_alike);
+      for (std::size_t j = 0; j < tracks.size(); ++j)
+        if (j != i) others += std::exp(tracks[j].evidence);
+      EXPECT_NEAR(attempts.tracks.Margin(i), tracks[i].evidence - std::log(others), 1e-9);
+    }
+  }
+}
+
+// Rivals are in the map: nothing that looks alike limits what odometry says of one against another.
+TEST(PoseTracks, TwoRivalsAreComparedInFull) {
+  std::vector<LayoutObject> map = Strewn(20, 40, 4);
+  for (int i = 0; i < 20; ++i)
+    map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
+  for (const double against : {2., 50., 1000.}) {
+    Attempts attempts(map);
+    attempts.Update(attempts.SeenAt(0, 0, 25), 100, [&](const YawShift& pose, const LayoutFit&) {
+      return PosePrior{pose.t.x() > 150 ? -against : 0., 0};
+    });
+    const std::vector<PoseTrack>& tracks = attempts.tracks.tracks();
+    ASSERT_GE(tracks.size(), 2u);
+    EXPECT_NEAR(tracks[0].evidence - tracks[1].evidence, against, 0.1);
+    EXPECT_NEAR(attempts.tracks.Margin(1), -against, 0.2);
   }
 }
 
@@ -221,14 +303,16 @@ TEST(PoseTracks, MarginHoldsWhereEvidenceIsBeyondTheRangeOfExp) {
   std::vector<LayoutObject> map = Strewn(20, 40, 4);
   for (int i = 0; i < 20; ++i)
     map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
-  Attempts attempts(map);
+  PoseTrackOptions options;
+  options.look_alike = 1e-12;
+  Attempts attempts(map, options);
   attempts.Update(attempts.SeenAt(0, 0, 25), 100, [](const YawShift& pose, const LayoutFit&) {
-    return pose.t.x() > 150 ? 2000. : 1000.;
+    return PosePrior{pose.t.x() > 150 ? 2000. : 1990., 0};
   });
   ASSERT_GE(attempts.tracks.tracks().size(), 2u);
   const double apart = attempts.tracks.tracks()[0].evidence - attempts.tracks.tracks()[1].evidence;
   EXPECT_NEAR(attempts.tracks.Margin(0), apart, 1e-6);
-  EXPECT_NEAR(attempts.tracks.Margin(1), -apart, 1e-6);
+  EXPECT_NEAR(attempts.tracks.Margin(1), -apart, 1e-4);
 }
 
 TEST(PoseTracks, VotesCountFromAgreeMBackOn) {
@@ -299,7 +383,8 @@ TEST(PoseTracks, NowhereHasAMarginToo) {
   ASSERT_FALSE(tracks.empty());
   double sum = 0;
   for (const PoseTrack& track : tracks) sum += std::exp(track.evidence);
-  EXPECT_NEAR(attempts.tracks.Margin(tracks.size()), -std::log(sum), 1e-9);
+  const double nowhere = OddsOfNowhere(tracks, PoseTrackOptions().look_alike);
+  EXPECT_NEAR(attempts.tracks.Margin(tracks.size()), std::log(nowhere / sum), 1e-9);
 }
 
 }  // namespace

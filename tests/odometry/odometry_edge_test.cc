@@ -35,7 +35,7 @@ TEST(OdometryBetween, InformationIsThatOfItsNoise) {
   const FrameStore frames = TwoFrames();
   OdometryNoise noise;
   noise.vertical_walk = 3 * noise.translation_walk;
-  const OdometryEdge edge = OdometryBetween(frames, 0, 1, noise, kUp, 1);
+  const OdometryEdge edge = OdometryBetween(frames, 0, 1, {noise, {}}, kUp, 1);
   const OdometrySigmas sigmas = SigmasOf(edge.T_from_to, noise);
   EXPECT_NEAR(edge.information(1, 1), 1 / std::pow(sigmas.vertical, 2), 1e-6) << "y is vertical";
   EXPECT_NEAR(edge.information(0, 0), 1 / std::pow(sigmas.horizontal, 2), 1e-6);
@@ -54,7 +54,7 @@ TEST(OdometryBetween, UpIsTurnedIntoTheSecondCamera) {
   }
   OdometryNoise noise;
   noise.vertical_walk = 3 * noise.translation_walk;
-  const OdometryEdge edge = OdometryBetween(frames, 0, 1, noise, kUp, 1);
+  const OdometryEdge edge = OdometryBetween(frames, 0, 1, {noise, {}}, kUp, 1);
   EXPECT_LT(edge.information(2, 2), 0.5 * edge.information(1, 1));
 }
 

@@ -46,7 +46,6 @@ std::map<std::string, std::map<std::string, std::string>> Owners() {
           {"loop.match.likelihood", LeavesOf(LayoutLikelihoodOptions())},
           {"loop.match.likelihood.appearance", LeavesOf(AppearanceOptions())},
           {"loop.tracks", LeavesOf(PoseTrackOptions())},
-          {"loop.prior", LeavesOf(LoopPriorOptions())},
           {"loop.acceptance", LeavesOf(LoopAcceptanceOptions())},
           {"loop.views", LeavesOf(LoopViewOptions())},
           {"loop.drift", LeavesOf(DriftOptions())},
