@@ -33,7 +33,7 @@ struct BaSighting {
 struct BaOdometry {
   int from = 0, to = 0;
   Pose T_from_to;
-  OdometryFailures failures;  ///< between the two cameras
+  OdometryFailures failures = {};  ///< between the two cameras
 };
 
 /// Another measurement of the relative pose of two cameras, e.g. from their images. It may be wrong

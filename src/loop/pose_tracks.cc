@@ -58,12 +58,6 @@ struct PoseTracks::Attempt {
   Vec3 centre;               // of the local map, where poses are compared
   const PoseSearchOptions& search;
   const Prior& prior;
-  std::vector<int> IdsOf(const std::vector<LayoutObject>& objects) {
-    std::vector<int> ids;
-    for (const LayoutObject& object : objects) ids.push_back(object.id);
-    return ids;
-  }
-
   // Number of different objects by first vote and number of votes: tracks of the same age have the
   // same local maps.
   std::map<std::pair<double, std::size_t>, double> different_since;
