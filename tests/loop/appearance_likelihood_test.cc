@@ -47,6 +47,15 @@ TEST(AppearanceGain, FromOppositeSidesIsJudgedByWhatIsExpectedThere) {
   EXPECT_EQ(AppearanceGain(front, side, alike), AppearanceGain(front, side, usual));
 }
 
+TEST(AppearanceGain, SaysLessWhereOtherObjectsLookAlike) {
+  const LayoutObject car = Car(View(0, 1)), again = Car(View(0, 0.9));
+  AppearanceOptions usual, alike;
+  usual.cosine[Cue::kEmbedding].other_object = 0.3;
+  alike.cosine[Cue::kEmbedding].other_object = 0.8;
+  usual.limit = alike.limit = 100;
+  EXPECT_GT(AppearanceGain(car, again, usual), AppearanceGain(car, again, alike) + 0.1);
+}
+
 TEST(AppearanceGain, IsEvidenceAndNeverAGate) {
   const AppearanceOptions options;
   for (const double cosine : {-1., 0., 0.5, 1.})
