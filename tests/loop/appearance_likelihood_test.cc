@@ -47,6 +47,16 @@ TEST(AppearanceGain, FromOppositeSidesIsJudgedByWhatIsExpectedThere) {
   EXPECT_EQ(AppearanceGain(front, side, alike), AppearanceGain(front, side, usual));
 }
 
+TEST(AppearanceGain, FromOneSideIsJudgedByWhatIsExpectedThere) {
+  const LayoutObject car = Car(View(0, 1)), again = Car(View(0, 0.7)), back = Car(View(M_PI, 0.7));
+  AppearanceOptions usual, poor;
+  usual.cosine[Cue::kEmbedding].same_side = 0.9;
+  poor.cosine[Cue::kEmbedding].same_side = 0.7;
+  usual.limit = poor.limit = 100;
+  EXPECT_GT(AppearanceGain(car, again, poor), AppearanceGain(car, again, usual) + 0.1);
+  EXPECT_EQ(AppearanceGain(car, back, poor), AppearanceGain(car, back, usual));
+}
+
 TEST(AppearanceGain, SaysLessWhereOtherObjectsLookAlike) {
   const LayoutObject car = Car(View(0, 1)), again = Car(View(0, 0.9));
   AppearanceOptions usual, alike;

@@ -24,6 +24,8 @@ const std::map<std::string, std::string>& ShownElsewhere() {
       {"filter.max_size_m", "perception/filter_test.cc: no object is that large"},
       {"loop.match.likelihood.appearance.opposite_side",
        "loop/appearance_likelihood_test.cc: both laps go the same way"},
+      {"loop.match.likelihood.appearance.same_side",
+       "loop/appearance_likelihood_test.cc: with or without it the margin is that of a look-alike"},
       {"loop.match.likelihood.appearance.other_object",
        "loop/appearance_likelihood_test.cc: with or without it the margin is that of a look-alike"},
       {"loop.graph.drift_factor", "pose_graph/robust_test.cc: no loop is false"},

@@ -57,8 +57,8 @@ void DescribeFields(FieldVisitor& visitor, LayoutMatchOptions& options);
 /// Options of tracking hypotheses from one attempt to the next.
 struct PoseTrackOptions {
   double agree_m = 100.;  ///< largest path from an attempt that counts
-  /// Probability that a place outside of the map looks like one in it. The odds of a pose are at most
-  /// 1 / look_alike, less what odometry has against it. e^-8, see docs/decision.md.
+  /// Probability that a place outside of the map looks like one in it. The odds of a pose are at
+  /// most 1 / look_alike, less what odometry has against it. e^-8, see docs/decision.md.
   double look_alike = 3.4e-4;
   /// no key: largest translation and rotation of a hypothesis from one attempt to the next. Set by
   /// hand.
