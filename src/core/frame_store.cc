@@ -12,7 +12,7 @@ namespace {
 // A step is a jump if it exceeds the longest of the last kSteps ones by this factor, at least by
 // this length or angle. Frames may be dropped, and a camera may start quickly. Set by hand.
 constexpr int kSteps = 50, kFewestSteps = 5;
-constexpr double kFactor = 8, kLeastMetres = 3, kLeastRad = 0.7;
+constexpr double kFactor = 8, kLeastMetres = 3, kLeastRad = 1.5;
 
 struct Step {
   double metres, rad;

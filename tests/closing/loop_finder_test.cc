@@ -13,7 +13,7 @@ namespace sslcd {
 namespace {
 
 // Odometry that may be off by what TwoPasses adds on its detour.
-const OdometryFactors kPoor{10, 10, 1, 1};
+const OdometryFactors kPoor{5, 5, 1, 1};
 
 // The local map ends `back_m` before the end of the second pass.
 std::optional<FoundLoop> Find(LoopFinder& finder, const TwoPasses& world, double back_m = 0,

@@ -33,7 +33,9 @@ struct TwoPasses {
       trees.push_back({AddTree(Pose(), place, symmetry), AddTree(drift, place, symmetry)});
     for (int i = 0; i < kFrames; ++i) AddFrame(Pose::Trans(0, 0, i), 0);
     for (int step = 1; step < 48; ++step)
-      AddFrame(Pose::Trans(Detour(5. * step, opposite)), step / 48.);
+      AddFrame(
+          Pose::Trans(Detour(5. * step, opposite)) * Pose::RotY(opposite ? M_PI * step / 48. : 0.),
+          step / 48.);
     for (int i = 0; i < kFrames; ++i)
       AddFrame(opposite ? Pose::Trans(0, 0, 60 - i) * Pose::RotY(M_PI) : Pose::Trans(0, 0, i), 1);
   }

@@ -74,5 +74,40 @@ TEST(FrameStore, MatchesAreNoChangeOfPose) {
   EXPECT_EQ(frames.FirstChangeSince(before), 3);
 }
 
+// Frames at these places along x, with these headings. [m, rad]
+FrameStore Drive(const std::vector<double>& x, const std::vector<double>& yaw = {}) {
+  FrameStore frames;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    FrameRecord record;
+    record.T_odom_cam = Pose::Trans(x[i], 0, 0) * Pose::RotY(i < yaw.size() ? yaw[i] : 0.);
+    frames.Append(record);
+  }
+  return frames;
+}
+
+TEST(OdometryFailures, AJumpIsAsUncertainAsItIsLong) {
+  const FrameStore frames = Drive({0, 1, 2, 3, 4, 5, 6, 7, 37, 38, 39, 69});
+  EXPECT_EQ(FailuresBetween(frames, 0, 7).translation_m2, 0);
+  EXPECT_EQ(FailuresBetween(frames, 7, 8).translation_m2, 30 * 30);
+  EXPECT_EQ(FailuresBetween(frames, 8, 10).translation_m2, 0);
+  EXPECT_EQ(FailuresBetween(frames, 11, 0).translation_m2, 2 * 30 * 30) << "the second one, too";
+  EXPECT_EQ(FailuresBetween(frames, 0, 11).rotation_rad2, 0);
+}
+
+TEST(OdometryFailures, DroppedFramesAQuickStartAndTheFirstStepsAreNone) {
+  EXPECT_EQ(FailuresBetween(Drive({0, 1, 2, 3, 4, 5, 6, 13}), 0, 7).translation_m2, 0);
+  EXPECT_EQ(FailuresBetween(Drive({0, 0, 0, 0, 0, 0, 0, 2.9}), 0, 7).translation_m2, 0);
+  EXPECT_EQ(FailuresBetween(Drive({0, 1, 31}), 0, 2).translation_m2, 0);
+}
+
+TEST(OdometryFailures, ATurnInOneStep) {
+  const std::vector<double> x{0, 1, 2, 3, 4, 5, 6, 7};
+  const FrameStore turned = Drive(x, {0, 0, 0, 0, 0, 0, 0, 2});
+  EXPECT_NEAR(FailuresBetween(turned, 0, 7).rotation_rad2, 4, 1e-9);
+  EXPECT_EQ(FailuresBetween(turned, 0, 7).translation_m2, 0);
+  EXPECT_EQ(FailuresBetween(Drive(x, {0, 0, 0, 0, 0, 0, 0, 1.4}), 0, 7).rotation_rad2, 0);
+  EXPECT_EQ(FailuresBetween(Drive(x, {0, 1, 2, 3, 4, 5, 6, 8}), 0, 7).rotation_rad2, 0);
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -36,5 +36,13 @@ TEST(OdometryNoise, FactorsAreOnTheHorizontalPartTheHeadingTheHeightAndTheTilt) 
   EXPECT_TRUE(information.diagonal().isApprox(expected, 1e-12)) << information;
 }
 
+TEST(SigmasOf, FailuresAddTheirVariance) {
+  const Pose step = Pose::Trans(0, 0, 4);
+  const OdometrySigmas usual = SigmasOf(step, {}), failed = SigmasOf(step, {}, {9, 0.25});
+  EXPECT_NEAR(failed.horizontal, std::hypot(usual.horizontal, 3), 1e-12);
+  EXPECT_NEAR(failed.vertical, std::hypot(usual.vertical, 3), 1e-12);
+  EXPECT_NEAR(failed.rotation, std::hypot(usual.rotation, 0.5), 1e-12);
+}
+
 }  // namespace
 }  // namespace sslcd
