@@ -77,6 +77,26 @@ TEST(PoseTracks, NewObjectsDo) {
   EXPECT_GT(last.evidence, 1.5 * first.evidence);
 }
 
+// The search finds no pose in the first three attempts, and the right one in the fourth.
+PoseTrack FoundLate(double level, double first_m = 100) {
+  Attempts attempts(Strewn(120, 120, 1));
+  for (int i = 0; i < 3; ++i)
+    attempts.UpdateWithoutSearch(attempts.SeenAt(-10 + 5 * i, 0), first_m + 5 * i);
+  attempts.Update(attempts.SeenAt(5, 0), 115, [=](const YawShift&, const LayoutFit&) {
+    return PosePrior{level, 0};
+  });
+  return attempts.tracks.tracks().at(0);
+}
+
+TEST(PoseTracks, APoseThatOdometryFavoursIsFollowedBack) {
+  const PoseTrack followed = FoundLate(2), fresh = FoundLate(-2);
+  ASSERT_EQ(followed.votes.size(), 4u);
+  EXPECT_EQ(fresh.votes.size(), 1u) << "odometry does not favour it";
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(followed.votes[i].path_m, 100. + 5. * double(i));
+  EXPECT_GT(followed.evidence, fresh.evidence + 4 + 1) << "by the objects seen before";
+  EXPECT_EQ(FoundLate(2, 0).votes.size(), 1u) << "the others are more than 100 m back";
+}
+
 TEST(PoseTracks, WhatLiesFarBackIsForgotten) {
   PoseTrackOptions options;
   options.agree_m = 12;
