@@ -51,13 +51,14 @@ Eigen::Matrix4d OdometryPrior::Covariance(int from, int to) const {
   return covariance;
 }
 
-// Motion of the point midway between the camera, which odometry places, and `centre`, where the
-// matched objects place the pose; and the yaw.
-Vec3 OdometryPrior::LevelError(const YawShift& pose, const Vec3& centre) const {
-  const Vec3 camera =
-      state_.gravity().Basis().transpose() * state_.frames[here_].T_world_cam.translation();
-  const Vec3 at = 0.5 * (camera + centre);
-  const Vec3 moved = Apply(pose, at) - at;
+// The camera's place in the layout.
+Vec3 OdometryPrior::Camera() const {
+  return state_.gravity().Basis().transpose() * state_.frames[here_].T_world_cam.translation();
+}
+
+// Horizontal motion of a point under the pose, and the yaw.
+Vec3 OdometryPrior::LevelError(const YawShift& pose, const Vec3& point) const {
+  const Vec3 moved = Apply(pose, point) - point;
   return {moved.x(), moved.y(), WrapAngle(pose.yaw)};
 }
 
@@ -73,7 +74,8 @@ PosePrior OdometryPrior::Of(const YawShift& pose, const LayoutFit& fit) const {
   }
   const int old = state_.frames.AtPath(Median(std::move(old_m)));
   const Eigen::Matrix3d covariance = WithoutHeight(Covariance(old, here_));
-  const Vec3 error = LevelError(pose, centre);
+  // Odometry places the camera, the matched objects place the pose at their centre.
+  const Vec3 error = LevelError(pose, 0.5 * (Camera() + centre));
   PosePrior prior;
   prior.level = std::log(index_.pose_volume()) - 0.5 * std::log(covariance.determinant()) +
                 LogStudent(error.dot(covariance.inverse() * error), 3);
@@ -95,9 +97,7 @@ double OdometryPrior::OfRise(int from, int to, double rise_m) const {
 }
 
 double OdometryPrior::Rank(const YawShift& pose) const {
-  const Vec3 camera =
-      state_.gravity().Basis().transpose() * state_.frames[here_].T_world_cam.translation();
-  const Vec3 error = LevelError(pose, camera);
+  const Vec3 error = LevelError(pose, Camera());
   return -error.dot(WithoutHeight(Covariance(0, here_)).inverse() * error);
 }
 

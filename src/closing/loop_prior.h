@@ -40,7 +40,8 @@ class OdometryPrior {
 
  private:
   Eigen::Matrix4d Covariance(int from, int to) const;
-  Vec3 LevelError(const YawShift& pose, const Vec3& centre) const;
+  Vec3 Camera() const;
+  Vec3 LevelError(const YawShift& pose, const Vec3& point) const;
   double OfRise(int from, int to, double rise_m) const;
 
   const MapState& state_;

@@ -14,7 +14,8 @@
 namespace sslcd {
 
 /// How far odometry and the accepted loops leave the relative pose of two frames open. Computed
-/// from the pose graph of both with a vertex every 20 m of path. Has no references.
+/// from the pose graph of both with a vertex every 20 m of path, on more than 2 km every hundredth
+/// of it. Has no references.
 class TrajectoryUncertainty {
  public:
   using Mat6 = RelativeCovariances::Mat6;
@@ -23,10 +24,10 @@ class TrajectoryUncertainty {
                         const OdometryModel& odometry);
 
   /// Covariance of the motion [translation, rotation] of the world around the frame `to` relative
-  /// to the world around `from`. Accurate to the 10 m of path to the nearest vertex.
+  /// to the world around `from`, each at its nearest vertex.
   const Mat6& Between(int from, int to) const;
 
-  /// Index of every vertex' frame.
+  /// The frames of the vertices, by index.
   const std::vector<int>& frames() const { return frames_; }
 
  private:

@@ -57,11 +57,16 @@ struct PoseTracks::Attempt {
   std::vector<int> objects;  // ids of the local map's objects
   Vec3 centre;               // of the local map, where poses are compared
   const PoseSearchOptions& search;
-  const Prior& prior;
   // Number of different objects by first vote and number of votes: tracks of the same age have the
   // same local maps.
   std::map<std::pair<double, std::size_t>, double> different_since;
   std::vector<PoseTrack> tracks;
+
+  bool HasTrackAt(const YawShift& pose) const {
+    return std::any_of(tracks.begin(), tracks.end(), [&](const PoseTrack& track) {
+      return AreNear(track.pose, pose, centre, search.distinct_m, search.distinct_rad);
+    });
+  }
 
   double Different(const std::vector<PoseTrack::Vote>& votes) {
     const auto [known, fresh] = different_since.insert({{votes.front().path_m, votes.size()}, 0});
@@ -72,10 +77,6 @@ struct PoseTracks::Attempt {
 
 void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit,
                          Attempt& attempt) const {
-  for (const PoseTrack& other : attempt.tracks)
-    if (AreNear(other.pose, pose, attempt.centre, attempt.search.distinct_m,
-                attempt.search.distinct_rad))
-      return;
   track.pose = pose;
   track.fit = fit;
   track.votes.push_back({attempt.path_m, fit.score, attempt.objects});
@@ -86,7 +87,6 @@ void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit&
     scores += vote.score;
     objects += static_cast<double>(vote.objects.size());
   }
-  track.prior = attempt.prior(pose, fit);
   track.evidence = track.prior.level + track.prior.height + fit.evidence - fit.score +
                    scores * attempt.Different(track.votes) / objects;
   attempt.tracks.push_back(std::move(track));
@@ -99,19 +99,23 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
   if (local.empty()) return;
   while (!earlier_.empty() && path_m - earlier_.front().path_m > options_.agree_m)
     earlier_.erase(earlier_.begin());
-  Attempt attempt{path_m, IdsOf(local), CentreOf(local), search, prior, {}, {}};
+  Attempt attempt{path_m, IdsOf(local), CentreOf(local), search, {}, {}};
   for (PoseTrack& track : tracks_) {
     YawShift pose = track.pose;
     LayoutFit fit = likelihood.Refine(pose, kRefineRounds);
     if (!AreNear(pose, track.pose, attempt.centre, options_.step_m, options_.step_rad)) continue;
     if (static_cast<int>(fit.matches.size()) < search.min_matches) continue;
+    if (attempt.HasTrackAt(pose)) continue;
+    track.prior = prior(pose, fit);
     AddVote(std::move(track), pose, fit, attempt);
   }
   for (const PoseHypothesis& hypothesis : found) {
     PoseTrack track;
     track.id = next_id_++;
-    const PosePrior odds = prior(hypothesis.pose, hypothesis.fit);
-    if (odds.level + odds.height > 0) FollowBack(likelihood, hypothesis.pose, attempt, track);
+    if (attempt.HasTrackAt(hypothesis.pose)) continue;
+    track.prior = prior(hypothesis.pose, hypothesis.fit);
+    if (track.prior.level + track.prior.height > 0)
+      FollowBack(likelihood, hypothesis.pose, search.min_matches, track);
     AddVote(std::move(track), hypothesis.pose, hypothesis.fit, attempt);
   }
   std::vector<PoseTrack>& now = attempt.tracks;
@@ -124,17 +128,13 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
 
 // Adds the votes that a track at `pose` would have got from earlier attempts.
 void PoseTracks::FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose,
-                            const Attempt& attempt, PoseTrack& track) const {
-  for (const PoseTrack& other : attempt.tracks)
-    if (AreNear(other.pose, pose, attempt.centre, attempt.search.distinct_m,
-                attempt.search.distinct_rad))
-      return;
+                            int min_matches, PoseTrack& track) const {
   YawShift now = pose;
   for (auto map = earlier_.rbegin(); map != earlier_.rend(); ++map) {
     YawShift before = now;
     const LayoutFit fit = likelihood.Of(map->objects).Refine(before, kRefineRounds);
     if (!AreNear(before, now, CentreOf(map->objects), options_.step_m, options_.step_rad)) break;
-    if (static_cast<int>(fit.matches.size()) < attempt.search.min_matches) break;
+    if (static_cast<int>(fit.matches.size()) < min_matches) break;
     track.votes.insert(track.votes.begin(), {map->path_m, fit.score, IdsOf(map->objects)});
     now = before;
   }

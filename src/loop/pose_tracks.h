@@ -72,9 +72,9 @@ class PoseTracks {
     double path_m;
     std::vector<LayoutObject> objects;
   };
-  /// Continues or starts a track at `pose`, unless the attempt already has a track there.
+  /// Continues or starts a track at `pose`. Its prior is set.
   void AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit, Attempt& attempt) const;
-  void FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose, const Attempt& attempt,
+  void FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose, int min_matches,
                   PoseTrack& track) const;
 
   PoseTrackOptions options_;
