@@ -18,7 +18,9 @@ cmake --build "$build" -j "$(nproc)" --target sslcd_sim sslcd_run
 "$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --out "$out/map"
 metric() { sed -n "s/.*\"$1\": *\([0-9.]*\).*/\1/p" "$out/map/metrics.json"; }
 echo
-awk -F, '$3 == "accepted" { n++; if (n == 1 || $8 < low) low = $8; if ($8 > high) high = $8 }
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i }
+  $(column["decision"]) == "accepted" { angle = $(column["viewpoint_change_deg"])
+    n++; if (n == 1 || angle < low) low = angle; if (angle > high) high = angle }
   END { printf "Loops found:  %d, seen from directions %.0f to %.0f degrees apart\n", n, low, high }' "$out/map/loops.csv"
 printf 'ATE:          %.2f m before, %.2f m after (RMSE after Sim(3))\n' \
   "$(metric odometry_ate_sim3_rmse_m)" "$(metric ate_sim3_rmse_m)"

@@ -9,6 +9,7 @@
 #include "closing/loop_prior.h"
 #include "closing/pass_layout.h"
 #include "closing/trajectory_uncertainty.h"
+#include "core/sigmoid.h"
 #include "loop/decision.h"
 #include "loop/pose_tracks.h"
 
@@ -87,6 +88,7 @@ class TrackFinder : public LoopFinder {
     row.decision = verdict.loop.decision;
     row.score = verdict.loop.score;
     row.second_score = verdict.loop.second_score;
+    row.probability = Sigmoid(row.score);
     row.reason = row.decision == LoopDecision::kAccepted
                      ? std::to_string(row.pairs.size()) + " objects agree"
                      : verdict.loop.reason;

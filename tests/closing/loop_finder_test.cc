@@ -59,6 +59,18 @@ TEST(TrackFinder, WithoutARivalTheSecondScoreIsTheOddsAgainstTheOnlyTrack) {
   EXPECT_EQ(only->loop.row.second_score, -only->loop.row.score);
 }
 
+TEST(TrackFinder, TheProbabilityIsThatOfTheLogOdds) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  LoopOptions options;
+  options.tracks.look_alike = 0.25;  // in doubt
+  const auto found = Find(*MakeTrackFinder(options), world);
+  ASSERT_TRUE(found && found->loop.row.probability);
+  const double p = *found->loop.row.probability;
+  EXPECT_GT(p, 0.5);
+  EXPECT_LT(p, 0.9);
+  EXPECT_NEAR(std::log(p / (1 - p)), found->loop.row.score, 1e-9);
+}
+
 // Evidence is against poses anywhere in the map; with its track an attempt needs much less.
 TEST(TrackFinder, FewObjectsOfItsOwnAreEnoughWhereTheTrackExpectsThem) {
   const TwoPasses world(Pose(), false, 7);
@@ -178,6 +190,7 @@ TEST(PrintedFinder, TiesTheNewestCameraToTheFirstThatSawAMatchedObject) {
       if (pass.id == pair.second) first = std::min(first, pass.sightings.front().first);
   EXPECT_EQ(loop.match, first);
   EXPECT_EQ(found->track, -1);
+  EXPECT_FALSE(loop.row.probability) << "a sum of similarities is no log odds";
 }
 
 TEST(PrintedFinder, NoneWhereTooFewObjectsMatch) {
@@ -211,6 +224,7 @@ TEST(HostFinder, MeasuresWhatTheHostMatchesAndLeavesTheDecisionToIt) {
     const LoopMeasurement& loop = found->loop;
     EXPECT_EQ(loop.row.decision, sure ? LoopDecision::kAccepted : LoopDecision::kAmbiguous);
     EXPECT_EQ(loop.row.score, 4);
+    EXPECT_FALSE(loop.row.probability) << "a host's score may mean anything";
     EXPECT_LT(Apart(loop.row.T_match_query, world.TrueLoop(loop.match, loop.query)), 0.05);
     EXPECT_FALSE(finder->SupportsSecondSearch()) << "a host is asked in order of time";
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,10 @@ struct LoopClosure {
   LoopDecision decision = LoopDecision::kNone;
   std::string reason;                  ///< why it was refused or accepted
   double score = 0, second_score = 0;  ///< log odds of the best and the second best pose [nats]
-  Pose T_match_query;                  ///< pose of the query camera in the match camera's frame
+  /// that the best pose is right, by what the run knew at the attempt: 1 / (1 + exp(-score)). None
+  /// if the score is no log odds: the printed finder's, or that of a host's matcher.
+  std::optional<double> probability;
+  Pose T_match_query;  ///< pose of the query camera in the match camera's frame
   /// covariance of the right perturbation T_match_query Exp(d), d = [translation, rotation]
   Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
