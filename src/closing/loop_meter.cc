@@ -144,8 +144,12 @@ double LoopMeter::OdometrySigma(int frame, double seen_m) const {
   const double step =
       (frames_[frame].T_odom_cam.translation() - frames_[seen].T_odom_cam.translation()).norm();
   // The local map is short, and the caution of the factors is for long paths.
-  return std::hypot(std::min(1., factors_.horizontal) * sigmas.horizontal,
-                    std::min(1., factors_.heading) * sigmas.rotation * (0.5 * step + kSeenFrom));
+  OdometryFactors factors;
+  factors.horizontal = std::min(1., factors_.horizontal);
+  factors.heading = std::min(1., factors_.heading);
+  factors = FactorsWithFailures(factors, sigmas);
+  return std::hypot(factors.horizontal * sigmas.horizontal,
+                    factors.heading * sigmas.rotation * (0.5 * step + kSeenFrom));
 }
 
 // Rotates the world about a camera so that the cameras around it are upright on average.

@@ -73,6 +73,7 @@ PosePrior OdometryPrior::Of(const YawShift& pose, const LayoutFit& fit) const {
     centre += local_.objects[i].position / static_cast<double>(fit.matches.size());
   }
   const int old = state_.frames.AtPath(Median(std::move(old_m)));
+  if (!uncertainty_.Joined(old, here_)) return {};
   const Eigen::Matrix3d covariance = WithoutHeight(Covariance(old, here_));
   // Odometry places the camera, the matched objects place the pose at their centre.
   const Vec3 error = LevelError(pose, 0.5 * (Camera() + centre));
@@ -84,6 +85,7 @@ PosePrior OdometryPrior::Of(const YawShift& pose, const LayoutFit& fit) const {
 }
 
 double OdometryPrior::OfHeight(const LoopMeasurement& loop) const {
+  if (!uncertainty_.Joined(loop.match, loop.query)) return 0;
   const Pose &T_world_match = state_.frames[loop.match].T_world_cam,
              &T_world_query = state_.frames[loop.query].T_world_cam;
   const Vec3 moved =

@@ -24,7 +24,8 @@ class OdometryPrior {
         uncertainty_(uncertainty),
         here_(here) {}
 
-  /// The prior of a pose with its matches; without any it says nothing.
+  /// The prior of a pose with its matches. Says nothing without any, or if odometry was lost
+  /// between here and there and no loop has joined the two.
   PosePrior Of(const YawShift& pose, const LayoutFit& fit) const;
 
   /// Log likelihood of a loop's measured height against the height of the trajectory; never

@@ -101,8 +101,12 @@ OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, d
                               const LoopOptions& options) {
   if (!options.learn_odometry) return {};
   const Vec3 up = state.gravity().up;
-  return LearnOdometryFactors(
-      BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options, {}).graph, up);
+  const LoopGraph graph =
+      BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options, {});
+  std::vector<OdometryFailures> failures;
+  for (std::size_t k = 1; k < graph.keyframes.size(); ++k)
+    failures.push_back(FailuresBetween(state.frames, graph.keyframes[k - 1], graph.keyframes[k]));
+  return LearnOdometryFactors(graph.graph, up, failures);
 }
 
 }  // namespace sslcd

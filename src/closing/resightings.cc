@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace sslcd {
 namespace {
@@ -24,8 +25,16 @@ OdometryNoise WithoutFloors(OdometryNoise noise) {
   return noise;
 }
 
+// Without failures.
 OdometrySigmas SigmasOfStep(const FrameStore& frames, int to, const OdometryNoise& walk) {
-  return SigmasBetween(frames, to - 1, to, walk);
+  return SigmasOf(frames[to - 1].T_odom_cam.inverse() * frames[to].T_odom_cam, walk);
+}
+
+// Of the failures in a step.
+OdometrySigmas FailuresOfStep(const FrameStore& frames, int to) {
+  const OdometryFailures failures = FailuresBetween(frames, to - 1, to);
+  const double metres = std::sqrt(failures.translation_m2);
+  return {metres, metres, std::sqrt(failures.rotation_rad2)};
 }
 
 // Sums of the variances of the steps up to a frame, and of those of the rotations times the first
@@ -36,12 +45,12 @@ struct StepSums {
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
 };
 
+// `sigmas_of`: of the step to a frame.
 std::vector<StepSums> SumSteps(const FrameStore& frames, const Eigen::Matrix3d& to_layout,
-                               const OdometryNoise& noise, double scale) {
+                               double scale, const std::function<OdometrySigmas(int)>& sigmas_of) {
   std::vector<StepSums> sums(frames.size());
-  const OdometryNoise walk = WithoutFloors(noise);
   for (int f = 1; f < frames.size(); ++f) {
-    const OdometrySigmas sigmas = SigmasOfStep(frames, f, walk);
+    const OdometrySigmas sigmas = sigmas_of(f);
     const Eigen::Vector2d c = (scale * (to_layout * frames[f].T_odom_cam.translation())).head<2>();
     const double rotation = sigmas.rotation * sigmas.rotation;
     StepSums& sum = sums[f] = sums[f - 1];
@@ -90,7 +99,11 @@ std::vector<Resighting> ResightingsOf(const MapState& state, const PassMap& pass
                                       double tilt_factor) {
   const FrameStore& frames = state.frames;
   const Eigen::Matrix3d to_layout = state.gravity().Basis().transpose();
-  const std::vector<StepSums> sums = SumSteps(frames, to_layout, noise, scale);
+  const OdometryNoise walk = WithoutFloors(noise);
+  const std::vector<StepSums> sums =
+      SumSteps(frames, to_layout, scale, [&](int f) { return SigmasOfStep(frames, f, walk); });
+  const std::vector<StepSums> failed =
+      SumSteps(frames, to_layout, scale, [&](int f) { return FailuresOfStep(frames, f); });
   // Place by odometry alone; adds the covariance of the detection.
   const auto place = [&](const std::pair<int, int>& sighting, Eigen::Matrix3d& covariance) {
     const FrameRecord& frame = frames[sighting.first];
@@ -112,8 +125,13 @@ std::vector<Resighting> ResightingsOf(const MapState& state, const PassMap& pass
       both.detection.setZero();
       const Vec3 before = place(first, both.detection), now = place(later, both.detection);
       both.moved = now - before;
-      both.odometry = ByOdometry(sums[first.first], sums[later.first],
-                                 0.5 * (before + now).head<2>(), tilt_factor);
+      const Eigen::Vector2d middle = 0.5 * (before + now).head<2>();
+      both.odometry = ByOdometry(sums[first.first], sums[later.first], middle, tilt_factor);
+      // Failures are no multiple of the noise, except for height and tilt (FactorsWithFailures).
+      const Eigen::Matrix3d jumped =
+          ByOdometry(failed[first.first], failed[later.first], middle, tilt_factor);
+      both.fixed = jumped.topLeftCorner<2, 2>();
+      both.odometry(2, 2) += jumped(2, 2);
     }
   }
   return all;

@@ -34,7 +34,7 @@ TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
                               kAnyTurn)) {
   const FrameStore& frames = state.frames;
   for (const FrameRecord& frame : frames) path_of_all_.push_back(frame.travelled);
-  for (const int frame : frames_) path_m_.push_back(path_of_all_[frame]);
+  for (const int frame : frames_) part_.push_back(frames[frame].failures.lost);
   const auto walk = [&](int from, int to) -> Mat6 {
     if (from == to) return Mat6::Zero();
     const Pose& T_world_to = frames[to].T_world_cam;
@@ -57,21 +57,26 @@ TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
     const auto [known, is_new] = best.insert({ends, &loop});
     if (!is_new && variance(loop) < variance(*known->second)) known->second = &loop;
   }
-  for (const auto& [ends, loop] : best)
+  for (const auto& [ends, loop] : best) {
     measured.push_back({ends.first, ends.second,
                         walk(frames_[ends.first], loop->match) +
                             InWorld(loop->closure->covariance, frames[loop->query].T_world_cam) +
                             walk(loop->query, frames_[ends.second])});
+    std::replace(part_.begin(), part_.end(), int(part_[ends.second]), int(part_[ends.first]));
+  }
   covariances_.emplace(static_cast<int>(frames_.size()), measured);
 }
 
 int TrajectoryUncertainty::NearestVertex(int frame) const {
-  const double at_m = path_of_all_[frame];
-  const auto after = std::lower_bound(path_m_.begin(), path_m_.end(), at_m);
-  int vertex = static_cast<int>(after - path_m_.begin());
-  if (vertex == static_cast<int>(path_m_.size())) return vertex - 1;
-  if (vertex > 0 && at_m - path_m_[vertex - 1] < path_m_[vertex] - at_m) --vertex;
-  return vertex;
+  const auto after = std::lower_bound(frames_.begin(), frames_.end(), frame);
+  const int vertex = static_cast<int>(after - frames_.begin());
+  if (vertex == 0) return vertex;
+  const double since_m = path_of_all_[frame] - path_of_all_[frames_[vertex - 1]];
+  return since_m < path_of_all_[frames_[vertex]] - path_of_all_[frame] ? vertex - 1 : vertex;
+}
+
+bool TrajectoryUncertainty::Joined(int from, int to) const {
+  return part_[NearestVertex(from)] == part_[NearestVertex(to)];
 }
 
 const Mat6& TrajectoryUncertainty::Between(int from, int to) const {

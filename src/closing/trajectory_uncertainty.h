@@ -27,6 +27,9 @@ class TrajectoryUncertainty {
   /// to the world around `from`, each at its nearest vertex.
   const Mat6& Between(int from, int to) const;
 
+  /// Whether odometry that was never lost, and loops, lead from one frame to the other.
+  bool Joined(int from, int to) const;
+
   /// The frames of the vertices, by index.
   const std::vector<int>& frames() const { return frames_; }
 
@@ -34,8 +37,9 @@ class TrajectoryUncertainty {
   int NearestVertex(int frame) const;
 
   std::vector<int> frames_;
-  std::vector<double> path_m_;       // of the vertices
   std::vector<double> path_of_all_;  // of all frames
+  std::vector<int>
+      part_;  // of the vertices: the same number where something leads from one to another
   std::optional<RelativeCovariances> covariances_;
   mutable std::map<std::pair<int, int>, Mat6> known_;
 };

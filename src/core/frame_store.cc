@@ -14,8 +14,19 @@ namespace {
 constexpr int kSteps = 50, kFewestSteps = 5;
 constexpr double kFactor = 8, kLeastMetres = 3, kLeastRad = 1.5;
 
+// Standard deviations of a lost step: larger than most maps, and any turn. Loops outweigh them.
+constexpr double kLostMetres = 1000, kLostRad = M_PI;
+
 struct Step {
   double metres, rad;
+
+  // Whether a step with these failures is as long as it seems, and turns as much.
+  bool IsLong(const OdometryFailures& its) const {
+    return its.lost == 0 && its.translation_m2 < 0.5 * metres * metres;
+  }
+  bool IsTurn(const OdometryFailures& its) const {
+    return its.lost == 0 && its.rotation_rad2 < 0.5 * rad * rad;
+  }
 };
 
 Step StepBetween(const FrameRecord& a, const FrameRecord& b) {
@@ -23,17 +34,26 @@ Step StepBetween(const FrameRecord& a, const FrameRecord& b) {
   return {step.translation().norm(), step.so3().Log().norm()};
 }
 
+OdometryFailures Difference(const OdometryFailures& before, const OdometryFailures& now) {
+  return {std::abs(now.translation_m2 - before.translation_m2),
+          std::abs(now.rotation_rad2 - before.rotation_rad2), std::abs(now.lost - before.lost)};
+}
+
+OdometryFailures Reported(const StepUncertainty& step) {
+  if (step.lost) return {kLostMetres * kLostMetres, kLostRad * kLostRad, 1};
+  return {step.translation_m * step.translation_m, step.rotation_rad * step.rotation_rad, 0};
+}
+
 // The failures of the step to `record`, judged by the last steps of `frames`.
-OdometryFailures FailuresOf(const std::vector<FrameRecord>& frames, const FrameRecord& record) {
+OdometryFailures InferredFrom(const std::vector<FrameRecord>& frames, const FrameRecord& record) {
   const int last = static_cast<int>(frames.size()) - 1;
   if (last < kFewestSteps) return {};
   Step longest{kLeastMetres / kFactor, kLeastRad / kFactor};
   for (int f = std::max(1, last - kSteps); f <= last; ++f) {
     const Step step = StepBetween(frames[f - 1], frames[f]);
-    if (frames[f].failures.translation_m2 == frames[f - 1].failures.translation_m2)
-      longest.metres = std::max(longest.metres, step.metres);
-    if (frames[f].failures.rotation_rad2 == frames[f - 1].failures.rotation_rad2)
-      longest.rad = std::max(longest.rad, step.rad);
+    const OdometryFailures its = Difference(frames[f - 1].failures, frames[f].failures);
+    if (step.IsLong(its)) longest.metres = std::max(longest.metres, step.metres);
+    if (step.IsTurn(its)) longest.rad = std::max(longest.rad, step.rad);
   }
   const Step step = StepBetween(frames[last], record);
   OdometryFailures failures;
@@ -44,23 +64,28 @@ OdometryFailures FailuresOf(const std::vector<FrameRecord>& frames, const FrameR
 
 }  // namespace
 
-void FrameStore::Append(FrameRecord record) {
+void FrameStore::Append(FrameRecord record, const std::optional<StepUncertainty>& reported) {
   if (!frames_.empty()) {
     const FrameRecord& before = frames_.back();
+    OdometryFailures& failures = record.failures;
+    failures = reported ? Reported(*reported) : InferredFrom(frames_, record);
     const Vec3 step = record.T_odom_cam.translation() - before.T_odom_cam.translation();
-    record.travelled = before.travelled + step.norm();
-    record.failures = FailuresOf(frames_, record);
-    record.failures.translation_m2 += before.failures.translation_m2;
-    record.failures.rotation_rad2 += before.failures.rotation_rad2;
+    const double lost_m = IsLost(*this, size() - 1) ? 0. : lost_path_m_;
+    record.travelled = before.travelled + (failures.lost > 0 ? lost_m : step.norm());
+    failures.translation_m2 += before.failures.translation_m2;
+    failures.rotation_rad2 += before.failures.rotation_rad2;
+    failures.lost += before.failures.lost;
   }
   frames_.push_back(std::move(record));
   Changed(size() - 1);
 }
 
 OdometryFailures FailuresBetween(const FrameStore& frames, int a, int b) {
-  const OdometryFailures &one = frames[a].failures, &other = frames[b].failures;
-  return {std::abs(other.translation_m2 - one.translation_m2),
-          std::abs(other.rotation_rad2 - one.rotation_rad2)};
+  return Difference(frames[a].failures, frames[b].failures);
+}
+
+bool IsLost(const FrameStore& frames, int index) {
+  return index > 0 && FailuresBetween(frames, index - 1, index).lost > 0;
 }
 
 void FrameStore::SetPose(int index, const Pose& T_world_cam) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,17 +12,19 @@
 
 namespace sslcd {
 
-/// The variance that failures of odometry add to what its noise explains: the squares of the steps
-/// in which it failed, summed.
+/// What the steps in which odometry failed, or said that it was uncertain, add to the variance that
+/// its noise explains, and the number of steps in which it was lost.
 struct OdometryFailures {
   double translation_m2 = 0, rotation_rad2 = 0;
+  int lost = 0;
 };
 
 /// A stored frame.
 struct FrameRecord {
-  int frame = 0;                      ///< frame number in the dataset
-  double stamp = 0;                   ///< [s]
-  double travelled = 0;               ///< path of the odometry up to this frame [m]
+  int frame = 0;     ///< frame number in the dataset
+  double stamp = 0;  ///< [s]
+  /// path of the odometry up to this frame [m], see FrameStore::Append
+  double travelled = 0;
   OdometryFailures failures;          ///< up to this frame
   Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
   Pose T_world_cam;                   ///< the current estimate
@@ -37,9 +40,15 @@ class FrameStore {
   /// A counter of changes.
   using Revision = std::uint64_t;
 
-  /// Adds the newest frame and sets its `travelled` and `failures`. Odometry has failed in a step
-  /// that is much longer than any of the steps before it, or turns by much more.
-  void Append(FrameRecord record);
+  FrameStore() = default;
+  /// `lost_path_m`: the path that the first lost step in a row counts as, so that nothing that is
+  /// compared along a shorter path spans it. [m]
+  explicit FrameStore(double lost_path_m) : lost_path_m_(lost_path_m) {}
+
+  /// Adds the newest frame and sets its `travelled` and `failures`. `reported` is the uncertainty
+  /// of the step to it. Where none is reported, odometry has failed in a step that is much longer
+  /// than any of the steps before it, or turns by much more.
+  void Append(FrameRecord record, const std::optional<StepUncertainty>& reported = std::nullopt);
 
   int size() const { return static_cast<int>(frames_.size()); }
   bool empty() const { return frames_.empty(); }
@@ -70,6 +79,7 @@ class FrameStore {
  private:
   void Changed(int index);
 
+  double lost_path_m_ = 0;
   std::vector<FrameRecord> frames_;
   Revision revision_ = 0;
   // (revision, first changed frame), both strictly ascending: a later change of an earlier frame
@@ -79,6 +89,9 @@ class FrameStore {
 
 /// The failures of odometry between two frames.
 OdometryFailures FailuresBetween(const FrameStore& frames, int a, int b);
+
+/// Whether the step to a frame is unknown.
+bool IsLost(const FrameStore& frames, int index);
 
 /// T_world_cam of all frames.
 std::vector<Pose> PosesOf(const FrameStore& frames);

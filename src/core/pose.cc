@@ -54,6 +54,11 @@ UprightPose ToUpright(const Pose& T_world_object, const GravityFrame& gravity) {
   return {T_world_object.translation(), gravity.YawOf(T_world_object.so3())};
 }
 
+bool IsValid(const StepUncertainty& step) {
+  return std::isfinite(step.translation_m) && step.translation_m >= 0 &&
+         std::isfinite(step.rotation_rad) && step.rotation_rad >= 0;
+}
+
 bool Agrees(const RelativePose& measured, const Pose& T_a_b, double probability) {
   const Vec6 error = (measured.T_a_b.inverse() * T_a_b).Log();
   const Eigen::Matrix<double, 6, 6> covariance = measured.covariance;

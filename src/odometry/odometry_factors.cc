@@ -23,12 +23,13 @@ constexpr double kApart = 40;
 // "Loops on real sequences: the odometry's model").
 constexpr double kPriorSigma = 0.3;
 
-/// The odometry alone: its trajectory and path, and the covariances and the up direction of the
-/// step to each vertex.
+/// The odometry alone: its trajectory and path, and the covariances by noise, the failures and the
+/// up direction of the step to each vertex.
 struct Chain {
   std::vector<Pose> poses;
   std::vector<double> travelled;
   std::vector<Eigen::Matrix3d> translation_covariance, rotation_covariance;
+  std::vector<OdometryFailures> failures;
   std::vector<Vec3> up;      // in the vertex's frame
   std::map<int, int> index;  // id -> vertex
 };
@@ -47,7 +48,8 @@ struct Cycle {
   Mat6 fixed = Mat6::Zero(), horizontal = Mat6::Zero(), heading = Mat6::Zero();
 };
 
-Chain ChainOf(const PoseGraph& graph, const Vec3& up) {
+Chain ChainOf(const PoseGraph& graph, const Vec3& up,
+              const std::vector<OdometryFailures>& failures) {
   Chain chain;
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) {
     chain.index[graph.vertices[i].id] = static_cast<int>(i);
@@ -57,8 +59,14 @@ Chain ChainOf(const PoseGraph& graph, const Vec3& up) {
     chain.travelled.push_back(first ? 0.
                                     : chain.travelled.back() + step.T_from_to.translation().norm());
     chain.up.push_back(graph.vertices[i].T_world_vertex.so3().inverse() * up);
-    chain.translation_covariance.push_back(step.information.topLeftCorner<3, 3>().inverse());
-    chain.rotation_covariance.push_back(step.information.bottomRightCorner<3, 3>().inverse());
+    const OdometryFailures failed =
+        first || failures.empty() ? OdometryFailures() : failures.at(i - 1);
+    chain.failures.push_back(failed);
+    const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+    chain.translation_covariance.push_back(step.information.topLeftCorner<3, 3>().inverse() -
+                                           failed.translation_m2 * one);
+    chain.rotation_covariance.push_back(step.information.bottomRightCorner<3, 3>().inverse() -
+                                        failed.rotation_rad2 * one);
   }
   return chain;
 }
@@ -102,6 +110,9 @@ void AddSteps(const Chain& chain, int a, int b, const Pose& T_end_world, Cycle& 
     add(chain.translation_covariance[k], 0, vertical, cycle.fixed);
     add(chain.rotation_covariance[k], 3, vertical, cycle.heading);
     add(chain.rotation_covariance[k], 3, level, cycle.fixed);
+    const OdometryFailures& failed = chain.failures[k];
+    cycle.fixed += failed.translation_m2 * J.leftCols<3>() * J.leftCols<3>().transpose() +
+                   failed.rotation_rad2 * J.rightCols<3>() * J.rightCols<3>().transpose();
   }
 }
 
@@ -147,8 +158,9 @@ double LogPosterior(const std::vector<Cycle>& cycles, const std::array<double, 2
 
 }  // namespace
 
-OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up) {
-  const Chain chain = ChainOf(graph, up);
+OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up,
+                                     const std::vector<OdometryFailures>& failures) {
+  const Chain chain = ChainOf(graph, up, failures);
   const std::vector<Cycle> cycles = CyclesOf(chain, LoopsApart(graph, chain));
   const std::array<double, 2> best = MaximiseOverLogs(
       [&](const std::array<double, 2>& factors) { return LogPosterior(cycles, factors); });

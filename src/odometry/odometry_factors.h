@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "odometry/odometry_noise.h"
 #include "sslcd/core/pose_graph.h"
 
@@ -13,7 +15,9 @@ namespace sslcd {
 /// `graph` has vertices along the path (their poses only define the vertical), odometry edges from
 /// vertex k to k + 1 with equal variances of all translations and of all rotations, followed by
 /// trusted loops. Without loops both factors are one. `up` is the unit vector against gravity in
-/// the world.
-OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up);
+/// the world. `failures`: those that the information of odometry edge k includes; no factor scales
+/// them. Empty: none.
+OdometryFactors LearnOdometryFactors(const PoseGraph& graph, const Vec3& up,
+                                     const std::vector<OdometryFailures>& failures = {});
 
 }  // namespace sslcd

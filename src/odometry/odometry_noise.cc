@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "odometry/odometry_noise.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sslcd {
@@ -31,7 +32,7 @@ OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise,
   const double turned = std::sqrt(failures.rotation_rad2);
   return {std::hypot(noise.translation_floor_m, noise.translation_walk * root, jumped),
           std::hypot(noise.translation_floor_m, noise.vertical_walk * root, jumped),
-          std::hypot(walked, noise.rotation_turn * turn, turned)};
+          std::hypot(walked, noise.rotation_turn * turn, turned), jumped, turned};
 }
 
 OdometrySigmas SigmasBetween(const FrameStore& frames, int from, int to,
@@ -40,8 +41,20 @@ OdometrySigmas SigmasBetween(const FrameStore& frames, int from, int to,
                   FailuresBetween(frames, from, to));
 }
 
-OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,
+OdometryFactors FactorsWithFailures(const OdometryFactors& factors, const OdometrySigmas& sigmas) {
+  const auto on_sum = [](double factor, double sigma, double failed) {
+    const double share = failed > 0 ? failed / sigma : 0;
+    return std::hypot(factor * std::sqrt(std::max(0., 1 - share * share)), share);
+  };
+  OdometryFactors sum = factors;
+  sum.horizontal = on_sum(factors.horizontal, sigmas.horizontal, sigmas.failed_m);
+  sum.heading = on_sum(factors.heading, sigmas.rotation, sigmas.failed_rad);
+  return sum;
+}
+
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& on_noise,
                               const Vec3& up) {
+  const OdometryFactors factors = FactorsWithFailures(on_noise, sigmas);
   const Eigen::Matrix3d vertical = up * up.transpose(),
                         horizontal = Eigen::Matrix3d::Identity() - vertical;
   return {horizontal / (factors.horizontal * sigmas.horizontal) +

@@ -10,6 +10,8 @@ namespace sslcd {
 /// Standard deviations of an odometry step. [m, rad]
 struct OdometrySigmas {
   double horizontal = 0, vertical = 0, rotation = 0;
+  /// the part of them that failures have added
+  double failed_m = 0, failed_rad = 0;
 };
 OdometrySigmas SigmasOf(const Pose& T_from_to, const OdometryNoise& noise,
                         const OdometryFailures& failures = {});
@@ -24,6 +26,11 @@ struct OdometryFactors {
   double horizontal = 1, heading = 1, vertical = 1, tilt = 1;
 };
 
+/// The factors on `sigmas` where those on the noise are `factors`. How far odometry fails
+/// horizontally, and in heading, is no multiple of its noise. An odometry that keeps its height and
+/// its tilt keeps them where it fails, too.
+OdometryFactors FactorsWithFailures(const OdometryFactors& factors, const OdometrySigmas& sigmas);
+
 /// The noise of a certain odometry: the configured one with factors learnt from the run.
 struct OdometryModel {
   OdometryNoise noise;
@@ -37,7 +44,7 @@ struct OdometryWhitening {
 };
 
 /// `up` is the unit vector against gravity in the frame of the step's second pose, like the error.
-OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& factors,
+OdometryWhitening WhiteningOf(const OdometrySigmas& sigmas, const OdometryFactors& on_noise,
                               const Vec3& up);
 
 /// The information of an edge between two poses [translation, rotation].

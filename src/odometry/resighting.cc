@@ -21,9 +21,10 @@ double LogPosterior(const std::vector<Resighting>& all, int first,
   // The logs of both factors have a standard normal distribution a priori; set by hand.
   double sum = -0.5 * (log_factors[0] * log_factors[0] + log_factors[1] * log_factors[1]);
   for (const Resighting& each : all) {
-    const Eigen::Matrix<double, kSize, kSize> covariance =
+    Eigen::Matrix<double, kSize, kSize> covariance =
         detection * each.detection.block<kSize, kSize>(first, first) +
         odometry * each.odometry.block<kSize, kSize>(first, first);
+    if constexpr (kSize == 2) covariance += each.fixed;
     const Eigen::Matrix<double, kSize, 1> moved = each.moved.segment<kSize>(first);
     sum -= 0.5 * std::log(covariance.determinant());
     sum -=

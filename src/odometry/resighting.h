@@ -15,6 +15,8 @@ struct Resighting {
   Eigen::Vector3d moved;      ///< place by the second sighting minus that by the first one [m]
   Eigen::Matrix3d detection;  ///< covariance by the detector's noise as configured [m^2]
   Eigen::Matrix3d odometry;   ///< covariance by the noise of odometry as configured [m^2]
+  /// horizontal covariance by failures of odometry, which no factor scales [m^2]
+  Eigen::Matrix2d fixed = Eigen::Matrix2d::Zero();
 };
 
 /// Learns how accurate this odometry is before any loop closes: the factors on the configured noise

@@ -28,7 +28,7 @@ std::vector<int> SelectKeyframes(const FrameStore& frames, double distance_m, do
   const std::vector<double> path = PathOf(frames);
   const int count = frames.size();
   for (int i = 0; i < count; ++i) {
-    const bool border = i == 0 || i + 1 == count;
+    const bool border = i == 0 || i + 1 == count || IsLost(frames, i) != IsLost(frames, i + 1);
     if (border || path[i] - path[keyframes.back()] >= distance_m ||
         (frames[keyframes.back()].T_odom_cam.so3().inverse() * frames[i].T_odom_cam.so3())
                 .Log()

@@ -10,7 +10,8 @@
 namespace sslcd {
 
 /// Selects keyframes, as indices into `frames`: the first frame, then one after every `distance_m`
-/// of odometry path or rotation of `turn_rad`, and the last frame. Empty for no frames.
+/// of odometry path or rotation of `turn_rad`, the last frame, and the last frame before and the
+/// first one after the odometry was lost. Empty for no frames.
 std::vector<int> SelectKeyframes(const FrameStore& frames, double distance_m, double turn_rad);
 
 /// Sets new poses T_world_cam of keyframes (ascending indices into `frames`). A frame between two

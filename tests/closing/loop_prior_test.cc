@@ -221,5 +221,33 @@ TEST(OdometryPrior, NoMatchNoOpinion) {
   EXPECT_EQ(nothing.height, 0);
 }
 
+TEST(OdometryPrior, SaysNothingWhereOdometryWasLost) {
+  Prior prior;
+  FrameStore frames(100);
+  const int lost = TwoPasses::kSecond - 5;
+  for (int i = 0; i < prior.world.state.frames.size(); ++i)
+    frames.Append(prior.world.state.frames[i],
+                  i == lost ? std::optional(StepUncertainty{true}) : std::nullopt);
+  prior.world.state.frames = frames;
+  prior.CloseLoops({});
+  for (const double metres : {0., 50., 1000.}) {
+    EXPECT_EQ(prior.Of(2, Vec3(metres, 0, 0)).level, 0);
+    EXPECT_EQ(prior.Height(metres), 0);
+  }
+  LoopMeasurement loop;
+  loop.match = 30;
+  loop.query = prior.here;
+  loop.row.T_match_query = Pose::Trans(0, 50, 0);
+  EXPECT_EQ(prior.Odometry().OfHeight(loop), 0);
+  EXPECT_GT(prior.Odometry().LargestRise(), 50);
+
+  LoopClosure closure;
+  closure.covariance *= 1e-4;
+  prior.CloseLoops({{30, prior.here, &closure}});
+  EXPECT_GT(prior.Level(0, Vec3::Zero()), 3);
+  EXPECT_LT(prior.Level(0, Vec3(50, 0, 0)), -3);
+  EXPECT_LT(prior.Odometry().OfHeight(loop), -3);
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -256,5 +256,40 @@ TEST(LearnOdometryInSight, TheTiltIsNoLargerThanConfigured) {
   EXPECT_NEAR(LearnOdometryInSight(tilted, world.passes, {}, 1).tilt, 1. * 2, 1e-12);
 }
 
+// The same frames, with a report of the step to one of them.
+MapState Reporting(const MapState& state, int step, const StepUncertainty& report) {
+  MapState again{state.map, FrameStore(100)};
+  for (int i = 0; i < state.frames.size(); ++i)
+    again.frames.Append(state.frames[i], i == step ? std::optional(report) : std::nullopt);
+  return again;
+}
+
+TEST(ResightingsOf, WhatOdometryReportsIsNoNoise) {
+  const Vec3 place(4, 0, 30);
+  const InSight world(Straight(6), {place});
+  const MapState reporting = Reporting(world.state, 2, {false, 0.5, 0.1});
+  const auto before = ResightingsOf(world.state, world.passes, {}, 1, 1),
+             now = ResightingsOf(reporting, world.passes, {}, 1, 1);
+  ASSERT_EQ(now.size(), before.size());
+  ASSERT_EQ(now.size(), 2u);
+  const Vec3 arm = place - Vec3(0, 0, 2);  // from the camera that turned
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    EXPECT_EQ(before[i].fixed, Eigen::Matrix2d::Zero());
+    // forward is x, left is z
+    EXPECT_NEAR(now[i].fixed(0, 0), 0.25 + 0.01 * arm.z() * arm.z(), 1e-9);
+    EXPECT_NEAR(now[i].fixed(1, 1), 0.25 + 0.01 * arm.x() * arm.x(), 1e-9);
+    const Eigen::Matrix2d horizontal = now[i].odometry.topLeftCorner<2, 2>();
+    EXPECT_EQ(horizontal, Eigen::Matrix2d(before[i].odometry.topLeftCorner<2, 2>()));
+    EXPECT_NEAR(now[i].odometry(2, 2) - before[i].odometry(2, 2), 0.25 + 0.01 * arm.squaredNorm(),
+                1e-9);
+  }
+}
+
+TEST(LargestTiltFactor, ALostStepSaysNothingAboutIt) {
+  MapState state{InSight({Pose()}, {}).state.map, Tilting(1, 1)};
+  const double factor = LargestTiltFactor(state.frames, kUp, {});
+  EXPECT_EQ(LargestTiltFactor(Reporting(state, 100, {true}).frames, kUp, {}), factor);
+}
+
 }  // namespace
 }  // namespace sslcd

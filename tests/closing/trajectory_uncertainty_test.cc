@@ -158,5 +158,37 @@ TEST(TrajectoryUncertainty, OfASingleFrame) {
   EXPECT_EQ(TrajectoryUncertainty(Straight(0), {}, Model()).Between(0, 0), Mat6::Zero());
 }
 
+// The same as Straight(), lost at two steps in a row.
+MapState LostAt(int frame) {
+  const MapState straight = Straight(200);
+  MapState state{straight.map, FrameStore(100)};
+  for (const FrameRecord& record : straight.frames) {
+    const bool lost = record.frame == frame || record.frame == frame + 1;
+    state.frames.Append(record, lost ? std::optional(StepUncertainty{true}) : std::nullopt);
+  }
+  return state;
+}
+
+TEST(TrajectoryUncertainty, ALostStepPartsTheTrajectoryUntilALoopJoinsIt) {
+  EXPECT_TRUE(TrajectoryUncertainty(Straight(200), {}, Model()).Joined(0, 200));
+  const MapState state = LostAt(107);
+  const TrajectoryUncertainty lost(state, {}, Model());
+  EXPECT_TRUE(lost.Joined(0, 106));
+  EXPECT_TRUE(lost.Joined(108, 200));
+  EXPECT_FALSE(lost.Joined(106, 108));
+  EXPECT_FALSE(lost.Joined(200, 0));
+  EXPECT_GT(lost.Between(106, 108)(0, 0), 1e6);
+  EXPECT_TRUE(lost.Between(0, 100).isApprox(
+      TrajectoryUncertainty(Straight(200), {}, Model()).Between(0, 100), 1e-6));
+
+  const LoopClosure closure = Measured(1e-3);
+  const TrajectoryUncertainty joined(state, {{40, 180, &closure}}, Model());
+  EXPECT_TRUE(joined.Joined(0, 200));
+  EXPECT_TRUE(joined.Joined(106, 108));
+  EXPECT_LT(joined.Between(40, 180).trace(), 1e4);
+  const TrajectoryUncertainty beside(state, {{0, 60, &closure}, {120, 180, &closure}}, Model());
+  EXPECT_FALSE(beside.Joined(0, 200)) << "loops on either side";
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+
 namespace sslcd {
 namespace {
 
@@ -107,6 +110,69 @@ TEST(OdometryFailures, ATurnInOneStep) {
   EXPECT_EQ(FailuresBetween(turned, 0, 7).translation_m2, 0);
   EXPECT_EQ(FailuresBetween(Drive(x, {0, 0, 0, 0, 0, 0, 0, 1.4}), 0, 7).rotation_rad2, 0);
   EXPECT_EQ(FailuresBetween(Drive(x, {0, 1, 2, 3, 4, 5, 6, 8}), 0, 7).rotation_rad2, 0);
+}
+
+// The same, with what the odometry reports of the step to a frame.
+FrameStore Reported(const std::vector<double>& x, const std::map<int, StepUncertainty>& reports,
+                    double lost_path_m = 100) {
+  FrameStore frames(lost_path_m);
+  for (int i = 0; i < static_cast<int>(x.size()); ++i) {
+    FrameRecord record;
+    record.T_odom_cam = Pose::Trans(x[i], 0, 0);
+    const auto report = reports.find(i);
+    frames.Append(record, report == reports.end() ? std::nullopt : std::optional(report->second));
+  }
+  return frames;
+}
+
+const StepUncertainty kLost{true};
+
+TEST(ReportedSteps, AddTheirVarianceInPlaceOfWhatAJumpSays) {
+  const FrameStore frames =
+      Reported({0, 1, 2, 3, 4, 5, 6, 7, 37, 38}, {{3, {false, 0.5, 0.1}}, {8, {false, 2, 0}}});
+  const OdometryFailures small = FailuresBetween(frames, 2, 3),
+                         jump = FailuresBetween(frames, 7, 8);
+  EXPECT_EQ(small.translation_m2, 0.25);
+  EXPECT_NEAR(small.rotation_rad2, 0.01, 1e-15);
+  EXPECT_NEAR(jump.translation_m2, 4, 1e-12) << "not 30 m as well";
+  EXPECT_NEAR(FailuresBetween(frames, 0, 9).translation_m2, 4.25, 1e-12);
+  EXPECT_EQ(FailuresBetween(frames, 0, 9).lost, 0);
+  EXPECT_EQ(frames.back().travelled, 38);
+}
+
+TEST(ReportedSteps, AJumpIsStillFoundAmongThem) {
+  const std::vector<double> x{0, 4, 8, 12, 16, 20, 24, 28, 68};
+  std::map<int, StepUncertainty> all;
+  for (int i = 1; i < 8; ++i) all[i] = {false, 0.1, 0.01};
+  EXPECT_NEAR(FailuresBetween(Reported(x, all), 7, 8).translation_m2, 40 * 40, 1e-9);
+  EXPECT_EQ(FailuresBetween(Reported({0, 4, 8, 12, 16, 20, 24, 28, 32}, all), 7, 8).translation_m2,
+            0)
+      << "as long as the others";
+}
+
+TEST(ReportedSteps, ALostOneMayBeAnyStep) {
+  const FrameStore frames = Reported({0, 1, 2, 2, 2, 3, 4}, {{3, kLost}, {4, kLost}});
+  for (const int lost : {3, 4}) {
+    EXPECT_TRUE(IsLost(frames, lost));
+    EXPECT_GE(FailuresBetween(frames, lost - 1, lost).translation_m2, 1e6);
+    EXPECT_GE(FailuresBetween(frames, lost - 1, lost).rotation_rad2, M_PI * M_PI - 1e-9);
+  }
+  for (const int known : {0, 1, 2, 5, 6}) EXPECT_FALSE(IsLost(frames, known));
+  EXPECT_EQ(FailuresBetween(frames, 6, 0).lost, 2);
+  EXPECT_FALSE(IsLost(Reported({0, 1}, {{0, kLost}}), 0)) << "there is no step to the first frame";
+}
+
+TEST(ReportedSteps, ThePathOfALostStretchCountsOnce) {
+  const FrameStore frames = Reported({0, 1, 2, 90, 5, 6, 7}, {{3, kLost}, {4, kLost}}, 100);
+  EXPECT_EQ(frames[2].travelled, 2);
+  EXPECT_EQ(frames[3].travelled, 102) << "whatever its step";
+  EXPECT_EQ(frames[4].travelled, 102);
+  EXPECT_EQ(frames[6].travelled, 104);
+}
+
+TEST(ReportedSteps, ALostOneIsNoLongStep) {
+  const FrameStore frames = Reported({0, 1, 2, 3, 4, 5, 90, 91, 121}, {{6, kLost}});
+  EXPECT_EQ(FailuresBetween(frames, 7, 8).translation_m2, 30 * 30) << "a jump by the others";
 }
 
 }  // namespace

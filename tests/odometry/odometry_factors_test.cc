@@ -87,5 +87,28 @@ TEST(LearnOdometryFactors, ErrorsOfHeightAreNotTakenForErrorsOfTheWay) {
   EXPECT_NEAR(std::log(steep.heading / level.heading), 0, 0.3);
 }
 
+TEST(LearnOdometryFactors, FailuresAreNoNoise) {
+  PoseGraphWorld world = Misjudged(1, 2, 1);
+  const OdometryFactors usual = LearnOdometryFactors(world.graph, Vec3::UnitZ());
+  std::vector<OdometryFailures> failures;
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  for (PoseGraph::Edge& edge : world.graph.edges) {
+    if (edge.loop) continue;
+    const bool lost = failures.size() % 300 == 250;
+    failures.push_back(lost ? OdometryFailures{1e6, 10, 1} : OdometryFailures());
+    for (const int part : {0, 3}) {
+      auto block = edge.information.block<3, 3>(part, part);
+      const double variance =
+          part == 0 ? failures.back().translation_m2 : failures.back().rotation_rad2;
+      block = Eigen::Matrix3d(Eigen::Matrix3d(block).inverse() + variance * one).inverse().eval();
+    }
+  }
+  const OdometryFactors told = LearnOdometryFactors(world.graph, Vec3::UnitZ(), failures),
+                        taken_for_noise = LearnOdometryFactors(world.graph, Vec3::UnitZ());
+  EXPECT_NEAR(std::log(told.horizontal / usual.horizontal), 0, 0.15);
+  EXPECT_NEAR(std::log(told.heading / usual.heading), 0, 0.15);
+  EXPECT_LT(taken_for_noise.horizontal, 0.9 * told.horizontal);
+}
+
 }  // namespace
 }  // namespace sslcd

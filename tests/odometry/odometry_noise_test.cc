@@ -44,5 +44,31 @@ TEST(SigmasOf, FailuresAddTheirVariance) {
   EXPECT_NEAR(failed.rotation, std::hypot(usual.rotation, 0.5), 1e-12);
 }
 
+TEST(FactorsWithFailures, AreOnTheNoiseAlone) {
+  const Pose step = Pose::Trans(0, 0, 4);
+  const OdometryFactors factors{3, 5, 7, 11};
+  const OdometrySigmas usual = SigmasOf(step, {}), failed = SigmasOf(step, {}, {9, 0.25});
+  EXPECT_EQ(FactorsWithFailures(factors, usual).horizontal, 3);
+  EXPECT_EQ(FactorsWithFailures(factors, usual).heading, 5);
+  const OdometryFactors on_sum = FactorsWithFailures(factors, failed);
+  EXPECT_NEAR(on_sum.horizontal * failed.horizontal, std::hypot(3 * usual.horizontal, 3), 1e-12);
+  EXPECT_NEAR(on_sum.heading * failed.rotation, std::hypot(5 * usual.rotation, 0.5), 1e-12);
+  EXPECT_EQ(on_sum.vertical, 7) << "an odometry that keeps its height keeps it in a failure, too";
+  EXPECT_EQ(on_sum.tilt, 11);
+  const auto information = InformationOf(failed, Vec3::UnitZ(), factors);
+  EXPECT_NEAR(1 / information(0, 0), std::pow(on_sum.horizontal * failed.horizontal, 2), 1e-9);
+  EXPECT_NEAR(1 / information(5, 5), std::pow(on_sum.heading * failed.rotation, 2), 1e-9);
+  EXPECT_NEAR(1 / information(3, 3), std::pow(11 * failed.rotation, 2), 1e-6);
+}
+
+TEST(FactorsWithFailures, OfAFailureThatIsFarLargerThanTheNoise) {
+  const OdometrySigmas sigmas = SigmasOf(Pose::Trans(0, 0, 1), {}, {1e6, 10});
+  for (const double factor : {0.1, 10.}) {
+    const OdometryFactors on_sum = FactorsWithFailures({factor, factor}, sigmas);
+    EXPECT_NEAR(on_sum.horizontal, 1, 1e-6);
+    EXPECT_NEAR(on_sum.heading, 1, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace sslcd

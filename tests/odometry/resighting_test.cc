@@ -113,5 +113,20 @@ TEST(FactorsFromResightings, OneOfThemMovesAFactorLessThanMany) {
   EXPECT_LT(many.vertical, 0.5 * one.vertical);
 }
 
+TEST(FactorsFromResightings, FailuresExplainWhatTheyAdd) {
+  std::vector<Resighting> all = MadeUp({1, 1}, 1, 1000);
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  for (Resighting& each : all) {
+    each.fixed = 4 * Eigen::Matrix2d::Identity();
+    each.moved.head<2>() += 2 * Eigen::Vector2d(normal(random), normal(random));
+  }
+  const OdometryFactors told = FactorsFromResightings(all);
+  EXPECT_NEAR(told.vertical, 1, 0.15);
+  EXPECT_LT(told.horizontal, 1.5);
+  for (Resighting& each : all) each.fixed.setZero();
+  EXPECT_GT(FactorsFromResightings(all).horizontal, 3) << "taken for noise";
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace sslcd {
 namespace {
@@ -130,6 +131,40 @@ TEST(MoveObjects, WhatNoFrameSawStays) {
   world.frames = {};
   MoveObjects(world.state, {}, {});
   EXPECT_EQ(world.map.at(id).pose.position, Vec3(0, 1, 20));
+}
+
+// Straight ahead, a metre a frame, but in place where the odometry is lost.
+FrameStore LostDrive(int count, const std::set<int>& lost) {
+  FrameStore frames(100);
+  double at_m = 0;
+  for (int i = 0; i < count; ++i) {
+    const bool is_lost = lost.count(i) > 0;
+    if (i > 0 && !is_lost) at_m += 1;
+    FrameRecord record;
+    record.T_odom_cam = record.T_world_cam = Pose::Trans(0, 0, at_m);
+    frames.Append(record, is_lost ? std::optional(StepUncertainty{true}) : std::nullopt);
+  }
+  return frames;
+}
+
+TEST(SelectKeyframes, OnEitherSideOfALostStretch) {
+  EXPECT_EQ(SelectKeyframes(LostDrive(12, {4}), 100, 1), (std::vector<int>{0, 3, 4, 11}));
+  EXPECT_EQ(SelectKeyframes(LostDrive(12, {4, 5, 6}), 100, 1), (std::vector<int>{0, 3, 6, 11}));
+  EXPECT_EQ(SelectKeyframes(LostDrive(12, {10, 11}), 100, 1), (std::vector<int>{0, 9, 11}));
+}
+
+TEST(MoveKeyframes, ACorrectionOfALostStretchMovesNothingBeforeIt) {
+  FrameStore frames = LostDrive(12, {4, 5, 6});
+  const std::vector<Pose> before = PosesOf(frames);
+  const std::vector<int> keyframes = SelectKeyframes(frames, 100, 1);
+  const Pose moved = Pose::Trans(50, 0, 0) * Pose::RotY(2);
+  std::vector<Pose> poses;
+  for (const int k : keyframes) poses.push_back(k < 4 ? before[k] : moved * before[k]);
+  MoveKeyframes(frames, keyframes, poses);
+  for (int i = 0; i < 12; ++i) {
+    if (i == 4 || i == 5) continue;  // between both
+    EXPECT_LE(Apart(frames[i].T_world_cam, (i < 4 ? Pose() : moved) * before[i]), 1e-6) << i;
+  }
 }
 
 }  // namespace

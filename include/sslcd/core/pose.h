@@ -72,6 +72,19 @@ inline RelativePose Compose(const RelativePose& ab, const RelativePose& bc) {
 /// Whether `T_a_b` lies within the measurement's confidence region of the given probability.
 bool Agrees(const RelativePose& measured, const Pose& T_a_b, double probability);
 
+/// What an odometry reports of one of its steps, from the frame before to this one. It adds to the
+/// noise that is assumed of every step.
+struct StepUncertainty {
+  /// The step is unknown, because tracking failed: position and heading are those of any place.
+  bool lost = false;
+  /// standard deviations of the step's translation, along each axis [m], and of its rotation, about
+  /// each axis [rad]; finite, >= 0; not used where `lost` is set
+  double translation_m = 0, rotation_rad = 0;
+};
+
+/// Whether both standard deviations are finite and not negative.
+bool IsValid(const StepUncertainty& step);
+
 /// Stamped poses in order of time. `poses[i]` is T_world_cam at `stamps[i]` [s]; both have the same
 /// length.
 struct Trajectory {
