@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "datasets/dataset_images.h"
@@ -34,11 +35,26 @@ bool IsTracklets(const std::string& path) {
 
 PoseFile ReadPoses(const std::string& path, const Calibration& calibration) {
   if (!IsOxts(path)) return ReadPoseFile(path);
-  PoseFile file{PoseFormat::kKitti, {}};
+  PoseFile file;
+  file.format = PoseFormat::kKitti;
   file.trajectory.poses = ReadOxtsCamera(path, calibration);
   for (std::size_t i = 0; i < file.trajectory.size(); ++i)
     file.trajectory.stamps.push_back(static_cast<double>(i));
+  file.steps.resize(file.trajectory.size());
   return file;
+}
+
+// What the rows after `from`, up to `to`, report of the step from one to the other.
+std::optional<StepUncertainty> StepOver(const PoseFile& file, std::size_t from, std::size_t to) {
+  std::optional<StepUncertainty> sum;
+  for (std::size_t row = from + 1; row <= to; ++row) {
+    if (!file.steps[row]) continue;
+    if (!sum) sum.emplace();
+    sum->lost = sum->lost || file.steps[row]->lost;
+    sum->translation_m = std::hypot(sum->translation_m, file.steps[row]->translation_m);
+    sum->rotation_rad = std::hypot(sum->rotation_rad, file.steps[row]->rotation_rad);
+  }
+  return sum;
 }
 
 class DatasetLoader {
@@ -97,23 +113,24 @@ void DatasetLoader::AddFrames() {
   if (is_vins) Warn(layout_.odometry + ": VINS-Fusion csv; its poses are taken as the camera's");
   const bool has_stamps = odometry.format != PoseFormat::kKitti;
   std::vector<double> stamps = odometry.trajectory.stamps;
-  std::vector<Pose> poses = odometry.trajectory.poses;
+  std::vector<std::size_t> rows(stamps.size());  // of the odometry, by frame
+  std::iota(rows.begin(), rows.end(), 0);
   if (!layout_.times.empty()) {
     stamps = layout_.read_times(layout_.times);
     if (stamps.empty())
       throw Error(ErrorKind::kBadInput, {layout_.times},
                   "holds no stamps: fill or remove the file");
     if (has_stamps) {
-      poses = PosesAt(stamps, odometry.trajectory, layout_.odometry);
+      rows = NearestPoses(stamps, odometry.trajectory, layout_.odometry);
       const std::vector<double>& given = odometry.trajectory.stamps;
       const auto late = given.end() - std::upper_bound(given.begin(), given.end(),
                                                        stamps.back() + 0.5 * MedianStep(stamps));
       if (late > 0)
         Warn(layout_.odometry + ": " + std::to_string(late) + " poses come after the last of " +
              layout_.times);
-    } else if (stamps.size() != poses.size()) {
+    } else if (stamps.size() != rows.size()) {
       throw Error(ErrorKind::kBadInput, {layout_.odometry},
-                  "has " + std::to_string(poses.size()) + " poses, but " + layout_.times + " has " +
+                  "has " + std::to_string(rows.size()) + " poses, but " + layout_.times + " has " +
                       std::to_string(stamps.size()) + " stamps: give one pose per frame");
     }
   } else if (!has_stamps) {
@@ -124,14 +141,15 @@ void DatasetLoader::AddFrames() {
     Warn("no odometry named: the ground truth (" + layout_.odometry + ") is used as odometry");
   }
 
-  frames_in_file_ = poses.size();
+  frames_in_file_ = rows.size();
   const std::size_t limit =
-      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : poses.size();
-  out_.frames.resize(std::min(poses.size(), limit));
+      request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : rows.size();
+  out_.frames.resize(std::min(rows.size(), limit));
   for (std::size_t i = 0; i < out_.frames.size(); ++i) {
     out_.frames[i].index = static_cast<int>(i);
     out_.frames[i].stamp = stamps[i];
-    out_.frames[i].T_odom_cam = poses[i];
+    out_.frames[i].T_odom_cam = odometry.trajectory.poses[rows[i]];
+    if (i > 0) out_.frames[i].step = StepOver(odometry, rows[i - 1], rows[i]);
   }
 }
 

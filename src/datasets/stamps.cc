@@ -57,12 +57,12 @@ std::optional<std::string> GapWarning(const std::vector<double>& stamps) {
          Seconds(stamps[first] - stamps[first - 1]) + " before frame " + std::to_string(first);
 }
 
-std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory,
-                          const std::string& path) {
+std::vector<std::size_t> NearestPoses(const std::vector<double>& stamps,
+                                      const Trajectory& trajectory, const std::string& path) {
   // A single frame has no step; KITTI's 0.1 s replaces it.
   const double tolerance = 0.5 * (stamps.size() < 2 ? 0.1 : MedianStep(stamps));
   const std::vector<double>& given = trajectory.stamps;
-  std::vector<Pose> poses;
+  std::vector<std::size_t> poses;
   for (std::size_t i = 0; i < stamps.size(); ++i) {
     auto nearest = std::lower_bound(given.begin(), given.end(), stamps[i]);
     const bool before_is_nearer =
@@ -75,7 +75,7 @@ std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& t
                       " (to half a frame step); the frames: " + Span(stamps) + ", the poses: " +
                       Span(given) + ". Give every frame a pose, or shorten the list of frames");
     }
-    poses.push_back(trajectory.poses[static_cast<std::size_t>(nearest - given.begin())]);
+    poses.push_back(static_cast<std::size_t>(nearest - given.begin()));
   }
   return poses;
 }

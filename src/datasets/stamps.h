@@ -19,9 +19,9 @@ double MedianStep(const std::vector<double>& stamps);
 /// A warning about gaps of more than ten median steps, if there are any.
 std::optional<std::string> GapWarning(const std::vector<double>& stamps);
 
-/// The pose nearest in time to each stamp. Throws Error with the first stamp that has no pose
-/// within half a median step.
-std::vector<Pose> PosesAt(const std::vector<double>& stamps, const Trajectory& trajectory,
-                          const std::string& path);
+/// The index of the pose nearest in time to each stamp. Throws Error with the first stamp that has
+/// no pose within half a median step.
+std::vector<std::size_t> NearestPoses(const std::vector<double>& stamps,
+                                      const Trajectory& trajectory, const std::string& path);
 
 }  // namespace sslcd

@@ -11,13 +11,46 @@
 namespace sslcd {
 namespace {
 
+// Columns of a TUM row with two standard deviations.
+constexpr std::size_t kMostTum = 10;
+
 PoseFormat Guess(const TextRows& row) {
   if (row.has_commas() && row.size() >= 8) return PoseFormat::kVinsCsv;
   if (!row.has_commas() && row.size() == 12) return PoseFormat::kKitti;
-  if (!row.has_commas() && row.size() == 8) return PoseFormat::kTum;
+  if (!row.has_commas() && row.size() >= 8 && row.size() <= kMostTum) return PoseFormat::kTum;
   row.Fail("not a pose row: found " + std::to_string(row.size()) +
            " columns, expected 8 (TUM: t x y z qx qy qz qw), 12 (KITTI: 3x4 matrix) or a "
            "VINS-Fusion csv");
+}
+
+// `columns`: those of the first row.
+void CheckColumns(const TextRows& row, PoseFormat format, std::size_t columns) {
+  const bool tum = format == PoseFormat::kTum;
+  if (tum ? row.size() >= 8 && row.size() <= kMostTum : row.size() == columns && columns >= 8)
+    return;
+  row.Fail("found " + std::to_string(row.size()) + " columns, expected " +
+           std::to_string(tum ? 8 : std::max<std::size_t>(columns, 8)) + " (format " +
+           ToString(format) + ")" +
+           (tum ? ", and after them nothing, two standard deviations, or 'lost'" : ""));
+}
+
+// What a TUM row says of the step to it.
+std::optional<StepUncertainty> StepOf(const TextRows& row) {
+  if (row.size() == 8) return std::nullopt;
+  StepUncertainty step;
+  step.lost = row.size() == 9 && row.Text(8) == "lost";
+  if (step.lost) return step;
+  if (row.size() == 9)
+    row.Fail("column 9: found '" + std::string(row.Text(8)) +
+             "', expected 'lost', or the standard deviations of the step's translation [m] and "
+             "rotation [rad] in columns 9 and 10");
+  step.translation_m = row.Number(8);
+  step.rotation_rad = row.Number(9);
+  if (!IsValid(step))
+    row.Fail(
+        "columns 9 and 10: a standard deviation is negative or not finite: correct it, or "
+        "write 'lost' in place of both where the step is unknown");
+  return step;
 }
 
 Pose PoseFromKitti(const TextRows& row) {
@@ -67,22 +100,17 @@ const char* ToString(PoseFormat format) {
 }
 
 PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
-  PoseFile file{format, {}};
+  PoseFile file;
+  file.format = format;
   std::vector<double>& stamps = file.trajectory.stamps;
   std::size_t columns = 0;
   TextRows row(path);
   while (row.Next()) {
     if (file.format == PoseFormat::kAuto) file.format = Guess(row);
-    if (columns == 0)
-      columns = file.format == PoseFormat::kTum     ? 8
-                : file.format == PoseFormat::kKitti ? 12
-                                                    : row.size();
-    if (row.size() != columns || columns < 8) {
-      row.Fail("found " + std::to_string(row.size()) + " columns, expected " +
-               std::to_string(std::max<std::size_t>(columns, 8)) + " (format " +
-               ToString(file.format) + ")");
-    }
+    if (columns == 0) columns = file.format == PoseFormat::kKitti ? 12 : row.size();
+    CheckColumns(row, file.format, columns);
     Pose pose;
+    std::optional<StepUncertainty> step;
     double stamp = static_cast<double>(stamps.size());
     if (file.format == PoseFormat::kKitti) {
       pose = PoseFromKitti(row);
@@ -90,9 +118,11 @@ PoseFile ReadPoseFile(const std::string& path, PoseFormat format) {
       stamp = row.Number(0) * (file.format == PoseFormat::kVinsCsv ? 1e-9 : 1.);
       pose = PoseFromQuaternion(row, file.format == PoseFormat::kVinsCsv ? 4 : 7);
       CheckIncreasing(row, file.trajectory, stamp);
+      if (file.format == PoseFormat::kTum) step = StepOf(row);
     }
     stamps.push_back(stamp);
     file.trajectory.poses.push_back(pose);
+    file.steps.push_back(step);
   }
   return file;
 }

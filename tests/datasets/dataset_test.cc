@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/datasets/dataset.h"
 
+#include <cmath>
+
 #include "formats/npy.h"
 #include "temp_folder.h"
 
@@ -164,6 +166,36 @@ TEST_F(SequenceFolder, OdometryMayRunFasterThanTheFrames) {
   ASSERT_EQ(dataset.frames.size(), 4u);
   EXPECT_EQ(dataset.frames[3].T_odom_cam.translation(), Vec3(0, 0, 6));
   EXPECT_THAT(dataset.warnings, Contains(HasSubstr("1 poses come after the last")));
+}
+
+TEST_F(SequenceFolder, OdometryMayReportItsUncertainty) {
+  folder_.Write("odometry.txt",
+                "0 0 0 0 0 0 0 1 9 9\n0.1 0 0 1 0 0 0 1\n0.2 0 0 2 0 0 0 1 0.3 0.01\n"
+                "0.3 0 0 2 0 0 0 1 lost\n");
+  const Dataset dataset = Load();
+  EXPECT_FALSE(dataset.frames[0].step.has_value()) << "there is no step to the first frame";
+  EXPECT_FALSE(dataset.frames[1].step.has_value());
+  ASSERT_TRUE(dataset.frames[2].step.has_value());
+  EXPECT_EQ(dataset.frames[2].step->translation_m, 0.3);
+  EXPECT_EQ(dataset.frames[2].step->rotation_rad, 0.01);
+  ASSERT_TRUE(dataset.frames[3].step.has_value());
+  EXPECT_TRUE(dataset.frames[3].step->lost);
+}
+
+TEST_F(SequenceFolder, UncertaintiesOfAFasterOdometryAddUp) {
+  std::string odometry;
+  for (int i = 0; i < 16; ++i) {  // four rows a frame
+    odometry += std::to_string(i * 0.025) + " 0 0 " + std::to_string(i) + " 0 0 0 1";
+    odometry += i == 1 || i == 4 ? " 0.3 0.1\n" : i == 3 ? " 0.4 0\n" : i == 10 ? " lost\n" : "\n";
+  }
+  folder_.Write("odometry.txt", odometry);
+  const Dataset dataset = Load();
+  ASSERT_TRUE(dataset.frames[1].step.has_value());
+  EXPECT_NEAR(dataset.frames[1].step->translation_m, std::sqrt(0.09 + 0.09 + 0.16), 1e-12);
+  EXPECT_NEAR(dataset.frames[1].step->rotation_rad, std::sqrt(0.02), 1e-12);
+  EXPECT_FALSE(dataset.frames[2].step.has_value());
+  ASSERT_TRUE(dataset.frames[3].step.has_value());
+  EXPECT_TRUE(dataset.frames[3].step->lost);
 }
 
 TEST_F(SequenceFolder, EveryFrameNeedsAPose) {

@@ -108,5 +108,46 @@ TEST(PoseText, TrajectoriesReadBack) {
   EXPECT_EQ(TumText(path).find("-0.000000000"), std::string::npos);
 }
 
+TEST(PoseReader, ATumRowMayReportTheUncertaintyOfItsStep) {
+  const TempFolder folder;
+  const PoseFile file = ReadPoseFile(
+      folder.Write("a.txt",
+                   "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1 0.2 3e-2\r\n2 1 0 0 0 0 0 1 lost\n"
+                   "3 2 0 0 0 0 0 1\n4 3 0 0 0 0 0 1 0 0\n"));
+  EXPECT_EQ(file.format, PoseFormat::kTum);
+  ASSERT_EQ(file.trajectory.size(), 5u);
+  ASSERT_EQ(file.steps.size(), 5u);
+  EXPECT_FALSE(file.steps[0].has_value());
+  ASSERT_TRUE(file.steps[1].has_value());
+  EXPECT_FALSE(file.steps[1]->lost);
+  EXPECT_EQ(file.steps[1]->translation_m, 0.2);
+  EXPECT_EQ(file.steps[1]->rotation_rad, 0.03);
+  ASSERT_TRUE(file.steps[2].has_value());
+  EXPECT_TRUE(file.steps[2]->lost);
+  EXPECT_FALSE(file.steps[3].has_value());
+  ASSERT_TRUE(file.steps[4].has_value());
+  EXPECT_EQ(file.steps[4]->translation_m, 0);
+  for (const char* first : {"0 0 0 0 0 0 0 1 0.1 0.1\n", "0 0 0 0 0 0 0 1 lost\n"})
+    EXPECT_EQ(ReadPoseFile(folder.Write("b.txt", first)).format, PoseFormat::kTum);
+}
+
+TEST(PoseReader, RefusesMalformedUncertainties) {
+  const TempFolder folder;
+  const std::string pose = "1 0 0 0 0 0 0 1";
+  const auto refuse = [&](const std::string& row, const std::vector<std::string>& parts) {
+    ExpectError([&] { ReadTrajectory(folder.Write("a.txt", "0 0 0 0 0 0 0 1\n" + row + "\n")); },
+                parts);
+  };
+  refuse(pose + " 0.1", {"a.txt:2: column 9", "'0.1'", "'lost'", "[rad]"});
+  refuse(pose + " LOST", {"a.txt:2: column 9", "'LOST'"});
+  refuse(pose + " lost lost", {"a.txt:2: column 9", "'lost'"});
+  refuse(pose + " 0.1 x", {"a.txt:2: column 10", "'x'"});
+  for (const char* bad : {" -0.1 0.1", " 0.1 -0.1", " nan 0.1", " 0.1 inf"})
+    refuse(pose + bad, {"a.txt:2: columns 9 and 10", "negative or not finite", "'lost'"});
+  refuse(pose + " 0.1 0.1 0.1",
+         {"a.txt:2: found 11 columns, expected 8", "two standard deviations"});
+  refuse("1 0 0 0 0 0 0", {"a.txt:2: found 7 columns, expected 8"});
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -33,6 +33,9 @@ struct Frame {
   Pose T_odom_cam;   ///< odometry, with drift and an error of the scale
   std::vector<Detection> detections;
   std::string image_left, image_right;  ///< paths of the images; empty: none
+  /// what the odometry reports of the step from the frame before; none: nothing, and a step that is
+  /// much longer than all others is taken for a failure
+  std::optional<StepUncertainty> step = std::nullopt;
 };
 
 }  // namespace sslcd
