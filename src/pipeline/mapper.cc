@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/pipeline/mapper.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -39,9 +40,19 @@ void CheckFrame(const Frame& frame, const FrameStore& frames) {
   const std::string name = "frame " + std::to_string(frame.index);
   if (!std::isfinite(frame.T_odom_cam.Log().sum()) || !std::isfinite(frame.stamp))
     throw Error(ErrorKind::kBadInput, name + ": its pose or stamp is not finite");
+  if (frame.step && !IsValid(*frame.step))
+    throw Error(ErrorKind::kBadInput,
+                name + ": a standard deviation of its step is negative or not finite");
   if (!frames.empty() && frame.stamp <= frames.back().stamp)
     throw Error(ErrorKind::kBadInput, name + ": its stamp " + std::to_string(frame.stamp) +
                                           " s is not after the one before it");
+}
+
+// Nothing that associates or compares objects along the path reaches over a lost step.
+double PathOfLostStep(const Options& options) {
+  const LoopLayoutOptions& layout = options.loop.layout;
+  return 2 * std::max({options.map.memory_m, layout.local_m, layout.hindsight_m, layout.split_m,
+                       options.loop.tracks.agree_m});
 }
 
 // The store keeps detections without appearance, which passes and landmarks keep.
@@ -56,7 +67,8 @@ struct Mapper::Impl {
   Impl(const Options& all, const MapperContext& world)
       : options(all),
         context(world),
-        state{ObjectMap(world.gravity, world.labels, all.noise, all.association, all.map), {}},
+        state{ObjectMap(world.gravity, world.labels, all.noise, all.association, all.map),
+              FrameStore(PathOfLostStep(all))},
         aligner(world.gravity, all.level),
         window(all.window, all.ba, all.noise),
         loops(all.loop, WholeMap(all), GalleryMode(all.association), world.place_matcher) {}
@@ -101,12 +113,14 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   const Pose T_world_cam =
       frames.empty() ? T_odom_cam : PredictPose(frames.back(), T_odom_cam, m.log_scale);
   report.keyframe = m.window.IsKeyframe(frames, T_odom_cam);
-  std::vector<Detection> seen = frame.detections;
+  const bool lost = !frames.empty() && frame.step && frame.step->lost;
+  std::vector<Detection> seen = lost ? std::vector<Detection>() : frame.detections;
   {
     const ScopedTimer timer(m.timing, "data association");
     report.filter = FilterDetections(seen, m.options.filter);
     frames.Append(
-        {frame.index, frame.stamp, 0., {}, T_odom_cam, T_world_cam, WithoutAppearance(seen), {}});
+        {frame.index, frame.stamp, 0., {}, T_odom_cam, T_world_cam, WithoutAppearance(seen), {}},
+        frame.step);
     report.map = m.state.map.AddFrame(frame.index, frame.stamp, T_world_cam, seen, m.camera(),
                                       frames.back().travelled);
     frames.SetMatched(frames.size() - 1, report.map.matched);

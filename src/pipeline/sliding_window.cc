@@ -27,7 +27,12 @@ BaSummary SlidingWindow::AddKeyframe(MapState& state, double& log_scale,
     prior_ = {};
     if (!keyframes_.empty()) keyframes_.erase(keyframes_.begin(), keyframes_.end() - 1);
   }
-  keyframes_.push_back(frames.size() - 1);
+  const int newest = frames.size() - 1;
+  if (!keyframes_.empty() && FailuresBetween(frames, keyframes_.back(), newest).lost > 0) {
+    prior_ = {};  // nothing joins the window to the new keyframe, which would be free to move
+    keyframes_.clear();
+  }
+  keyframes_.push_back(newest);
   BaSummary summary;
   if (options_.enabled) {
     BaProblem problem = Problem(state, log_scale, expected_log_scale);

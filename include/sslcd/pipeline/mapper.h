@@ -58,8 +58,10 @@ class Mapper {
   Mapper& operator=(Mapper&&) noexcept;
 
   /// Adds the next frame in order of time. O(window) for any size of the map, except for attempts
-  /// to close a loop. Throws Error(kBadInput) and keeps its state if the stamp does not increase or
-  /// the pose is not finite.
+  /// to close a loop. The detections of a frame whose step is lost are not used, since nothing
+  /// tells where they are. Throws Error(kBadInput) and keeps its state if the stamp does not
+  /// increase, the pose is not finite, or a standard deviation of the step is negative or not
+  /// finite.
   FrameReport AddFrame(const Frame& frame);
 
   /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
