@@ -67,11 +67,13 @@ OdometryFailures InferredFrom(const std::vector<FrameRecord>& frames, const Fram
 void FrameStore::Append(FrameRecord record, const std::optional<StepUncertainty>& reported) {
   if (!frames_.empty()) {
     const FrameRecord& before = frames_.back();
+    record.travelled = before.travelled;
     OdometryFailures& failures = record.failures;
     failures = reported ? Reported(*reported) : InferredFrom(frames_, record);
     const Vec3 step = record.T_odom_cam.translation() - before.T_odom_cam.translation();
-    const double lost_m = IsLost(*this, size() - 1) ? 0. : lost_path_m_;
-    record.travelled = before.travelled + (failures.lost > 0 ? lost_m : step.norm());
+    const bool lost = failures.lost > 0;
+    if (lost != IsLost(*this, size() - 1)) record.travelled += 0.5 * lost_path_m_;
+    if (!lost) record.travelled += step.norm();
     failures.translation_m2 += before.failures.translation_m2;
     failures.rotation_rad2 += before.failures.rotation_rad2;
     failures.lost += before.failures.lost;
@@ -104,7 +106,11 @@ int FrameStore::FirstFrom(double path_m) const {
   return static_cast<int>(at - frames_.begin());
 }
 
-int FrameStore::AtPath(double path_m) const { return std::min(FirstFrom(path_m), size() - 1); }
+int FrameStore::AtPath(double path_m) const {
+  int index = std::min(FirstFrom(path_m), size() - 1);
+  while (IsLost(*this, index)) --index;
+  return index;
+}
 
 int FrameStore::FirstChangeSince(Revision revision) const {
   const auto after =

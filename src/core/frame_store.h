@@ -41,8 +41,8 @@ class FrameStore {
   using Revision = std::uint64_t;
 
   FrameStore() = default;
-  /// `lost_path_m`: the path that the first lost step in a row counts as, so that nothing that is
-  /// compared along a shorter path spans it. [m]
+  /// `lost_path_m`: the path that a lost stretch counts as, so that nothing that is compared along
+  /// a shorter path spans it. Its frames are in the middle. [m]
   explicit FrameStore(double lost_path_m) : lost_path_m_(lost_path_m) {}
 
   /// Adds the newest frame and sets its `travelled` and `failures`. `reported` is the uncertainty
@@ -67,7 +67,8 @@ class FrameStore {
   /// n).
   int FirstFrom(double path_m) const;
 
-  /// The same, but the last frame if the path ends before. The store must not be empty.
+  /// The same, but the last frame if the path ends before, and the frame before a lost stretch
+  /// instead of a frame in it. The store must not be empty.
   int AtPath(double path_m) const;
 
   Revision revision() const { return revision_; }

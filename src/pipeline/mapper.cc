@@ -48,7 +48,7 @@ void CheckFrame(const Frame& frame, const FrameStore& frames) {
                                           " s is not after the one before it");
 }
 
-// Nothing that associates or compares objects along the path reaches over a lost step.
+// Nothing that associates or compares objects along the path reaches over half of it.
 double PathOfLostStep(const Options& options) {
   const LoopLayoutOptions& layout = options.loop.layout;
   return 2 * std::max({options.map.memory_m, layout.local_m, layout.hindsight_m, layout.split_m,

@@ -162,12 +162,23 @@ TEST(ReportedSteps, ALostOneMayBeAnyStep) {
   EXPECT_FALSE(IsLost(Reported({0, 1}, {{0, kLost}}), 0)) << "there is no step to the first frame";
 }
 
-TEST(ReportedSteps, ThePathOfALostStretchCountsOnce) {
+TEST(ReportedSteps, ALostStretchIsALongPathWithItsFramesInTheMiddle) {
   const FrameStore frames = Reported({0, 1, 2, 90, 5, 6, 7}, {{3, kLost}, {4, kLost}}, 100);
   EXPECT_EQ(frames[2].travelled, 2);
-  EXPECT_EQ(frames[3].travelled, 102) << "whatever its step";
-  EXPECT_EQ(frames[4].travelled, 102);
+  EXPECT_EQ(frames[3].travelled, 52) << "whatever its step";
+  EXPECT_EQ(frames[4].travelled, 52);
+  EXPECT_EQ(frames[5].travelled, 103);
   EXPECT_EQ(frames[6].travelled, 104);
+}
+
+TEST(ReportedSteps, NoPathLeadsToALostFrame) {
+  const FrameStore frames = Reported({0, 1, 2, 2, 2, 3, 4}, {{3, kLost}, {4, kLost}}, 100);
+  for (const double path_m : {1.5, 2., 2.5, 30., 52.})
+    EXPECT_EQ(frames.AtPath(path_m), 2) << path_m;
+  for (const double path_m : {52.5, 80., 103.}) EXPECT_EQ(frames.AtPath(path_m), 5) << path_m;
+  EXPECT_EQ(frames.AtPath(1000), 6);
+  EXPECT_EQ(Reported({0, 1, 2, 2}, {{2, kLost}, {3, kLost}}).AtPath(1000), 1) << "lost at the end";
+  EXPECT_EQ(frames.FirstFrom(30), 3) << "it is still the first one";
 }
 
 TEST(ReportedSteps, ALostOneIsNoLongStep) {
