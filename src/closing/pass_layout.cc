@@ -107,7 +107,9 @@ void PassLayouts::AppendBefore(int id, double to_m, int min_sightings, PassLayou
   PerCue<Gallery> appearance{Gallery(passes_.galleries())};
   for (const PassObject* pass : sum->passes)
     for (const CueRow& row : kCueRows) appearance[row.cue].Merge(pass->appearance[row.cue]);
+  const std::size_t before = layout.objects.size();
   Append({id}, sum->Mean(), appearance, layout);
+  if (layout.objects.size() > before) layout.objects.back().since_m = sum->passes.front()->last_m;
 }
 
 PassLayout PassLayouts::Before(double to_m, int min_sightings) const {

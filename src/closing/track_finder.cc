@@ -57,7 +57,7 @@ class TrackFinder : public LoopFinder {
   void UpdateTracks(const FinderInput& input, const PassLayout& local, const LayoutIndex& index,
                     const OdometryPrior& prior) {
     const LayoutLikelihood likelihood(local.objects, index, options_.match.likelihood,
-                                      prior.LargestRise());
+                                      {prior.LargestRise()});
     PoseSearchOptions search = options_.match.search;
     // fewer, since the tracks keep the poses of earlier attempts
     search.refine = options_.tracks.max_tracks;
@@ -69,6 +69,7 @@ class TrackFinder : public LoopFinder {
       found.insert(found.begin(), no_drift);
     tracks_.Update(
         likelihood, found, search, input.window.end_m,
+        input.window.GlobalMapEnd(options_.layout.gap_m),
         [&prior](const YawShift& pose, const LayoutFit& fit) { return prior.Of(pose, fit); });
   }
 

@@ -191,11 +191,12 @@ void LayoutIndex::UpdateDensity() {
   height_spread_ = near > 0 ? std::sqrt(heights / near / 2) : 0.;
 }
 
-bool LayoutIndex::IsMapped(double x, double y) const {
+bool LayoutIndex::IsMapped(double x, double y, double end_m) const {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
   const int middle = blocks_.Cell(x), row = blocks_.Cell(y);
   for (int i = 0; i < 9; ++i)
-    if (!blocks_.At(middle + i / 3 - 1, row + i % 3 - 1).empty()) return true;
+    for (const int j : blocks_.At(middle + i / 3 - 1, row + i % 3 - 1))
+      if (objects_[j].since_m < end_m) return true;
   return false;
 }
 

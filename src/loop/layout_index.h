@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -72,7 +73,8 @@ class LayoutIndex {
   }
 
   /// Whether the point is inside the mapped area: there is an object within 10 to 20 m.
-  bool IsMapped(double x, double y) const;
+  /// Ignores objects whose LayoutObject::since_m is not before `end_m`.
+  bool IsMapped(double x, double y, double end_m = std::numeric_limits<double>::infinity()) const;
 
   /// Pairs by labels and distance; none in large maps.
   const PairIndex& pairs() const { return pairs_; }

@@ -55,11 +55,11 @@ void DescribeFields(FieldVisitor& visitor, LayoutLikelihoodOptions& options) {
 }
 
 LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                                   const LayoutLikelihoodOptions& options, double max_rise_m)
+                                   const LayoutLikelihoodOptions& options, const MapLimits& limits)
     : local_(local),
       index_(index),
       options_(options),
-      max_rise_m_(max_rise_m),
+      limits_(limits),
       semantics_(local, index, options),
       view_(local) {
   for (std::size_t n = 0; n <= local.size(); ++n)
@@ -77,10 +77,12 @@ std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawS
     const double x = c * p.x() - s * p.y() + pose.t.x(), y = s * p.x() + c * p.y() + pose.t.y();
     for (const int j : index_.FindWithinReach(x, y)) {
       const LayoutObject& object = index_.objects()[j];
+      if (object.since_m >= limits_.end_m) continue;
       const double dx = object.position.x() - x, dy = object.position.y() - y;
       const double dz = object.position.z() - p.z() - pose.t.z();
       const double d2 = dx * dx + dy * dy;
-      if (d2 >= reach2 || std::abs(object.altitude - local_[i].altitude) > max_rise_m_) continue;
+      if (d2 >= reach2 || std::abs(object.altitude - local_[i].altitude) > limits_.max_rise_m)
+        continue;
       const int local = static_cast<int>(i);
       const double gain = semantics_.Gain(local, j, pose.yaw);
       candidates.push_back(
@@ -95,8 +97,10 @@ int LayoutLikelihood::CountInView(const YawShift& pose) const {
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   const Eigen::AlignedBox2d box = view_.BoxUnder(pose);
   int count = 0;
-  index_.VisitBox(box.min(), box.max(),
-                  [&](int j) { count += InView(index_.objects()[j].position, pose.t, c, s); });
+  index_.VisitBox(box.min(), box.max(), [&](int j) {
+    const LayoutObject& object = index_.objects()[j];
+    if (object.since_m < limits_.end_m) count += InView(object.position, pose.t, c, s) ? 1 : 0;
+  });
   return count;
 }
 
@@ -113,7 +117,7 @@ int LayoutLikelihood::CountInMappedArea(const YawShift& pose) const {
       std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
         const Vec3& p = object.position;
         return index_.IsMapped(c * p.x() - s * p.y() + pose.t.x(),
-                               s * p.x() + c * p.y() + pose.t.y());
+                               s * p.x() + c * p.y() + pose.t.y(), limits_.end_m);
       }));
 }
 

@@ -20,6 +20,14 @@ namespace sslcd {
 /// hand.
 inline constexpr int kRefineRounds = 4;
 
+/// The objects of an index that a local layout may match.
+struct MapLimits {
+  /// Altitudes differ by no more. [m]
+  double max_rise_m = std::numeric_limits<double>::infinity();
+  /// LayoutObject::since_m is before this path length: the map as it was then. [m]
+  double end_m = std::numeric_limits<double>::infinity();
+};
+
 /// The log likelihood ratio of two hypotheses about a local layout: it shows the map under a pose,
 /// or other objects at random places with the map's density. Its unit, nats, makes dense car parks
 /// and isolated poles comparable. Rare labels count more than frequent ones. Evaluates poses of one
@@ -27,14 +35,12 @@ inline constexpr int kRefineRounds = 4;
 /// caches, so it is not thread-safe.
 class LayoutLikelihood {
  public:
-  /// Objects whose altitudes differ by more than `max_rise_m` do not match.
   LayoutLikelihood(const std::vector<LayoutObject>& local, const LayoutIndex& index,
-                   const LayoutLikelihoodOptions& options,
-                   double max_rise_m = std::numeric_limits<double>::infinity());
+                   const LayoutLikelihoodOptions& options, const MapLimits& limits = {});
 
-  /// The same for another local layout, which must outlive it.
-  LayoutLikelihood Of(const std::vector<LayoutObject>& local) const {
-    return LayoutLikelihood(local, index_, options_, max_rise_m_);
+  /// The same for another local layout, which must outlive it, and the map as it was at `end_m`.
+  LayoutLikelihood Of(const std::vector<LayoutObject>& local, double end_m) const {
+    return LayoutLikelihood(local, index_, options_, {limits_.max_rise_m, end_m});
   }
 
   const std::vector<LayoutObject>& local() const { return local_; }
@@ -77,7 +83,7 @@ class LayoutLikelihood {
   const std::vector<LayoutObject>& local_;
   const LayoutIndex& index_;
   LayoutLikelihoodOptions options_;
-  double max_rise_m_;
+  MapLimits limits_;
   SemanticEvidence semantics_;
   ViewHull view_;
   // log probability that none of n objects is mapped, by n

@@ -32,6 +32,9 @@ std::vector<int> IdsOf(const std::vector<LayoutObject>& objects) {
   return ids;
 }
 
+// A pose is excluded by odometry below this prior. Set by hand. [nats]
+constexpr double kExcluded = -10;
+
 // Number of different objects in the local maps of several attempts.
 double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
   std::vector<int> all;
@@ -94,7 +97,7 @@ void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit&
 
 void PoseTracks::Update(const LayoutLikelihood& likelihood,
                         const std::vector<PoseHypothesis>& found, const PoseSearchOptions& search,
-                        double path_m, const Prior& prior) {
+                        double path_m, double map_end_m, const Prior& prior) {
   const std::vector<LayoutObject>& local = likelihood.local();
   if (local.empty()) return;
   while (!earlier_.empty() && path_m - earlier_.front().path_m > options_.agree_m)
@@ -114,7 +117,7 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
     track.id = next_id_++;
     if (attempt.HasTrackAt(hypothesis.pose)) continue;
     track.prior = prior(hypothesis.pose, hypothesis.fit);
-    if (track.prior.level + track.prior.height > 0)
+    if (track.prior.level + track.prior.height > kExcluded)
       FollowBack(likelihood, hypothesis.pose, search.min_matches, track);
     AddVote(std::move(track), hypothesis.pose, hypothesis.fit, attempt);
   }
@@ -123,7 +126,7 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
                    [](const PoseTrack& a, const PoseTrack& b) { return a.evidence > b.evidence; });
   if (static_cast<int>(now.size()) > options_.max_tracks) now.resize(options_.max_tracks);
   tracks_ = std::move(now);
-  earlier_.push_back({path_m, local});
+  earlier_.push_back({path_m, map_end_m, local});
 }
 
 // Adds the votes that a track at `pose` would have got from earlier attempts.
@@ -132,7 +135,7 @@ void PoseTracks::FollowBack(const LayoutLikelihood& likelihood, const YawShift& 
   YawShift now = pose;
   for (auto map = earlier_.rbegin(); map != earlier_.rend(); ++map) {
     YawShift before = now;
-    const LayoutFit fit = likelihood.Of(map->objects).Refine(before, kRefineRounds);
+    const LayoutFit fit = likelihood.Of(map->objects, map->map_end_m).Refine(before, kRefineRounds);
     if (!AreNear(before, now, CentreOf(map->objects), options_.step_m, options_.step_rad)) break;
     if (static_cast<int>(fit.matches.size()) < min_matches) break;
     track.votes.insert(track.votes.begin(), {map->path_m, fit.score, IdsOf(map->objects)});

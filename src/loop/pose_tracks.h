@@ -45,9 +45,10 @@ class PoseTracks {
 
   explicit PoseTracks(const PoseTrackOptions& options) : options_(options) {}
 
-  /// Adds an attempt at `path_m` of path with the hypotheses that it has found by `likelihood`.
+  /// Adds an attempt at `path_m` of path with the hypotheses that it has found by `likelihood`, in
+  /// the global map of the path up to `map_end_m`.
   void Update(const LayoutLikelihood& likelihood, const std::vector<PoseHypothesis>& found,
-              const PoseSearchOptions& search, double path_m, const Prior& prior);
+              const PoseSearchOptions& search, double path_m, double map_end_m, const Prior& prior);
 
   /// Best first.
   const std::vector<PoseTrack>& tracks() const { return tracks_; }
@@ -69,7 +70,7 @@ class PoseTracks {
  private:
   struct Attempt;
   struct LocalMap {
-    double path_m;
+    double path_m, map_end_m;
     std::vector<LayoutObject> objects;
   };
   /// Continues or starts a track at `pose`. Its prior is set.

@@ -46,6 +46,16 @@ TEST(GlobalLayout, HasTheObjectsOfPassesThatEndedBefore) {
   }
 }
 
+TEST(GlobalLayout, ObjectsCountFromTheEndOfTheirFirstPassOn) {
+  Avenue world;
+  world.Drive();
+  GlobalLayout global((LoopOptions()));
+  for (const LayoutObject& object : global.Update(world.state, world.passes, 350).objects()) {
+    const int tree = object.id - world.trees.front().value;
+    EXPECT_EQ(object.since_m, tree + 1) << "its last sighting on the first visit";
+  }
+}
+
 TEST(GlobalLayout, IsIndexedByTheOptions) {
   Avenue world;
   const LandmarkId once = world.Add({-4, 1, 12});

@@ -87,6 +87,15 @@ TEST(LayoutIndex, KnowsItsRim) {
   EXPECT_FALSE(index.IsMapped(NAN, 5));
 }
 
+TEST(LayoutIndex, KnowsTheRimOfThen) {
+  LayoutObject late = ObjectAt({5, 5, 0});
+  late.since_m = 100;
+  const LayoutIndex index({late}, 50, 2);
+  EXPECT_TRUE(index.IsMapped(5, 5));
+  EXPECT_TRUE(index.IsMapped(5, 5, 100.1));
+  EXPECT_FALSE(index.IsMapped(5, 5, 100));
+}
+
 TEST(LayoutIndex, ManyLabelsCostNoPair) {
   std::vector<LayoutObject> map;
   for (int i = 0; i < 400; ++i) map.push_back(ObjectAt({3. * i, 0, 0}, 7 * i));

@@ -38,7 +38,7 @@ TEST(PoseTracks, PosesAreComparedWhereTheObjectsAre) {
       about_objects{turn, centre - Apply(about_origin, centre)};
   for (const YawShift& turned : {about_origin, about_objects}) {
     PoseTracks tracks({});
-    tracks.Update(likelihood, {{YawShift{}, {}}, {turned, {}}}, search, 100, NoPrior);
+    tracks.Update(likelihood, {{YawShift{}, {}}, {turned, {}}}, search, 100, 0, NoPrior);
     EXPECT_EQ(tracks.tracks().size(), turned.t.norm() > 0 ? 1u : 2u);
   }
 }
@@ -88,13 +88,29 @@ PoseTrack FoundLate(double level, double first_m = 100) {
   return attempts.tracks.tracks().at(0);
 }
 
-TEST(PoseTracks, APoseThatOdometryFavoursIsFollowedBack) {
-  const PoseTrack followed = FoundLate(2), fresh = FoundLate(-2);
+TEST(PoseTracks, APoseThatOdometryDoesNotExcludeIsFollowedBack) {
+  const PoseTrack followed = FoundLate(-5), fresh = FoundLate(-12);
   ASSERT_EQ(followed.votes.size(), 4u);
-  EXPECT_EQ(fresh.votes.size(), 1u) << "odometry does not favour it";
+  EXPECT_EQ(fresh.votes.size(), 1u) << "odometry excludes it";
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(followed.votes[i].path_m, 100. + 5. * double(i));
-  EXPECT_GT(followed.evidence, fresh.evidence + 4 + 1) << "by the objects seen before";
+  EXPECT_GT(followed.evidence, fresh.evidence + 7 + 1) << "by the objects seen before";
   EXPECT_EQ(FoundLate(2, 0).votes.size(), 1u) << "the others are more than 100 m back";
+}
+
+// The map of now has the objects of the earlier attempts themselves, which fit wherever a row
+// repeats.
+TEST(PoseTracks, APoseIsFollowedBackInTheMapOfThen) {
+  std::vector<LayoutObject> map = Strewn(120, 120, 1);
+  for (LayoutObject& object : map) object.since_m = 50;
+  Attempts attempts(map);
+  for (const double map_end_m : {50., 51.}) {
+    attempts.tracks.Forget();
+    attempts.map_end_m = map_end_m;
+    attempts.UpdateWithoutSearch(attempts.SeenAt(0, 0), 100);
+    attempts.map_end_m = 60;
+    attempts.Update(attempts.SeenAt(5, 0), 105);
+    EXPECT_EQ(attempts.tracks.tracks().at(0).votes.size(), map_end_m > 50 ? 2u : 1u);
+  }
 }
 
 TEST(PoseTracks, WhatLiesFarBackIsForgotten) {

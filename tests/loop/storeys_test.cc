@@ -21,7 +21,7 @@ struct TwoStoreys {
   }
   std::size_t Matches(double max_rise_m) const {
     const LayoutIndex index(map, 50, 2);
-    return LayoutLikelihood(local, index, {}, max_rise_m).Evaluate({}).matches.size();
+    return LayoutLikelihood(local, index, {}, MapLimits{max_rise_m}).Evaluate({}).matches.size();
   }
 };
 

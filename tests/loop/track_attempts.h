@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Attempts {
   std::vector<LayoutObject> map;
   LayoutIndex index;
   PoseTracks tracks;
+  double map_end_m = std::numeric_limits<double>::infinity();
 
   explicit Attempts(std::vector<LayoutObject> objects, const PoseTrackOptions& options = {})
       : map(std::move(objects)),
@@ -35,11 +37,12 @@ struct Attempts {
   void Update(const std::vector<LayoutObject>& local, double path_m,
               const PoseTracks::Prior& prior = NoPrior) {
     const LayoutLikelihood likelihood(local, index, match.likelihood);
-    tracks.Update(likelihood, SearchPoses(likelihood, match.search), match.search, path_m, prior);
+    tracks.Update(likelihood, SearchPoses(likelihood, match.search), match.search, path_m,
+                  map_end_m, prior);
   }
   void UpdateWithoutSearch(const std::vector<LayoutObject>& local, double path_m) {
     tracks.Update(LayoutLikelihood(local, index, match.likelihood), {}, match.search, path_m,
-                  NoPrior);
+                  map_end_m, NoPrior);
   }
 };
 

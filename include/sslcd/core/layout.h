@@ -26,6 +26,8 @@ struct LayoutObject {
   Vec3 position{0, 0, 0};  ///< centre [m]
   /// height of the centre in the world, which tells storeys apart; NaN: unknown [m]
   double altitude = std::numeric_limits<double>::quiet_NaN();
+  /// path length at which the first pass that saw it ended, in a map along a path [m]
+  double since_m = -std::numeric_limits<double>::infinity();
   double yaw = 0;      ///< about z; NaN: unknown [rad]
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]; zero: unknown
   /// views of each cue, one per viewing direction; empty: unknown
