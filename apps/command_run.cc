@@ -111,7 +111,9 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
       {"loops accepted", std::to_string(accepted)},
       {"loops refused", std::to_string(result.loops.size() - accepted)},
       {"views tied", std::to_string(result.views_tied)},
-      {"odometry scale", Number("%.4f", result.scale)}};
+      {"odometry scale", Number("%.4f", result.scale)},
+      {"better horizontally", Number("%.3f", result.improvement.horizontal)},
+      {"better in height", Number("%.3f", result.improvement.height)}};
   for (const auto& [name, value] : metrics)
     rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);

@@ -21,6 +21,8 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
 
 // A tie with an error of this many standard deviations has half the weight. Set by hand.
 constexpr double kTieLoss = 3;
+// The same for the scale, so that a wrong unit of the odometry is found.
+constexpr double kScaleLoss = 10;
 // Standard deviations that fix the first camera; with a prior of the cameras they are larger by
 // this factor. Set by hand. [m, rad]
 constexpr double kGaugeMetres = 1e-3, kGaugeRad = 1e-4, kLooserGauge = 300;
@@ -39,6 +41,7 @@ ceres::Problem::Options Shared() {
 BaTerms::BaTerms(const BaProblem& problem, const BaOptions& options)
     : loss_(options.loss_scale > 0 ? options.loss_scale : 1.),
       tie_loss_(kTieLoss),
+      scale_loss_(kScaleLoss),
       ceres_(Shared()),
       cameras_(problem.cameras.size()),
       objects_(problem.objects.size()),
@@ -150,7 +153,7 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
     ceres_.AddResidualBlock(new MarginalPriorCost(problem.prior), nullptr, blocks);
   } else if (options.odometry.scale_prior > 0) {
     const ScalarPrior scale{problem.expected_log_scale, options.odometry.scale_prior};
-    ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), nullptr, &log_scale_);
+    ceres_.AddResidualBlock(AutoDiff<ScalarPrior, 1, 1>(scale), &scale_loss_, &log_scale_);
   }
   if (!cameras_.empty() && (problem.prior.empty() || problem.hold_first)) {
     // The gauge: the first camera defines the world; with a prior only weakly.
@@ -160,6 +163,16 @@ void BaTerms::AddPriors(const BaProblem& problem, const BaOptions& options) {
     ceres_.AddResidualBlock(AutoDiff<PosePrior, 6, 7>(gauge), nullptr, cameras_.front().data());
   }
   if (options.odometry.scale_prior <= 0) ceres_.SetParameterBlockConstant(&log_scale_);
+}
+
+std::vector<double*> BaTerms::States() {
+  std::vector<double*> states;
+  for (auto& camera : cameras_) states.push_back(camera.data());
+  for (auto& object : objects_) states.push_back(object.data());
+  for (double* other : {&log_scale_, up_.data()})
+    if (ceres_.HasParameterBlock(other) && !ceres_.IsParameterBlockConstant(other))
+      states.push_back(other);
+  return states;
 }
 
 void BaTerms::Store(BaProblem& problem) const {

@@ -20,6 +20,8 @@ class BaTerms {
   BaTerms(const BaProblem& problem, const BaOptions& options);
 
   ceres::Problem& ceres() { return ceres_; }
+  /// The states that are not constant: cameras, objects, and the others.
+  std::vector<double*> States();
   double* camera(int i) { return cameras_[i].data(); }
   double* object(int k) { return objects_[k].data(); }
   double* log_scale() { return &log_scale_; }
@@ -37,7 +39,7 @@ class BaTerms {
   PoseManifold pose_manifold_;
   ceres::SubsetManifold without_yaw_{4, {3}};
   ceres::SphereManifold<3> direction_manifold_;
-  ceres::CauchyLoss loss_, tie_loss_;
+  ceres::CauchyLoss loss_, tie_loss_, scale_loss_;
   ceres::Problem ceres_;  // refers to the members above
   std::vector<std::array<double, 7>> cameras_;
   std::vector<std::array<double, 4>> objects_;

@@ -10,9 +10,7 @@
 namespace sslcd {
 namespace {
 
-// Degrees of freedom of the Student-t distribution. With 4 as with 8, copies of a street 60 m aside
-// are refused, and Victoria Park closes the same loops.
-constexpr double kFreedom = 8;
+constexpr double kFreedom = 8;  // of the Student-t distribution; set by hand
 // Standard deviations without any path: those of the places and headings of two layouts. Set by
 // hand. [m, rad]
 constexpr double kLayoutMetres = 0.5, kLayoutRad = 0.02;

@@ -26,6 +26,7 @@ struct FrameRecord {
   /// path of the odometry up to this frame [m], see FrameStore::Append
   double travelled = 0;
   OdometryFailures failures;          ///< up to this frame
+  Pose T_input_cam;                   ///< as odometry gave it
   Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
   Pose T_world_cam;                   ///< the current estimate
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors

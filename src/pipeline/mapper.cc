@@ -10,6 +10,7 @@
 #include "closing/view_ties.h"
 #include "core/frame_store.h"
 #include "odometry/odometry_edge.h"
+#include "pipeline/final_trajectory.h"
 #include "pipeline/gravity_aligner.h"
 #include "pipeline/sliding_window.h"
 #include "refine/refine_map.h"
@@ -75,6 +76,7 @@ struct Mapper::Impl {
 
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
+  const MapState& best() const { return final_trajectory.state ? *final_trajectory.state : state; }
   BaSummary Adjust(const WholeMapOptions& whole_map, const LoopEvidence& evidence);
 
   Options options;
@@ -86,6 +88,7 @@ struct Mapper::Impl {
   double log_scale = 0;
   double refined_log_scale = 0;  // result of the last full-map optimisation
   std::vector<ViewTie> view_ties;
+  FinalTrajectory final_trajectory;  // of the last refinement, until the next frame
   TimingTable timing;
 };
 
@@ -97,7 +100,10 @@ Mapper& Mapper::operator=(const Mapper& other) { return *this = Mapper(other); }
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-double Mapper::scale() const { return impl_->scale(); }
+double Mapper::scale() const {
+  return impl_->final_trajectory.keeps_horizontal ? 1 : impl_->scale();
+}
+ImprovementProbability Mapper::improvement() const { return impl_->final_trajectory.improvement; }
 const GravityFrame& Mapper::gravity() const { return impl_->state.map.gravity(); }
 NoiseScale Mapper::noise_scale() const { return impl_->state.map.noise_scale(); }
 const std::vector<ViewTie>& Mapper::view_ties() const { return impl_->view_ties; }
@@ -108,6 +114,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   Impl& m = *impl_;
   FrameStore& frames = m.state.frames;
   CheckFrame(frame, frames);
+  m.final_trajectory = {};
   FrameReport report;
   const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
   const Pose T_world_cam =
@@ -118,9 +125,14 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   {
     const ScopedTimer timer(m.timing, "data association");
     report.filter = FilterDetections(seen, m.options.filter);
-    frames.Append(
-        {frame.index, frame.stamp, 0., {}, T_odom_cam, T_world_cam, WithoutAppearance(seen), {}},
-        frame.step);
+    FrameRecord record;
+    record.frame = frame.index;
+    record.stamp = frame.stamp;
+    record.T_input_cam = frame.T_odom_cam;
+    record.T_odom_cam = T_odom_cam;
+    record.T_world_cam = T_world_cam;
+    record.detections = WithoutAppearance(seen);
+    frames.Append(std::move(record), frame.step);
     report.map = m.state.map.AddFrame(frame.index, frame.stamp, T_world_cam, seen, m.camera(),
                                       frames.back().travelled);
     frames.SetMatched(frames.size() - 1, report.map.matched);
@@ -150,6 +162,7 @@ BaSummary Mapper::Refine() {
   const LoopOptions& loop = m.options.loop;
   WholeMapOptions whole_map = WholeMap(m.options);
   LoopEvidence evidence;
+  if (m.state.frames.empty()) return {};
   if (loop.enabled) m.loops.Finish(m.state, m.scale(), m.timing);
   if (m.loops.ledger().AnyAccepted()) {  // later frames keep the correction of the loops
     whole_map.ba.odometry = loop.odometry;
@@ -159,22 +172,27 @@ BaSummary Mapper::Refine() {
   }
   m.view_ties.clear();
   BaSummary summary = m.Adjust(whole_map, evidence);
-  if (!m.context.view_aligner || !loop.enabled || !loop.views.enabled) return summary;
-  {
+  if (m.context.view_aligner && loop.enabled && loop.views.enabled) {
     const ScopedTimer timer(m.timing, "view alignment");
     evidence.view_ties = TieViews(m.state.frames, m.loops.ledger().AcceptedPath(m.state.frames),
                                   m.context.view_aligner, loop);
   }
-  if (evidence.view_ties.empty()) return summary;
-  summary = m.Adjust(whole_map, evidence);
-  m.view_ties = AgreeingTies(evidence.view_ties, m.state.frames);
-  MeasureByViews(m.state, m.view_ties, m.scale(), loop.odometry, m.loops.ledger());
+  if (!evidence.view_ties.empty()) {
+    summary = m.Adjust(whole_map, evidence);
+    m.view_ties = AgreeingTies(evidence.view_ties, m.state.frames);
+    MeasureByViews(m.state, m.view_ties, m.scale(), loop.odometry, m.loops.ledger());
+  }
+  {
+    const ScopedTimer timer(m.timing, "choice of trajectory");
+    m.final_trajectory = ChooseTrajectory(m.state, m.log_scale, evidence, whole_map,
+                                          m.loops.ledger(), loop.odometry);
+  }
   return summary;
 }
 
 Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;
-  for (const FrameRecord& record : impl_->state.frames) {
+  for (const FrameRecord& record : impl_->best().frames) {
     trajectory.stamps.push_back(record.stamp);
     trajectory.poses.push_back(record.T_world_cam);
   }
@@ -183,12 +201,12 @@ Trajectory Mapper::CameraTrajectory() const {
 
 PoseGraph Mapper::Graph() const {
   PoseGraph graph;
-  const FrameStore& frames = impl_->state.frames;
+  const FrameStore& frames = impl_->best().frames;
   for (int i = 0; i < frames.size(); ++i) {
     graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
     if (i == 0) continue;
-    const OdometryEdge step = OdometryBetween(frames, i - 1, i, {impl_->options.ba.odometry, {}},
-                                              gravity().up, impl_->scale());
+    const OdometryEdge step =
+        OdometryBetween(frames, i - 1, i, {impl_->options.ba.odometry, {}}, gravity().up, scale());
     graph.edges.push_back(
         {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }
@@ -206,7 +224,7 @@ PoseGraph Mapper::Graph() const {
 
 std::vector<MapObject> Mapper::Objects() const {
   std::vector<MapObject> objects;
-  for (const auto& [id, landmark] : impl_->state.map.landmarks()) {
+  for (const auto& [id, landmark] : impl_->best().map.landmarks()) {
     MapObject object;
     object.id = landmark.id;
     object.label = landmark.label;

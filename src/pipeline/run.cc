@@ -60,6 +60,7 @@ RunResult RunSequence(const FrameSource& next, int total, const MapperContext& c
   result.loops = mapper.LoopClosures();
   result.objects = mapper.Objects();
   result.views_tied = static_cast<int>(mapper.view_ties().size());
+  result.improvement = mapper.improvement();
   result.scale = mapper.scale();
   result.noise_scale = mapper.noise_scale();
   result.timing = mapper.timing();

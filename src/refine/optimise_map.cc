@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "bundle/object_ba.h"
 #include "refine/trajectory_correction.h"
 
 namespace sslcd {
@@ -41,16 +40,17 @@ std::vector<Anchor> Anchors(const FrameStore& frames, const std::vector<int>& ke
   return anchors;
 }
 
-// Keyframes are the cameras of the problem. Sightings of other frames are assigned to the nearest
-// keyframe.
-BaProblem FullProblem(const MapState& state, const std::vector<int>& keyframes, double log_scale,
-                      const std::vector<ViewTie>& ties, const WholeMapOptions& options) {
+}  // namespace
+
+BaProblem MapProblem(const MapState& state, const std::vector<int>& keyframes, double log_scale,
+                     const LoopEvidence& loops, const WholeMapOptions& options) {
   const ObjectMap& map = state.map;
   const FrameStore& frames = state.frames;
   BaProblem problem;
   problem.gravity = map.gravity();
   problem.noise = options.noise;
   problem.noise_scale = map.noise_scale();
+  problem.odometry_factors = loops.odometry_factors;
   problem.log_scale = log_scale;
   if (options.level.enabled) problem.slope = {options.level.slope_rad, options.level.window_m};
   for (const int keyframe : keyframes) {
@@ -67,7 +67,7 @@ BaProblem FullProblem(const MapState& state, const std::vector<int>& keyframes, 
   std::map<int, Anchor> anchor_of_frame;
   const std::vector<Anchor> anchors = Anchors(frames, keyframes, log_scale);
   for (int i = 0; i < frames.size(); ++i) anchor_of_frame[frames[i].frame] = anchors[i];
-  for (const ViewTie& tie : ties) {
+  for (const ViewTie& tie : loops.view_ties) {
     const Anchor &from = anchors[tie.from], &to = anchors[tie.to];
     // from T Exp(d) to^-1 = from T to^-1 Exp(Adj(to) d)
     const Pose::Matrix6 adjoint = to.T_camera_frame.Adj();
@@ -89,8 +89,6 @@ BaProblem FullProblem(const MapState& state, const std::vector<int>& keyframes, 
   return problem;
 }
 
-}  // namespace
-
 std::vector<UprightPose> SeenAt(const MapLandmark& landmark, const std::map<int, Pose>& cameras,
                                 const GravityFrame& gravity) {
   std::vector<UprightPose> seen;
@@ -103,8 +101,7 @@ BaSummary OptimiseMap(MapState& state, const std::vector<int>& keyframes, double
                       const LoopEvidence& loops, const WholeMapOptions& options) {
   ObjectMap& map = state.map;
   FrameStore& frames = state.frames;
-  BaProblem problem = FullProblem(state, keyframes, log_scale, loops.view_ties, options);
-  problem.odometry_factors = loops.odometry_factors;
+  BaProblem problem = MapProblem(state, keyframes, log_scale, loops, options);
   BaSummary summary = SolveBa(problem, options.ba);
   if (summary.usable && options.map.learn_noise) {
     problem.noise_scale = EstimateNoiseScale(problem);

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "bundle/object_ba.h"
 #include "map/map_state.h"
 #include "odometry/odometry_noise.h"
 #include "sslcd/core/loop_closure.h"
@@ -17,6 +18,10 @@ struct LoopEvidence {
   OdometryFactors odometry_factors;  ///< factors on BaOptions::odometry
   std::vector<ViewTie> view_ties;
 };
+
+/// The problem of OptimiseMap() at the current state.
+BaProblem MapProblem(const MapState& state, const std::vector<int>& keyframes, double log_scale,
+                     const LoopEvidence& loops, const WholeMapOptions& options);
 
 /// Bundle adjustment over keyframes (indices of frames) and all landmarks of the map, repeated with
 /// the learnt detector noise if `options.map.learn_noise`. Sightings of other frames are assigned

@@ -24,6 +24,9 @@ void DescribeFields(FieldVisitor& visitor, RefineOptions& options) {
   visitor.Real("min_seen_share", options.min_seen_share, 0, 1,
                "a movable object seen in a smaller share of the frames that it was in sight for is "
                "taken for several passing ones and leaves the map");
+  visitor.Real("least_probability", options.least_probability, 0, 1,
+               "least probability that the optimised trajectory is better than odometry; below it "
+               "odometry stays (horizontally and in height); 0: never");
 }
 
 void DescribeFields(FieldVisitor& visitor, LevelOptions& options) {

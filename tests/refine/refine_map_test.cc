@@ -165,7 +165,7 @@ TEST_F(RefineMapTest, FindsTheScaleOfOdometry) {
     record.T_world_cam = record.T_odom_cam;
   }
   EXPECT_TRUE(Refine(0).usable);
-  EXPECT_NEAR(std::exp(log_scale_), 1 / 0.9, 5e-3);
+  EXPECT_NEAR(std::exp(log_scale_), 1 / 0.9, 0.01);
   EXPECT_LT(ErrorOfFrame(kFrames - 1), 0.1);
 }
 

@@ -18,6 +18,7 @@
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/map/options.h"
 #include "sslcd/perception/filter.h"
+#include "sslcd/refine/improvement.h"
 
 namespace sslcd {
 
@@ -66,7 +67,9 @@ class Mapper {
 
   /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
   /// With a ViewAligner it also aligns images of different passes and optimises again with these.
-  /// May be called at any time and repeatedly.
+  /// Where the result is not surely better than the odometry, horizontally or in height, the
+  /// odometry stays (RefineOptions::least_probability); the next frame continues the optimised
+  /// trajectory all the same. May be called at any time and repeatedly.
   BaSummary Refine();
 
   const GravityFrame& gravity() const;
@@ -76,6 +79,7 @@ class Mapper {
   /// all attempts to close a loop, including refused ones
   std::vector<LoopClosure> LoopClosures() const;
   const std::vector<ViewTie>& view_ties() const;  ///< ties of the last Refine()
+  ImprovementProbability improvement() const;     ///< by the last Refine()
   /// Frames by their numbers, the metric odometry between them, accepted loops and view ties.
   PoseGraph Graph() const;
   /// metres per odometry metre

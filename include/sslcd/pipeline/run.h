@@ -42,10 +42,11 @@ struct RunResult {
   std::vector<LoopClosure> loops;  ///< all attempts in order, including refused ones
   /// number of camera pairs aligned by their images (ViewAligner)
   int views_tied = 0;
-  double scale = 1;        ///< metres per odometry metre
-  NoiseScale noise_scale;  ///< learnt factors on the detector's noise
-  FilterReport filter;     ///< sums over all frames
-  BaSummary refinement;    ///< full-map optimisation at the end
+  double scale = 1;                    ///< metres per odometry metre
+  NoiseScale noise_scale;              ///< learnt factors on the detector's noise
+  FilterReport filter;                 ///< sums over all frames
+  BaSummary refinement;                ///< full-map optimisation at the end
+  ImprovementProbability improvement;  ///< of the trajectory, by that optimisation
   TimingTable timing;
   int images_failed = 0;  ///< images that `with_image` could not load
   bool stopped = false;   ///< the stop hook ended the run early

@@ -24,6 +24,9 @@ struct RefineOptions {
   /// a movable object that was seen in a smaller share of the frames in which it was visible counts
   /// as several passing objects
   double min_seen_share = 0.4;
+  /// The optimised trajectory replaces the horizontal positions of the odometry, and its heights,
+  /// only where it is nearer to the truth with this probability. 0: always.
+  double least_probability = 0.99;
 };
 void DescribeFields(FieldVisitor& visitor, RefineOptions& options);
 

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/final_trajectory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "loop_drives.h"
+#include "sslcd/pipeline/mapper.h"
+
+namespace sslcd {
+namespace {
+
+Drives WithPerfectOdometry() {
+  Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  for (std::size_t i = 0; i < drives.frames.size(); ++i)
+    drives.frames[i].T_odom_cam = drives.world.truth.poses[i];
+  return drives;
+}
+
+double LargestChange(const Trajectory& a, const Trajectory& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.poses.size(); ++i)
+    largest = std::max(largest, (a.poses[i].inverse() * b.poses[i]).Log().norm());
+  return largest;
+}
+
+TEST(FinalTrajectory, IsAPerfectOdometryAsItWasGiven) {
+  const Drives drives = WithPerfectOdometry();
+  const RunResult result = drives.Run();
+  EXPECT_GT(Accepted(result), 10);
+  EXPECT_LT(LargestChange(result.trajectory, result.odometry), 1e-9);
+  EXPECT_EQ(result.scale, 1);
+  Options always;
+  always.refine.least_probability = 0;
+  EXPECT_GT(LargestChange(drives.Run(always).trajectory, result.odometry), 1e-3);
+}
+
+TEST(FinalTrajectory, IsTheOptimisedOneWhereOdometryDrifts) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  const RunResult result = drives.Run();
+  EXPECT_GT(result.improvement.horizontal, 0.999);
+  const SequenceMetrics metrics = drives.Judge(result);
+  EXPECT_LT(metrics.ate, 0.3 * metrics.ate_odometry);
+}
+
+// A camera on a slope of the odometry's world that the odometry reports may have drifted there; one
+// that never tilts keeps its heights.
+TEST(FinalTrajectory, HasTheHeightsOfALevelOdometry) {
+  Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  const RunResult level = drives.Run();
+  double largest = 0;
+  for (std::size_t i = 0; i < level.trajectory.poses.size(); ++i)
+    largest = std::max(largest, std::abs(level.trajectory.poses[i].translation().y() -
+                                         level.odometry.poses[i].translation().y()));
+  EXPECT_LT(level.improvement.height, 0.99) << "the world is flat";
+  EXPECT_LT(largest, 1e-9);
+}
+
+TEST(FinalTrajectory, IsNotWhatTheNextFrameContinues) {
+  const Drives drives = WithPerfectOdometry();
+  const int last = static_cast<int>(drives.frames.size()) - 1;
+  Mapper mapper({}, drives.Context());
+  Trajectory odometry;
+  for (int i = 0; i <= last; ++i) {
+    if (i == last) {
+      mapper.Refine();
+      EXPECT_LT(LargestChange(mapper.CameraTrajectory(), odometry), 1e-9);
+      EXPECT_GT(mapper.Objects().size(), 20u);
+    }
+    mapper.AddFrame(drives.frames[i]);
+    odometry.poses.push_back(drives.frames[i].T_odom_cam);
+  }
+  EXPECT_GT(LargestChange(mapper.CameraTrajectory(), odometry), 1e-6) << "the running estimate";
+  EXPECT_EQ(mapper.CameraTrajectory().size(), drives.frames.size());
+  EXPECT_EQ(mapper.improvement().horizontal, 0) << "of no refinement any more";
+}
+
+}  // namespace
+}  // namespace sslcd
