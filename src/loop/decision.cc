@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math.h"
+#include "core/sigmoid.h"
 
 namespace sslcd {
 namespace {
@@ -33,10 +34,10 @@ void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options) {
 }
 
 void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options) {
-  visitor.Everyday("higher: fewer wrong loops, and fewer loops")
-      .Real("min_margin", options.min_margin, -100, 1000,
-            "smallest log odds of a pose against all others and against 'nowhere' at which its "
-            "loops are accepted [nats]");
+  visitor.Everyday("smaller: fewer wrong loops, and fewer loops")
+      .Real("max_risk", options.max_risk, 0, 1,
+            "largest probability that a pose is wrong, by its odds against all others and against "
+            "'nowhere', at which its loops are accepted");
   visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3,
                "largest standard deviation of the heading that a loop measures");
   visitor.Real("max_apart_m", options.max_apart_m, 0, 1000,
@@ -91,13 +92,14 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
   else if (track.apart_m >= options.max_apart_m)
     weakness = "no old camera stood near";
   verdict.confirmed = weakness.empty();
-  if (verdict.confirmed && track.margin >= options.min_margin) {
+  const bool sure = Sigmoid(-track.margin) <= options.max_risk;
+  if (verdict.confirmed && sure) {
     loop.decision = LoopDecision::kAccepted;
     return verdict;
   }
   if (track.evidence < 0)
     loop.reason = "chance explains the best pose";
-  else if (track.margin < options.min_margin)
+  else if (!sure)
     loop.reason = "another pose fits nearly as well";
   else
     loop.reason = weakness;

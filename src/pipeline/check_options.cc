@@ -24,6 +24,9 @@ void CheckOrder(const NamedValue& small, const NamedValue& large, const char* ot
 void CheckLoop(const LoopOptions& loop, std::vector<FieldProblem>& problems) {
   CheckOrder({"loop.lag_m", loop.lag_m}, {"loop.layout.local_m", loop.layout.local_m},
              "the query camera would stand before the local map begins", problems);
+  CheckOrder({"loop.tracks.look_alike", loop.tracks.look_alike},
+             {"loop.acceptance.max_risk", loop.acceptance.max_risk},
+             "no pose is ever that certain, so no loop would be accepted", problems);
   const CosineStatistics& looks = loop.match.likelihood.appearance.cosine[Cue::kEmbedding];
   const std::string section = "loop.match.likelihood.appearance.";
   const std::string same = section + "same_side", opposite = section + "opposite_side",

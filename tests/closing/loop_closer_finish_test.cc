@@ -28,7 +28,7 @@ class SecondSearch : public LoopCloserDrive {
     Finish();
     return timing_.Summary().at("loop detection").count;
   }
-  void AcceptNothing() { options_.acceptance.min_margin = 1e9; }
+  void AcceptNothing() { options_.acceptance.max_risk = 0; }
 
   static constexpr int kLatest = 4;  // searches for the latest cameras, see FinishTiesTheLatest...
   LoopOptions options_;

@@ -82,7 +82,7 @@ TEST(TrackFinder, FewObjectsOfItsOwnAreEnoughWhereTheTrackExpectsThem) {
 TEST(TrackFinder, AHigherBarLeavesItAmbiguous) {
   const TwoPasses world(Pose::Trans(5, 0, -3));
   LoopOptions options;
-  options.acceptance.min_margin = 1000;
+  options.acceptance.max_risk = 0;
   const auto found = Find(*MakeTrackFinder(options), world);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->loop.row.decision, LoopDecision::kAmbiguous);

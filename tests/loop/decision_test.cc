@@ -82,7 +82,7 @@ TrackEvidence GoodTrack() {
 
 LoopAcceptanceOptions Acceptance() {
   LoopAcceptanceOptions options;
-  options.min_margin = 13;
+  options.max_risk = 0.01;  // log odds of 4.595
   options.max_heading_sigma_rad = 0.04;
   options.max_apart_m = 30;
   return options;
@@ -103,11 +103,11 @@ TEST(DecideTrack, AcceptsWhatEverythingSpeaksFor) {
   EXPECT_EQ(verdict.loop.second_score, -21);
 }
 
-TEST(DecideTrack, AMarginBelowTheBarIsAmbiguousButConfirmed) {
+TEST(DecideTrack, ARiskAboveTheBarIsAmbiguousButConfirmed) {
   TrackEvidence track = GoodTrack();
-  track.margin = 13;
+  track.margin = 4.6;
   EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAccepted);
-  track.margin = 12.9;
+  track.margin = 4.59;
   const TrackVerdict verdict = DecideTrack(track, Acceptance());
   EXPECT_EQ(verdict.loop.decision, LoopDecision::kAmbiguous);
   EXPECT_TRUE(verdict.confirmed) << "accepted as soon as its track is";

@@ -28,6 +28,8 @@ const std::map<std::string, std::string>& ShownElsewhere() {
        "loop/appearance_likelihood_test.cc: with or without it the margin is that of a look-alike"},
       {"loop.match.likelihood.appearance.other_object",
        "loop/appearance_likelihood_test.cc: with or without it the margin is that of a look-alike"},
+      {"loop.acceptance.max_risk",
+       "loop/decision_test.cc, ARiskAboveTheBarIsAmbiguousButConfirmed: no loop is near the bar"},
       {"loop.graph.drift_factor", "pose_graph/robust_test.cc: no loop is false"},
       {"loop.graph.inlier_probability",
        "pose_graph/robust_test.cc, ALoneLoopIsKeptUpToItsLimit: all loops are good"},

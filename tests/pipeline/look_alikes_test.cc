@@ -18,7 +18,8 @@ void ExpectNoLoop(const Drives& drives) {
   const SequenceMetrics metrics = drives.Judge(result);
   EXPECT_EQ(Accepted(result), 0);
   for (const LoopClosure& loop : result.loops)
-    EXPECT_LT(loop.score, LoopAcceptanceOptions().min_margin) << "refused by the graph alone";
+    EXPECT_GT(1 - *loop.probability, LoopAcceptanceOptions().max_risk)
+        << "refused by the graph alone";
   EXPECT_LT(metrics.ate, 1.05 * metrics.ate_odometry + 0.05);
   ExpectGoodRows(result);
 }

@@ -96,16 +96,18 @@ TEST(Options, AllThatDoesNotFitTogetherIsNamedAtOnce) {
   options.loop.lag_m = options.loop.layout.local_m + 1;
   CosineStatistics& looks = options.loop.match.likelihood.appearance.cosine[Cue::kEmbedding];
   looks.other_object = looks.opposite_side + 0.01;
+  options.loop.acceptance.max_risk = 0.9 * options.loop.tracks.look_alike;
   const std::vector<FieldProblem> problems = Check(options);
   std::vector<std::string> keys;
   for (const FieldProblem& problem : problems) keys.push_back(problem.keys.at(0));
-  EXPECT_THAT(keys, ElementsAre("filter.min_size_m", "association.gate_m", "loop.lag_m",
-                                "loop.match.likelihood.appearance.other_object"));
+  EXPECT_THAT(
+      keys, ElementsAre("filter.min_size_m", "association.gate_m", "loop.lag_m",
+                        "loop.tracks.look_alike", "loop.match.likelihood.appearance.other_object"));
   looks.opposite_side = looks.same_side + 0.01;
-  EXPECT_EQ(Check(options).size(), 4u);
+  EXPECT_EQ(Check(options).size(), 5u);
   looks.other_object = looks.opposite_side;
-  EXPECT_EQ(Check(options).size(), 4u) << "equal is not yet wrong";
-  EXPECT_EQ(Check(options)[3].keys[0], "loop.match.likelihood.appearance.opposite_side");
+  EXPECT_EQ(Check(options).size(), 5u) << "equal is not yet wrong";
+  EXPECT_EQ(Check(options)[4].keys[0], "loop.match.likelihood.appearance.opposite_side");
 }
 
 TEST(Options, EqualBoundsFitTogether) {
@@ -113,6 +115,7 @@ TEST(Options, EqualBoundsFitTogether) {
   options.filter.min_size_m = options.filter.max_size_m;
   options.association.gate_m = options.map.search_radius_m;
   options.loop.lag_m = options.loop.layout.local_m;
+  options.loop.acceptance.max_risk = options.loop.tracks.look_alike;
   EXPECT_THAT(Check(options), IsEmpty());
 }
 

@@ -83,8 +83,9 @@ void DescribeFields(FieldVisitor& visitor, SingleLookOptions& options);
 /// Acceptance of the loop of a track, and withdrawal of accepted loops. Chosen on HALV-sim (seeds 1
 /// to 10), Victoria Park and the pole sequences, with the same values for all.
 struct LoopAcceptanceOptions {
-  /// smallest log odds of the track against all others and against "nowhere" [nats]
-  double min_margin = 5.;
+  /// Largest probability that the track is wrong, by its odds against all others and against
+  /// "nowhere". It is never below PoseTrackOptions::look_alike.
+  double max_risk = 0.0067;
   double max_heading_sigma_rad = 0.042;  ///< largest standard deviation of the measured heading
   double max_apart_m = 30.;              ///< largest distance between the two cameras
   /// a loop is withdrawn if the refined trajectory differs by at least this distance
