@@ -82,7 +82,6 @@ class TrackFinder : public LoopFinder {
     evidence.own_evidence = EvidenceOnTrack(best.fit.evidence, searched);
     evidence.height = prior.OfHeight(loop);
     evidence.heading_sigma_rad = loop.heading_sigma;
-    evidence.apart_m = loop.row.T_match_query.translation().norm();
     const TrackVerdict verdict = DecideTrack(evidence, options_.acceptance);
     FoundLoop found{std::move(loop), best.fit.sigma, best.id, verdict.confirmed};
     LoopClosure& row = found.loop.row;

@@ -40,8 +40,6 @@ void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options) {
             "'nowhere', at which its loops are accepted");
   visitor.Real("max_heading_sigma_rad", options.max_heading_sigma_rad, 0, 3,
                "largest standard deviation of the heading that a loop measures");
-  visitor.Real("max_apart_m", options.max_apart_m, 0, 1000,
-               "largest distance between the two cameras of a loop");
   visitor.Real("withdraw_m", options.withdraw_m, 0, 1e9,
                "a loop is withdrawn where the refined trajectory is off by this distance");
   visitor.Real("withdraw_rad", options.withdraw_rad, 0, 4,
@@ -89,8 +87,6 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
     weakness = "odometry is at another height";
   else if (track.heading_sigma_rad >= options.max_heading_sigma_rad)
     weakness = "heading too uncertain";
-  else if (track.apart_m >= options.max_apart_m)
-    weakness = "no old camera stood near";
   verdict.confirmed = weakness.empty();
   const bool sure = Sigmoid(-track.margin) <= options.max_risk;
   if (verdict.confirmed && sure) {

@@ -30,7 +30,6 @@ struct TrackEvidence {
   /// log likelihood of the measured height against that of the trajectory, never positive [nats]
   double height = 0;
   double heading_sigma_rad = 0;  ///< standard deviation of the heading of the measured loop
-  double apart_m = 0;            ///< distance between query and match camera
 };
 
 /// Evidence of the objects of one attempt at its track's pose. `evidence`: of the fit, against

@@ -76,7 +76,6 @@ TrackEvidence GoodTrack() {
   track.second_margin = -21;
   track.own_evidence = 5;
   track.heading_sigma_rad = 0.01;
-  track.apart_m = 2;
   return track;
 }
 
@@ -84,7 +83,6 @@ LoopAcceptanceOptions Acceptance() {
   LoopAcceptanceOptions options;
   options.max_risk = 0.01;  // log odds of 4.595
   options.max_heading_sigma_rad = 0.04;
-  options.max_apart_m = 30;
   return options;
 }
 
@@ -134,8 +132,7 @@ TEST(DecideTrack, APoorMeasurementIsNotAcceptedHoweverSureTheTrackIs) {
   for (const Case& c :
        {Case{&TrackEvidence::own_evidence, 0., -0.01, "too few objects of its own agree"},
         Case{&TrackEvidence::height, -3., -3.01, "odometry is at another height"},
-        Case{&TrackEvidence::heading_sigma_rad, 0.0399, 0.04, "heading too uncertain"},
-        Case{&TrackEvidence::apart_m, 29.9, 30., "no old camera stood near"}}) {
+        Case{&TrackEvidence::heading_sigma_rad, 0.0399, 0.04, "heading too uncertain"}}) {
     TrackEvidence track = GoodTrack();
     track.*c.field = c.good;
     EXPECT_TRUE(DecideTrack(track, Acceptance()).confirmed) << c.reason;

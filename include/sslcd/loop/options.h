@@ -87,7 +87,6 @@ struct LoopAcceptanceOptions {
   /// "nowhere". It is never below PoseTrackOptions::look_alike.
   double max_risk = 0.0067;
   double max_heading_sigma_rad = 0.042;  ///< largest standard deviation of the measured heading
-  double max_apart_m = 30.;              ///< largest distance between the two cameras
   /// a loop is withdrawn if the refined trajectory differs by at least this distance
   double withdraw_m = 2.;
   double withdraw_rad = 0.06;  ///< or by at least this angle
