@@ -91,6 +91,13 @@ void FlipPath(int column, Matching& matching) {
 
 // The Hungarian method by shortest augmenting paths (Jonker and Volgenant, Computing 38, 1987).
 std::vector<int> MaximumAssignment(const Eigen::MatrixXd& scores) {
+  if (scores.rows() > scores.cols()) {  // the time grows with the square of the rows
+    std::vector<int> column_of(static_cast<std::size_t>(scores.rows()), -1);
+    const std::vector<int> row_of = MaximumAssignment(scores.transpose());
+    for (std::size_t j = 0; j < row_of.size(); ++j)
+      if (row_of[j] >= 0) column_of[static_cast<std::size_t>(row_of[j])] = static_cast<int>(j);
+    return column_of;
+  }
   const Costs costs(scores);
   Matching matching(costs);
   for (int row = 1; row <= costs.rows(); ++row)

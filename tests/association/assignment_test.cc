@@ -57,6 +57,18 @@ TEST(MaximumAssignment, GivesUpTheBestPairWhereTheSumIsLarger) {
   EXPECT_EQ(MaximumAssignment(scores), (std::vector<int>{1, 0}));
 }
 
+// A frame with a flood of false detections; with the square of the rows this takes minutes.
+TEST(MaximumAssignment, TakesManyRows) {
+  constexpr int kRows = 30000;
+  Eigen::MatrixXd scores = Eigen::MatrixXd::Constant(kRows, 3, 0.25);
+  scores(29000, 0) = scores(7, 1) = scores(12345, 2) = 1;
+  const std::vector<int> column_of = MaximumAssignment(scores);
+  EXPECT_EQ(column_of[29000], 0);
+  EXPECT_EQ(column_of[7], 1);
+  EXPECT_EQ(column_of[12345], 2);
+  EXPECT_EQ(std::count(column_of.begin(), column_of.end(), -1), kRows - 3);
+}
+
 TEST(MaximumAssignment, EmptyAndForbiddenInput) {
   EXPECT_TRUE(MaximumAssignment(Eigen::MatrixXd(0, 3)).empty());
   EXPECT_EQ(MaximumAssignment(Eigen::MatrixXd(2, 0)), (std::vector<int>{-1, -1}));
