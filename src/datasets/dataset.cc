@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/turning_axis.h"
 #include "datasets/dataset_images.h"
 #include "datasets/dataset_layout.h"
 #include "datasets/oxts.h"
@@ -15,11 +16,19 @@
 #include "formats/calib.h"
 #include "formats/files.h"
 #include "formats/npy.h"
+#include "formats/number_text.h"
 #include "formats/text_rows.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
 namespace {
+
+std::string AxisText(const Vec3& axis) {
+  std::string text;
+  for (const double value : {axis.x(), axis.y(), axis.z()})
+    text += (text.empty() ? "[" : ", ") + RoundedNumber(value, 2);
+  return text + "]";
+}
 
 constexpr double kKittiFrameStep = 0.1;  // [s]
 
@@ -151,6 +160,11 @@ void DatasetLoader::AddFrames() {
     out_.frames[i].T_odom_cam = odometry.trajectory.poses[rows[i]];
     if (i > 0) out_.frames[i].step = StepOver(odometry, rows[i - 1], rows[i]);
   }
+  if (!MayBeUp(out_.up_axis, odometry.trajectory.poses))
+    Warn(layout_.odometry + ": the camera turns about " +
+         AxisText(*TurningAxis(odometry.trajectory.poses)) + ", but up is taken to be " +
+         AxisText(out_.up_axis) +
+         ": set up_axis in sequence.yaml; until then odometry stays as it is");
 }
 
 void DatasetLoader::AddFramesWithoutPoses() {

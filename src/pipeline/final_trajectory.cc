@@ -2,9 +2,11 @@
 #include "pipeline/final_trajectory.h"
 
 #include <utility>
+#include <vector>
 
 #include "closing/loop_heights.h"
 #include "closing/resightings.h"
+#include "core/turning_axis.h"
 
 namespace sslcd {
 namespace {
@@ -22,8 +24,11 @@ FinalTrajectory ChooseTrajectory(const MapState& state, double log_scale,
   FinalTrajectory result;
   if (least <= 0) return result;
   const Vec3 up = state.gravity().up;
-  result.improvement = ProbabilityOfImprovement(state, log_scale, evidence, options);
   KeptOdometry kept;
+  std::vector<Pose> odometry;
+  for (const FrameRecord& frame : state.frames) odometry.push_back(frame.T_input_cam);
+  if (MayBeUp(up, odometry))
+    result.improvement = ProbabilityOfImprovement(state, log_scale, evidence, options);
   if (LargestTiltFactor(state.frames, up, noise) < kLevel) {
     HeightCorrection heights = HeightsByLoops(state.frames, loops, evidence.view_ties, up);
     result.improvement.height = heights.probability;

@@ -17,8 +17,9 @@ struct FinalTrajectory {
 
 /// Decides what to believe after a refinement: a part of the optimised trajectory replaces that of
 /// the odometry only where it is nearer to the truth with RefineOptions::least_probability. If the
-/// cameras of the odometry stay level, loops alone correct its heights (HeightsByLoops). The first
-/// four arguments are those of OptimiseMap(), after it; `noise` is what tilt is compared with.
+/// cameras of the odometry stay level, loops alone correct its heights (HeightsByLoops). If they do
+/// not turn about the vertical (MayBeUp), the odometry stays. The first four arguments are those of
+/// OptimiseMap(), after it; `noise` is what tilt is compared with.
 FinalTrajectory ChooseTrajectory(const MapState& state, double log_scale,
                                  const LoopEvidence& evidence, const WholeMapOptions& options,
                                  const LoopLedger& loops, const OdometryNoise& noise);
