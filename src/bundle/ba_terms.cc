@@ -22,7 +22,7 @@ ceres::CostFunction* AutoDiff(const Functor& functor) {
 // A tie with an error of this many standard deviations has half the weight. Set by hand.
 constexpr double kTieLoss = 3;
 // The same for the scale, so that a wrong unit of the odometry is found.
-constexpr double kScaleLoss = 10;
+constexpr double kScaleLoss = 4;
 // Standard deviations that fix the first camera; with a prior of the cameras they are larger by
 // this factor. Set by hand. [m, rad]
 constexpr double kGaugeMetres = 1e-3, kGaugeRad = 1e-4, kLooserGauge = 300;

@@ -184,6 +184,12 @@ BaSummary Mapper::Refine() {
   }
   {
     const ScopedTimer timer(m.timing, "choice of trajectory");
+    if (m.loops.ledger().AnyAccepted()) {  // a few loops may not tell how poor odometry is
+      OdometryFactors& factors = evidence.odometry_factors;
+      const OdometryFactors& in_sight = m.loops.odometry_factors();
+      factors.horizontal = std::max(factors.horizontal, in_sight.horizontal);
+      factors.heading = std::max(factors.heading, in_sight.heading);
+    }
     m.final_trajectory = ChooseTrajectory(m.state, m.log_scale, evidence, whole_map,
                                           m.loops.ledger(), loop.odometry);
   }

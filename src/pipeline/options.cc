@@ -41,6 +41,7 @@ Options DefaultOptions(Mode mode) {
   options.ba.solver = BaOptions::Solver::kGaussNewton;
   options.ba.odometry.scale_prior = 0;
   options.refine.rounds = 1;
+  options.refine.least_probability = 0;  // the result always stays
   LoopOptions& loop = options.loop;
   loop.finder = LoopOptions::Finder::kPrinted;
   loop.lag_m = 0;                    // the newest camera is the query

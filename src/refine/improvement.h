@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "refine/optimise_map.h"
-#include "sslcd/refine/improvement.h"
 
 namespace sslcd {
 

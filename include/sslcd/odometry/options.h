@@ -16,8 +16,8 @@ struct OdometryNoise {
   double rotation_floor_rad = 2e-4;    ///< per axis
   double rotation_walk = 5e-4;         ///< [rad per sqrt(m)]
   double rotation_turn = 2e-3;         ///< [rad per rad turned]
-  double scale_prior =
-      0.005;  ///< standard deviation of the log scale, with heavy tails; 0 fixes the scale at one
+  /// standard deviation of the log scale, with heavy tails; 0 fixes the scale at one
+  double scale_prior = 0.01;
 };
 void DescribeFields(FieldVisitor& visitor, OdometryNoise& noise);
 

@@ -18,7 +18,6 @@
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/map/options.h"
 #include "sslcd/perception/filter.h"
-#include "sslcd/refine/improvement.h"
 
 namespace sslcd {
 
