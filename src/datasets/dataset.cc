@@ -26,7 +26,7 @@ namespace {
 std::string AxisText(const Vec3& axis) {
   std::string text;
   for (const double value : {axis.x(), axis.y(), axis.z()})
-    text += (text.empty() ? "[" : ", ") + RoundedNumber(value, 2);
+    text += (text.empty() ? "[" : ", ") + RoundedNumber(value + 0., 2);
   return text + "]";
 }
 
