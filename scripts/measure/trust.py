@@ -13,8 +13,10 @@ BINS = [-math.inf, 0, 1, 2, 3, 5, 7, math.inf]  # of the score [nats]
 ENOUGH, OFF = 30, 0.1
 
 
-def is_harmed(row, part):
-    return row[part] > 1.02 * row[part + '_odometry'] + 0.02
+def is_harmed(row):
+    """Worse than its odometry in all, horizontally or in height."""
+    return any(row[part] > 1.02 * row[part + '_odometry'] + 0.02
+               for part in ('ate', 'horizontal', 'height'))
 
 
 def recall_of(results):
@@ -34,7 +36,7 @@ def table_of_runs(results):
             name, str(len(some)), str(sum(r['loops'] for r in some)),
             str(sum(r['wrong_loops'] for r in some)), '-' if recall is None else f'{recall:.2f}',
             ', '.join(f'{r["ate_odometry"]:.2f} -> {r["ate"]:.2f}' for r in some),
-            str(sum(is_harmed(r, 'ate') for r in some))]) + ' |')
+            str(sum(is_harmed(r) for r in some))]) + ' |')
     return lines
 
 
@@ -76,7 +78,7 @@ def main():
     (options.out / 'trust.md').write_text('\n'.join([*lines, '']), encoding='utf-8')
     print('\n'.join(lines))
     wrong = sum(r['wrong_loops'] for r in good)
-    worse = [f'{r["name"]}-s{r["seed"]}' for r in good if is_harmed(r, 'ate')]
+    worse = [f'{r["name"]}-s{r["seed"]}' for r in good if is_harmed(r)]
     print(f'{len(good)} runs, {wrong} wrong loops, {len(worse)} worse than their odometry: '
           f'{", ".join(worse)}')
     return 1 if wrong or worse or len(good) < len(results) else 0

@@ -22,7 +22,8 @@ except ImportError as missing:
 
 def result(name='w', seed=1, loops=10, wrong=0, recall=1., stretches=10, ate=1., odometry=2.):
     return {'name': name, 'seed': seed, 'loops': loops, 'wrong_loops': wrong, 'recall': recall,
-            'revisited_stretches': stretches, 'ate': ate, 'ate_odometry': odometry}
+            'revisited_stretches': stretches, 'ate': ate, 'ate_odometry': odometry,
+            'horizontal': 1., 'horizontal_odometry': 1., 'height': 1., 'height_odometry': 1.}
 
 
 def attempts(score, count, right, accepted=0):
@@ -68,9 +69,13 @@ class Judging(unittest.TestCase):
 
 class Trust(unittest.TestCase):
     def test_two_percent_and_two_centimetres_are_no_harm(self):
-        self.assertFalse(trust.is_harmed(result(ate=2.059), 'ate'))
-        self.assertTrue(trust.is_harmed(result(ate=2.061), 'ate'))
-        self.assertFalse(trust.is_harmed(result(ate=0.02, odometry=0.), 'ate'))
+        self.assertFalse(trust.is_harmed(result(ate=2.059)))
+        self.assertTrue(trust.is_harmed(result(ate=2.061)))
+        self.assertFalse(trust.is_harmed(result(ate=0.02, odometry=0.)))
+
+    def test_height_and_horizontal_position_may_be_harmed_alone(self):
+        for part in ('horizontal', 'height'):
+            self.assertTrue(trust.is_harmed({**result(), part: 1.05}))
 
     def test_recall_is_over_all_stretches(self):
         self.assertAlmostEqual(trust.recall_of([result(recall=1., stretches=1),
