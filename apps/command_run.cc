@@ -98,6 +98,11 @@ std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
   return {};
 }
 
+// A probability of improvement; zero says that nothing was judged.
+std::string Judged(double probability) {
+  return probability > 0 ? Number("%.3f", probability) : "-";
+}
+
 std::string ResultTable(const RunResult& result, const Metrics& metrics) {
   int landmarks = 0;
   for (const MapObject& object : result.objects)
@@ -107,13 +112,15 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
       [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
   std::vector<std::vector<std::string>> rows = {
       {"frames", std::to_string(result.frames.size())},
+      {"detections used", std::to_string(result.filter.kept)},
+      {"detections dropped", std::to_string(result.filter.dropped())},
       {"landmarks", std::to_string(landmarks)},
       {"loops accepted", std::to_string(accepted)},
       {"loops refused", std::to_string(result.loops.size() - accepted)},
       {"views tied", std::to_string(result.views_tied)},
       {"odometry scale", Number("%.4f", result.scale)},
-      {"better horizontally", Number("%.3f", result.improvement.horizontal)},
-      {"better in height", Number("%.3f", result.improvement.height)}};
+      {"probability better, horizontally", Judged(result.improvement.horizontal)},
+      {"probability better, in height", Judged(result.improvement.height)}};
   for (const auto& [name, value] : metrics)
     rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
@@ -227,6 +234,10 @@ int Run(RunArguments& a, const Console& console) {
   console.Say(ResultTable(mapped.result, outputs.metrics));
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
+  if (const int too_many = mapped.result.filter.too_many; too_many > 0)
+    Log(LogLevel::kWarning, std::to_string(too_many) +
+                                " detections dropped, because a frame has more than "
+                                "filter.max_count: raise it if they are real objects");
   if (mapped.failure) {
     Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
     throw *mapped.failure;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace sslcd {
 namespace {
@@ -16,6 +18,23 @@ bool IsFinite(const Detection& detection) {
 
 bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
   return (dims.array() >= options.min_size_m).all() && (dims.array() <= options.max_size_m).all();
+}
+
+// Removes all but the `most` with the highest scores. Returns how many it removed.
+int DropBeyond(std::size_t most, std::vector<Detection>& detections) {
+  if (detections.size() <= most) return 0;
+  std::vector<std::size_t> rank(detections.size());
+  std::iota(rank.begin(), rank.end(), 0);
+  std::stable_sort(rank.begin(), rank.end(), [&](std::size_t a, std::size_t b) {
+    return detections[a].score > detections[b].score;
+  });
+  rank.resize(most);
+  std::sort(rank.begin(), rank.end());
+  std::vector<Detection> best;
+  for (const std::size_t i : rank) best.push_back(std::move(detections[i]));
+  const std::size_t dropped = detections.size() - most;
+  detections = std::move(best);
+  return static_cast<int>(dropped);
 }
 
 /// The counter of this detection.
@@ -36,6 +55,7 @@ FilterReport& FilterReport::operator+=(const FilterReport& other) {
   low_score += other.low_score;
   too_far += other.too_far;
   wrong_size += other.wrong_size;
+  too_many += other.too_many;
   return *this;
 }
 
@@ -49,6 +69,8 @@ FilterReport FilterDetections(std::vector<Detection>& detections,
   };
   // remove_if calls the predicate once per element, in order.
   detections.erase(std::remove_if(detections.begin(), detections.end(), drop), detections.end());
+  report.too_many = DropBeyond(static_cast<std::size_t>(options.max_count), detections);
+  report.kept -= report.too_many;
   return report;
 }
 
@@ -62,6 +84,8 @@ void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options) {
                "detections whose length, width or height is smaller are dropped");
   visitor.Real("max_size_m", options.max_size_m, 0, 1e3,
                "detections whose length, width or height is larger are dropped");
+  visitor.Integer("max_count", options.max_count, 1, 1000000,
+                  "most detections of a frame; those with lower scores are dropped");
 }
 
 }  // namespace sslcd

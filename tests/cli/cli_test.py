@@ -156,6 +156,13 @@ class CliTest(CliCase):
         self.assertIn('4 of them dropped', result.stdout)
         self.assertIn('detections.txt:1', result.stderr)
 
+    def test_too_many_detections_are_dropped_with_a_warning(self):
+        result = self.run_data('--set', 'filter.max_count=3')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('filter.max_count', result.stderr)
+        self.assertIn('detections dropped', result.stdout)
+        self.assertNotIn('filter.max_count', self.run_data().stderr)
+
     def test_scores_outside_the_range(self):
         self.edit_field('detections.txt', 3, -1, '1.5')
         self.refused(self.run_data('--score', 'probability'), 3, 'detections.txt:4', '1.5')

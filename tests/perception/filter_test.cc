@@ -69,6 +69,23 @@ TEST(FilterDetections, CountsOnlyTheFirstReason) {
   EXPECT_EQ(report.dropped(), 1);
 }
 
+TEST(FilterDetections, OfTooManyTheBestAreKeptInTheirOrder) {
+  DetectionFilterOptions options;
+  options.max_count = 3;
+  std::vector<Detection> detections;
+  for (int row = 0; row < 6; ++row) detections.push_back(Car(row));
+  detections[1].score = 0.95;
+  detections[4].score = 0.4;  // counts as a low score, not as one too many
+  detections[5].score = 0.99;
+  const FilterReport report = FilterDetections(detections, options);
+  EXPECT_EQ(report.kept, 3);
+  EXPECT_EQ(report.too_many, 2);
+  EXPECT_EQ(report.low_score, 1);
+  std::vector<int> rows;
+  for (const Detection& detection : detections) rows.push_back(detection.row);
+  EXPECT_THAT(rows, testing::ElementsAre(0, 1, 5));
+}
+
 TEST(FilterDetections, NothingInNothingOut) {
   std::vector<Detection> detections;
   const FilterReport report = FilterDetections(detections, {});
@@ -77,10 +94,10 @@ TEST(FilterDetections, NothingInNothingOut) {
 
 TEST(FilterReport, Adds) {
   FilterReport sum;
-  sum += FilterReport{1, 2, 3, 4, 5};
-  sum += FilterReport{1, 2, 3, 4, 5};
+  sum += FilterReport{1, 2, 3, 4, 5, 6};
+  sum += FilterReport{1, 2, 3, 4, 5, 6};
   EXPECT_EQ(sum.kept, 2);
-  EXPECT_EQ(sum.dropped(), 28);
+  EXPECT_EQ(sum.dropped(), 40);
 }
 
 }  // namespace

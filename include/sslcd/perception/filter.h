@@ -14,6 +14,8 @@ struct DetectionFilterOptions {
   double max_range_m = 70.;  ///< distance from the camera to the cuboid's centre
   /// bounds of length, width and height of an object
   double min_size_m = 0.1, max_size_m = 30.;
+  /// most detections of a frame; more take minutes, and no detector finds so many objects
+  int max_count = 500;
 };
 void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options);
 
@@ -24,12 +26,14 @@ struct FilterReport {
   int low_score = 0;
   int too_far = 0;
   int wrong_size = 0;  ///< any dimension outside its range
-  int dropped() const { return not_finite + low_score + too_far + wrong_size; }
+  int too_many = 0;    ///< beyond the best ones of its frame
+  int dropped() const { return not_finite + low_score + too_far + wrong_size + too_many; }
 
   FilterReport& operator+=(const FilterReport& other);
 };
 
-/// Removes the detections that fail and keeps the order of the others.
+/// Removes the detections of a frame that fail, and of the others all but the `max_count` with the
+/// highest scores (of equal scores the first ones). Keeps the order of the rest.
 FilterReport FilterDetections(std::vector<Detection>& detections,
                               const DetectionFilterOptions& options);
 
