@@ -163,8 +163,7 @@ void DatasetLoader::AddFrames() {
   if (!MayBeUp(out_.up_axis, odometry.trajectory.poses))
     Warn(layout_.odometry + ": the camera turns about " +
          AxisText(*TurningAxis(odometry.trajectory.poses)) + ", but up is taken to be " +
-         AxisText(out_.up_axis) +
-         ": set up_axis in sequence.yaml; until then odometry stays as it is");
+         AxisText(out_.up_axis) + ": name the right up_axis in sequence.yaml");
 }
 
 void DatasetLoader::AddFramesWithoutPoses() {
