@@ -5,6 +5,7 @@
 #   scripts/update_docs.sh SSLCD_RUN [--check]
 set -euo pipefail
 run=$(realpath "${1:?usage: scripts/update_docs.sh SSLCD_RUN [--check]}")
+[[ -x $run ]] || { echo "$1: no program: build it first" >&2; exit 2; }
 cd "$(dirname "$0")/.."
 
 configuration() {
