@@ -96,9 +96,8 @@ BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& opti
 }
 
 YawShift LayoutChange(const Pose& T_before, const Pose& T_now, const GravityFrame& gravity) {
-  const Vec3 forward = (T_now * T_before.inverse()).so3() * gravity.forward;
   YawShift change;
-  change.yaw = std::atan2(forward.dot(gravity.left), forward.dot(gravity.forward));
+  change.yaw = gravity.YawOf(T_now.so3() * T_before.so3().inverse() * gravity.Upright(0));
   const Eigen::Matrix3d to_layout = gravity.Basis().transpose();
   change.t = to_layout * T_now.translation() - Apply(change, to_layout * T_before.translation());
   change.t.z() = 0;

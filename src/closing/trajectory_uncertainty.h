@@ -38,8 +38,8 @@ class TrajectoryUncertainty {
 
   std::vector<int> frames_;
   std::vector<double> path_of_all_;  // of all frames
-  std::vector<int>
-      part_;  // of the vertices: the same number where something leads from one to another
+  // of the vertices: the same number where something leads from one to another
+  std::vector<int> part_;
   std::optional<RelativeCovariances> covariances_;
   mutable std::map<std::pair<int, int>, Mat6> known_;
 };

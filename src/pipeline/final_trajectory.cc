@@ -24,20 +24,21 @@ FinalTrajectory ChooseTrajectory(const MapState& state, double log_scale,
   FinalTrajectory result;
   if (least <= 0) return result;
   const Vec3 up = state.gravity().up;
-  KeptOdometry kept;
+  KeptOdometry kept{true, true, {}};
   std::vector<Pose> odometry;
   for (const FrameRecord& frame : state.frames) odometry.push_back(frame.T_input_cam);
-  if (MayBeUp(up, odometry))
+  if (MayBeUp(up, odometry)) {
     result.improvement = ProbabilityOfImprovement(state, log_scale, evidence, options);
-  if (LargestTiltFactor(state.frames, up, noise) < kLevel) {
-    HeightCorrection heights = HeightsByLoops(state.frames, loops, evidence.view_ties, up);
-    result.improvement.height = heights.probability;
-    kept.height = true;
-    if (heights.probability >= least) kept.rise_m = std::move(heights.rise_m);
-  } else {
-    kept.height = result.improvement.height < least;
+    kept.horizontal = result.improvement.horizontal < least;
+    if (LargestTiltFactor(state.frames, up, noise) < kLevel) {
+      HeightCorrection heights = HeightsByLoops(state.frames, loops, evidence.view_ties, up);
+      result.improvement.height = heights.probability;
+      if (heights.probability >= least) kept.rise_m = std::move(heights.rise_m);
+    } else {
+      kept.height = result.improvement.height < least;
+    }
   }
-  kept.horizontal = result.keeps_horizontal = result.improvement.horizontal < least;
+  result.keeps_horizontal = kept.horizontal;
   if (!kept.horizontal && !kept.height) return result;
   result.state = state;
   KeepOdometry(kept, *result.state, options.noise);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "bundle/path_variance.h"
 #include "refine/trajectory_correction.h"
 
@@ -23,15 +25,9 @@ Points Change(const Points& from, const Points& to) {
   return q - turn.toRotationMatrix() * p;
 }
 
-// The heading of `to` against `from`, about the vertical.
-double HeadingBetween(const Pose& from, const Pose& to, const GravityFrame& gravity) {
-  const Vec3 forward = to.so3() * (from.so3().inverse() * gravity.forward);
-  return std::atan2(forward.dot(gravity.left), forward.dot(gravity.forward));
-}
-
 // Horizontal position and heading of one pose with height and tilt of the other.
 Pose Combine(const Pose& horizontal, const Pose& height, const GravityFrame& gravity) {
-  const double turn = HeadingBetween(height, horizontal, gravity);
+  const double turn = gravity.YawOf(horizontal.so3() * height.so3().inverse() * gravity.Upright(0));
   const Vec3 rise = gravity.up * gravity.up.dot(height.translation() - horizontal.translation());
   return Pose(lie::SO3<double>::Exp(turn * gravity.up) * height.so3(),
               horizontal.translation() + rise);

@@ -33,7 +33,8 @@ struct BaSummary {
 };
 
 /// Probability that an optimised trajectory is nearer to the truth than odometry, by what its own
-/// covariance says: of its horizontal positions and of its heights. See
+/// covariance says: of its horizontal positions and of its heights. At least .5; zero where it was
+/// not asked (no refinement, no least probability, or an up axis that cannot be). See
 /// RefineOptions::least_probability.
 struct ImprovementProbability {
   double horizontal = 0, height = 0;
