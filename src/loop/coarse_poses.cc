@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <unordered_map>
 
-#include "loop/triangle_poses.h"
+#include "loop/large_map_poses.h"
 
 namespace sslcd {
 namespace {
@@ -150,6 +149,7 @@ class TopPoses {
            const PoseSearchOptions& options)
       : points_(points),
         index_(index),
+        bound_(index.points(), static_cast<float>(kCoarseInlierM)),
         inlier2_(static_cast<float>(kCoarseInlierM * kCoarseInlierM)),
         capacity_(options.refine) {
     const std::size_t padded = points.size() + GainBound::kBatch;
@@ -160,9 +160,6 @@ class TopPoses {
       x_[i] = points[i].x;
       y_[i] = points[i].y;
     }
-    // Triangles propose too few poses to justify a grid.
-    if (index.triangles() == nullptr)
-      bound_.emplace(index.points(), static_cast<float>(kCoarseInlierM));
   }
 
   void Propose(CoarsePose pose) {
@@ -195,7 +192,7 @@ class TopPoses {
  private:
   // Could the pose reach threshold_? Leaves the points behind that gain something.
   bool CanReachThreshold(const CoarsePose& pose) {
-    if (bound_ && !BoundPoints(pose)) return false;
+    if (!BoundPoints(pose)) return false;
     total_bound_ = 0;
     candidates_.clear();
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
@@ -207,11 +204,11 @@ class TopPoses {
 
   bool BoundPoints(const CoarsePose& pose) {
     const int needed = NeededGain(0), count = static_cast<int>(points_.size());
-    const GainBound::GridPose at = bound_->ToGrid(pose);
+    const GainBound::GridPose at = bound_.ToGrid(pose);
     int most = 0;
     for (int first = 0; first < count; first += GainBound::kBatch) {
       const int others = std::max(0, count - first - GainBound::kBatch);
-      most += bound_->BoundGains(at, &x_[first], &y_[first], &bounds_[first]);
+      most += bound_.BoundGains(at, &x_[first], &y_[first], &bounds_[first]);
       if (most + GainBound::kOne * others < needed) return false;
     }
     return true;
@@ -268,7 +265,7 @@ class TopPoses {
   std::vector<std::uint8_t> bounds_;      // upper bounds of their gains
   std::vector<BoundedPoint> candidates_;  // of the current pose
   int total_bound_ = 0;                   // sum of these bounds
-  std::optional<GainBound> bound_;
+  GainBound bound_;
   float inlier2_, threshold_ = 0;  // smallest score that is still relevant
   std::size_t capacity_, proposed_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
@@ -315,11 +312,9 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
     const Eigen::Vector3f p = (object.position - centre).cast<float>();
     points.push_back({p.x(), p.y(), p.z(), object.label});
   }
+  if (index.tiles() != nullptr) return LargeMapPoses(points, index, options);
   TopPoses top_poses(points, index, options);
-  if (index.triangles() == nullptr)
-    ProposePairPoses(local, points, index, top_poses);
-  else
-    for (const CoarsePose& pose : TrianglePoses(points, index)) top_poses.Propose(pose);
+  ProposePairPoses(local, points, index, top_poses);
   return top_poses.Best();
 }
 

@@ -46,6 +46,7 @@ void LayoutIndex::Build() {
   blocks_ = CellLists(kBlock);
   near_ = CellLists(reach_);
   triangles_.reset();
+  tiles_.reset();
   index_of_.clear();
   counts_ = {};
   neighbours_ = height_sum_ = 0;
@@ -59,6 +60,8 @@ void LayoutIndex::Build() {
   std::vector<ObjectPair> pairs = FindPairs(objects_, max_pair_, kMaxPairs + 1);
   if (pairs.size() > kMaxPairs) {
     triangles_.emplace(*this);
+    tiles_.emplace();
+    for (const LayoutPoint& point : points_) tiles_->Add(point);
     pairs.clear();
   }
   pairs_ = PairIndex(objects_, pairs, max_pair_);
@@ -150,6 +153,7 @@ void LayoutIndex::InsertIntoCells(int i) {
   const Vec3& p = objects_[i].position;
   points_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
                 objects_[i].label};
+  if (tiles_) tiles_->Add(points_[i]);
   CountNeighbours(i, 1);
   blocks_.Add(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
@@ -159,6 +163,7 @@ void LayoutIndex::InsertIntoCells(int i) {
 
 void LayoutIndex::RemoveFromCells(int i) {
   const Vec3& p = objects_[i].position;
+  if (tiles_) tiles_->Remove(points_[i]);
   blocks_.Remove(blocks_.Cell(p.x()), blocks_.Cell(p.y()), i);
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
     for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row)

@@ -10,21 +10,17 @@
 
 #include "loop/cell_lists.h"
 #include "loop/layout_counts.h"
+#include "loop/layout_point.h"
+#include "loop/map_tiles.h"
 #include "loop/pair_index.h"
 #include "loop/triangle_index.h"
 #include "sslcd/core/layout.h"
 
 namespace sslcd {
 
-/// The data of an object for scoring poses.
-struct LayoutPoint {
-  float x = 0, y = 0, z = 0;  ///< [m]
-  int label = 0;
-};
-
 /// A search index of the global map: objects near a point, and places with a given arrangement of
 /// objects. Small maps have lists of all object pairs by distance. Maps with more than 50 000 pairs
-/// have the triangles of neighbours in k-d trees instead.
+/// have tiles with counts of their pairs, and the triangles of neighbours in k-d trees, instead.
 class LayoutIndex {
  public:
   /// Ignores objects whose position is not finite. Keeps pairs up to `max_pair_m`;
@@ -82,6 +78,9 @@ class LayoutIndex {
   /// Triangles of neighbours; null in small maps, which have pairs instead.
   const TriangleIndex* triangles() const { return triangles_ ? &*triangles_ : nullptr; }
 
+  /// Objects by tiles; null in small maps.
+  const MapTiles* tiles() const { return tiles_ ? &*tiles_ : nullptr; }
+
   /// Mean density of objects around an object. [1/m^2]
   double density() const { return density_; }
   /// Volume of the poses that map a point into the area of the objects: this area times all
@@ -111,6 +110,7 @@ class LayoutIndex {
   CellLists blocks_, near_;
   PairIndex pairs_;
   std::optional<TriangleIndex> triangles_;
+  std::optional<MapTiles> tiles_;
   // pairs of neighbouring objects; integers, so that the order of updates does not change the sums
   std::int64_t neighbours_ = 0, height_sum_ = 0;
   double density_ = 0, height_spread_ = 0;

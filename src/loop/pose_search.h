@@ -17,10 +17,11 @@ namespace sslcd {
 /// determine a pose (yaw and shift), so every pair of local objects is aligned with every pair of
 /// global objects of the same labels and distance. The score of a coarse pose is the number of
 /// other objects that coincide, with one grid lookup each. `LayoutLikelihood` refines and scores
-/// the best ones. Large maps use triangles of neighbours instead of pairs (`LayoutIndex`).
+/// the best ones. Large maps are searched everywhere at the headings of their rows
+/// (`LargeMapPoses`).
 ///
 /// Distinct poses of `likelihood.local()` in `likelihood.index()`, best first. O(pairs of equal
-/// distance), in large maps O(triangles of equal sides).
+/// distance), in large maps O(area of the map).
 ///
 /// `prior`: orders poses before objects are compared. Where a map repeats itself, the best coarse
 /// poses alone do not hold the poses next to the prior; with it the most probable ones of ten times

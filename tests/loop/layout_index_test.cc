@@ -158,6 +158,7 @@ void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double
       EXPECT_EQ(kept.IsMapped(x, y), fresh.IsMapped(x, y));
     }
   }
+  ASSERT_EQ(kept.tiles() == nullptr, fresh.tiles() == nullptr);
   if (fresh.triangles() == nullptr) return;
   for (const ObjectTriangle& triangle : NeighbourTriangles(LayoutIndex(Strewn(12, 50, 9), 50, 2)))
     EXPECT_EQ(Found(kept, triangle), Found(fresh, triangle));
