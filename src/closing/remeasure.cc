@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/remeasure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -98,15 +99,20 @@ void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, dou
 }
 
 OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
-                              const LoopOptions& options) {
-  if (!options.learn_odometry) return {};
+                              const LoopOptions& options, const OdometryFactors& in_sight) {
+  OdometryFactors factors = in_sight;
+  factors.horizontal = factors.heading = 1;
+  if (!options.learn_odometry) return factors;
   const Vec3 up = state.gravity().up;
   const LoopGraph graph =
       BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options, {});
   std::vector<OdometryFailures> failures;
   for (std::size_t k = 1; k < graph.keyframes.size(); ++k)
     failures.push_back(FailuresBetween(state.frames, graph.keyframes[k - 1], graph.keyframes[k]));
-  return LearnOdometryFactors(graph.graph, up, failures);
+  const OdometryFactors by_loops = LearnOdometryFactors(graph.graph, up, failures);
+  factors.horizontal = by_loops.horizontal;
+  factors.heading = std::max(by_loops.heading, in_sight.heading);
+  return factors;
 }
 
 }  // namespace sslcd

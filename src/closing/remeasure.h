@@ -23,9 +23,11 @@ void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledge
 void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, double scale,
                     const OdometryNoise& noise, LoopLedger& ledger);
 
-/// Learns factors on the noise `options.odometry` from the accepted loops. The factors are one
-/// without loops or if `options.learn_odometry` is off.
+/// Learns factors on the noise `options.odometry` from the accepted loops (LearnOdometryFactors).
+/// Passes in the same direction share errors of heading, which no loop between them shows, so that
+/// factor is not below the one `in_sight`. Those of height and tilt are always the ones in sight.
+/// Those of horizontal position and heading are one if `options.learn_odometry` is off.
 OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
-                              const LoopOptions& options);
+                              const LoopOptions& options, const OdometryFactors& in_sight);
 
 }  // namespace sslcd

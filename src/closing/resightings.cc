@@ -63,19 +63,25 @@ std::vector<StepSums> SumSteps(const FrameStore& frames, const Eigen::Matrix3d& 
   return sums;
 }
 
-// Covariance of the place of a point p by the steps from `a` to `b`. A yaw of phi at the camera c
-// moves p by phi times p - c turned by 90 degrees, roll and pitch raise it by phi |p - c|.
-Eigen::Matrix3d ByOdometry(const StepSums& a, const StepSums& b, const Eigen::Vector2d& p,
-                           double tilt_factor) {
+// Covariance of the place of any point by the errors of the positions from `a` to `b`.
+Eigen::Matrix3d ByPositions(const StepSums& a, const StepSums& b) {
+  const double horizontal = b.horizontal - a.horizontal;
+  return Vec3(horizontal, horizontal, b.vertical - a.vertical).asDiagonal();
+}
+
+// Covariance of the place of a point p by the errors of the rotations from `a` to `b`. A yaw of phi
+// at the camera c moves p by phi times p - c turned by 90 degrees, roll and pitch raise it by
+// phi |p - c|.
+Eigen::Matrix3d ByRotations(const StepSums& a, const StepSums& b, const Eigen::Vector2d& p,
+                            double tilt_factor) {
   const Eigen::Vector2d first = b.first - a.first;
   const Eigen::Matrix2d arms = (b.rotation - a.rotation) * p * p.transpose() -
                                p * first.transpose() - first * p.transpose() + b.second - a.second;
   Eigen::Matrix2d quarter_turn;
   quarter_turn << 0, -1, 1, 0;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  covariance.topLeftCorner<2, 2>() = (b.horizontal - a.horizontal) * Eigen::Matrix2d::Identity() +
-                                     quarter_turn * arms * quarter_turn.transpose();
-  covariance(2, 2) = b.vertical - a.vertical + tilt_factor * tilt_factor * arms.trace();
+  covariance.topLeftCorner<2, 2>() = quarter_turn * arms * quarter_turn.transpose();
+  covariance(2, 2) = tilt_factor * tilt_factor * arms.trace();
   return covariance;
 }
 
@@ -126,12 +132,16 @@ std::vector<Resighting> ResightingsOf(const MapState& state, const PassMap& pass
       const Vec3 before = place(first, both.detection), now = place(later, both.detection);
       both.moved = now - before;
       const Eigen::Vector2d middle = 0.5 * (before + now).head<2>();
-      both.odometry = ByOdometry(sums[first.first], sums[later.first], middle, tilt_factor);
+      const auto by_rotations = [&](const std::vector<StepSums>& steps) {
+        return ByRotations(steps[first.first], steps[later.first], middle, tilt_factor);
+      };
+      both.translation = ByPositions(sums[first.first], sums[later.first]);
+      both.rotation = by_rotations(sums);
       // Failures are no multiple of the noise, except for height and tilt (FactorsWithFailures).
       const Eigen::Matrix3d jumped =
-          ByOdometry(failed[first.first], failed[later.first], middle, tilt_factor);
+          ByPositions(failed[first.first], failed[later.first]) + by_rotations(failed);
       both.fixed = jumped.topLeftCorner<2, 2>();
-      both.odometry(2, 2) += jumped(2, 2);
+      both.translation(2, 2) += jumped(2, 2);
     }
   }
   return all;

@@ -11,42 +11,60 @@ namespace sslcd {
 namespace {
 
 constexpr double kFreedom = 4;  // of the Student-t likelihood; set by hand
+// Standard deviation of the log of the ratio of the factors of position and heading; set by hand.
+constexpr double kRatioSigma = 0.5;
 
-// Log likelihood of the coordinates `first` to first + kSize of all resightings, up to a constant,
-// with the prior. `log_factors`: on the standard deviations of the detector and of odometry.
+// Log of the Student-t density, up to a constant.
 template <int kSize>
-double LogPosterior(const std::vector<Resighting>& all, int first,
-                    const std::array<double, 2>& log_factors) {
-  const double detection = std::exp(2 * log_factors[0]), odometry = std::exp(2 * log_factors[1]);
-  // The logs of both factors have a standard normal distribution a priori; set by hand.
-  double sum = -0.5 * (log_factors[0] * log_factors[0] + log_factors[1] * log_factors[1]);
+double LogStudent(const Eigen::Matrix<double, kSize, 1>& error,
+                  const Eigen::Matrix<double, kSize, kSize>& covariance) {
+  return -0.5 * std::log(covariance.determinant()) -
+         0.5 * (kFreedom + kSize) * std::log1p(error.dot(covariance.inverse() * error) / kFreedom);
+}
+
+// The priors of the logs of all factors are standard normal, set by hand; `log_factors` are those
+// of the standard deviations of the detector, of positions and of headings.
+double HorizontalPosterior(const std::vector<Resighting>& all,
+                           const std::array<double, 3>& log_factors) {
+  const auto [detector, position, heading] = log_factors;
+  const double mean = 0.5 * (position + heading), ratio = (position - heading) / kRatioSigma;
+  double sum = -0.5 * (detector * detector + mean * mean + ratio * ratio);
   for (const Resighting& each : all) {
-    Eigen::Matrix<double, kSize, kSize> covariance =
-        detection * each.detection.block<kSize, kSize>(first, first) +
-        odometry * each.odometry.block<kSize, kSize>(first, first);
-    if constexpr (kSize == 2) covariance += each.fixed;
-    const Eigen::Matrix<double, kSize, 1> moved = each.moved.segment<kSize>(first);
-    sum -= 0.5 * std::log(covariance.determinant());
-    sum -=
-        0.5 * (kFreedom + kSize) * std::log1p(moved.dot(covariance.inverse() * moved) / kFreedom);
+    const Eigen::Matrix2d covariance =
+        std::exp(2 * detector) * each.detection.topLeftCorner<2, 2>() +
+        std::exp(2 * position) * each.translation.topLeftCorner<2, 2>() +
+        std::exp(2 * heading) * each.rotation.topLeftCorner<2, 2>() + each.fixed;
+    sum += LogStudent<2>(each.moved.head<2>(), covariance);
   }
   return sum;
 }
 
-// The factor on odometry that maximises the posterior.
-template <int kSize>
-double OdometryFactor(const std::vector<Resighting>& all, int first) {
-  return std::exp(MaximiseOverLogs([&](const std::array<double, 2>& log_factors) {
-    return LogPosterior<kSize>(all, first, log_factors);
-  })[1]);
+// `log_factors`: on the standard deviations of the detector and of odometry.
+double VerticalPosterior(const std::vector<Resighting>& all,
+                         const std::array<double, 2>& log_factors) {
+  const auto [detector, odometry] = log_factors;
+  double sum = -0.5 * (detector * detector + odometry * odometry);
+  for (const Resighting& each : all) {
+    const double variance = std::exp(2 * detector) * each.detection(2, 2) +
+                            std::exp(2 * odometry) * each.odometry()(2, 2);
+    sum += LogStudent<1>(each.moved.tail<1>(), Eigen::Matrix<double, 1, 1>(variance));
+  }
+  return sum;
 }
 
 }  // namespace
 
 OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings) {
+  const auto horizontal = MaximiseOverLogs<3>([&](const std::array<double, 3>& log_factors) {
+    return HorizontalPosterior(resightings, log_factors);
+  });
+  const auto vertical = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
+    return VerticalPosterior(resightings, log_factors);
+  });
   OdometryFactors factors;
-  factors.horizontal = factors.heading = OdometryFactor<2>(resightings, 0);
-  factors.vertical = factors.tilt = OdometryFactor<1>(resightings, 2);
+  factors.horizontal = std::exp(horizontal[1]);
+  factors.heading = std::exp(horizontal[2]);
+  factors.vertical = factors.tilt = std::exp(vertical[1]);
   return factors;
 }
 

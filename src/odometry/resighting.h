@@ -14,16 +14,19 @@ namespace sslcd {
 struct Resighting {
   Eigen::Vector3d moved;      ///< place by the second sighting minus that by the first one [m]
   Eigen::Matrix3d detection;  ///< covariance by the detector's noise as configured [m^2]
-  Eigen::Matrix3d odometry;   ///< covariance by the noise of odometry as configured [m^2]
+  /// covariances by the noise of odometry as configured: of its positions, and of its rotations
+  Eigen::Matrix3d translation, rotation;  // [m^2]
+  Eigen::Matrix3d odometry() const { return translation + rotation; }
   /// horizontal covariance by failures of odometry, which no factor scales [m^2]
   Eigen::Matrix2d fixed = Eigen::Matrix2d::Zero();
 };
 
 /// Learns how accurate this odometry is before any loop closes: the factors on the configured noise
 /// that make the resightings most likely, with unknown factors on the detector's noise. Horizontal
-/// and heading share a factor, height and tilt another one, because over the path that an object
-/// stays in sight they look alike. The likelihood is a Student-t, since some matches are wrong. A
-/// log-normal prior keeps factors at one where no resightings tell otherwise.
+/// position and heading have a factor each, with a prior on their ratio, because over the path that
+/// an object stays in sight they look similar. Height and tilt share one. The likelihood is a
+/// Student-t, since some matches are wrong. Log-normal priors keep factors at one where no
+/// resightings tell otherwise.
 OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings);
 
 }  // namespace sslcd

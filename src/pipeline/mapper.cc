@@ -166,9 +166,8 @@ BaSummary Mapper::Refine() {
   if (loop.enabled) m.loops.Finish(m.state, m.scale(), m.timing);
   if (m.loops.ledger().AnyAccepted()) {  // later frames keep the correction of the loops
     whole_map.ba.odometry = loop.odometry;
-    evidence.odometry_factors = LearnOdometry(m.state, m.loops.ledger(), m.scale(), loop);
-    evidence.odometry_factors.vertical = m.loops.odometry_factors().vertical;
-    evidence.odometry_factors.tilt = m.loops.odometry_factors().tilt;
+    evidence.odometry_factors =
+        LearnOdometry(m.state, m.loops.ledger(), m.scale(), loop, m.loops.odometry_factors());
   }
   m.view_ties.clear();
   BaSummary summary = m.Adjust(whole_map, evidence);
@@ -184,12 +183,6 @@ BaSummary Mapper::Refine() {
   }
   {
     const ScopedTimer timer(m.timing, "choice of trajectory");
-    if (m.loops.ledger().AnyAccepted()) {  // a few loops may not tell how poor odometry is
-      OdometryFactors& factors = evidence.odometry_factors;
-      const OdometryFactors& in_sight = m.loops.odometry_factors();
-      factors.horizontal = std::max(factors.horizontal, in_sight.horizontal);
-      factors.heading = std::max(factors.heading, in_sight.heading);
-    }
     m.final_trajectory = ChooseTrajectory(m.state, m.log_scale, evidence, whole_map,
                                           m.loops.ledger(), loop.odometry);
   }

@@ -106,18 +106,32 @@ TEST_F(ByViews, NorATieFarAlongThePath) {
   EXPECT_FALSE(Measure(16, 0.01).by_views);
 }
 
-TEST(LearnOdometry, LeavesTheOdometryAsItIsWhereItMustNotLearnOrCannot) {
+TEST(LearnOdometry, WhereItMustNotLearnOrCannotTheWayIsAsConfigured) {
   const TwoPasses world;
+  const OdometryFactors in_sight{0.3, 0.8, 0.5, 0.1};
   LoopOptions options;
   options.learn_odometry = false;
   const OdometryFactors off =
-      LearnOdometry(world.state, LedgerOf(world, Pose::Trans(3, 0, 0)), 1, options);
-  EXPECT_EQ(off.horizontal, 1);
-  EXPECT_EQ(off.heading, 1);
+      LearnOdometry(world.state, LedgerOf(world, Pose::Trans(3, 0, 0)), 1, options, in_sight);
   options.learn_odometry = true;
-  const OdometryFactors none = LearnOdometry(world.state, LoopLedger(), 1, options);
-  EXPECT_EQ(none.horizontal, 1);
-  EXPECT_EQ(none.heading, 1);
+  const OdometryFactors none = LearnOdometry(world.state, LoopLedger(), 1, options, in_sight);
+  for (const OdometryFactors& factors : {off, none}) {
+    EXPECT_EQ(factors.horizontal, 1);
+    EXPECT_EQ(factors.heading, 1);
+    EXPECT_EQ(factors.vertical, 0.5);
+    EXPECT_EQ(factors.tilt, 0.1);
+  }
+}
+
+TEST(LearnOdometry, HeadingIsNotBetterThanInSight) {
+  const TwoPasses world;
+  const LoopLedger exact = LedgerOf(world, Pose());
+  OdometryFactors in_sight;
+  in_sight.heading = 0.01;
+  const double by_loops = LearnOdometry(world.state, exact, 1, {}, in_sight).heading;
+  in_sight.heading = 3;
+  EXPECT_LT(by_loops, 1);
+  EXPECT_GE(LearnOdometry(world.state, exact, 1, {}, in_sight).heading, 3);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(ResightingsOf, AreAtLeast3AndAtMost40MetresOfPathApart) {
   const auto all = ResightingsOf(world.state, world.passes, {}, 1, 1);
   EXPECT_EQ(all.size(), 13u) << "3, 6, ..., 39 m after the first sighting";
   for (std::size_t i = 1; i < all.size(); ++i)
-    EXPECT_GT(all[i].odometry(0, 0), all[i - 1].odometry(0, 0));
+    EXPECT_GT(all[i].odometry()(0, 0), all[i - 1].odometry()(0, 0));
   EXPECT_TRUE(ResightingsOf(InSight(Straight(2), {Vec3(4, 0, 10)}).state,
                             InSight(Straight(2), {Vec3(4, 0, 10)}).passes, {}, 1, 1)
                   .empty());
@@ -147,7 +147,7 @@ TEST(ResightingsOf, OdometrysCovarianceIsThatOfManyNoisyRuns) {
                          (ByNoisySteps(path, place, noise, kTilt, random) - place);
       found += moved * moved.transpose() / kRuns;
     }
-    const Eigen::Matrix3d expected = all.back().odometry;
+    const Eigen::Matrix3d expected = all.back().odometry();
     EXPECT_LT((found - expected).norm(), 0.08 * expected.norm()) << found << "\n\n" << expected;
     EXPECT_NEAR(found(2, 2), expected(2, 2), 0.08 * expected(2, 2));
   }
@@ -278,10 +278,10 @@ TEST(ResightingsOf, WhatOdometryReportsIsNoNoise) {
     // forward is x, left is z
     EXPECT_NEAR(now[i].fixed(0, 0), 0.25 + 0.01 * arm.z() * arm.z(), 1e-9);
     EXPECT_NEAR(now[i].fixed(1, 1), 0.25 + 0.01 * arm.x() * arm.x(), 1e-9);
-    const Eigen::Matrix2d horizontal = now[i].odometry.topLeftCorner<2, 2>();
-    EXPECT_EQ(horizontal, Eigen::Matrix2d(before[i].odometry.topLeftCorner<2, 2>()));
-    EXPECT_NEAR(now[i].odometry(2, 2) - before[i].odometry(2, 2), 0.25 + 0.01 * arm.squaredNorm(),
-                1e-9);
+    const Eigen::Matrix2d horizontal = now[i].odometry().topLeftCorner<2, 2>();
+    EXPECT_EQ(horizontal, Eigen::Matrix2d(before[i].odometry().topLeftCorner<2, 2>()));
+    EXPECT_NEAR(now[i].odometry()(2, 2) - before[i].odometry()(2, 2),
+                0.25 + 0.01 * arm.squaredNorm(), 1e-9);
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 TEST(MaximiseOverLogs, FindsTheMaximumOfAQuadratic) {
   for (const auto& [x, y] : {std::pair(0., 0.), {1.3, -2.6}, {-3.37, 0.41}}) {
     for (const double coupling : {0., 0.8, -0.8}) {
-      const auto [found_x, found_y] = MaximiseOverLogs([&, x = x, y = y](const auto& at) {
+      const auto [found_x, found_y] = MaximiseOverLogs<2>([&, x = x, y = y](const auto& at) {
         const double dx = at[0] - x, dy = at[1] - y;
         return -dx * dx - dy * dy + 2 * coupling * dx * dy;
       });
@@ -24,9 +24,9 @@ TEST(MaximiseOverLogs, FindsTheMaximumOfAQuadratic) {
 
 TEST(MaximiseOverLogs, StaysAtZeroWhereNothingIsBetter) {
   const std::array<double, 2> zero{0, 0};
-  EXPECT_EQ(MaximiseOverLogs([](const auto&) { return 3.; }), zero);
-  EXPECT_EQ(MaximiseOverLogs([](const auto&) { return std::nan(""); }), zero);
-  EXPECT_EQ(MaximiseOverLogs([](const auto& at) {
+  EXPECT_EQ(MaximiseOverLogs<2>([](const auto&) { return 3.; }), zero);
+  EXPECT_EQ(MaximiseOverLogs<2>([](const auto&) { return std::nan(""); }), zero);
+  EXPECT_EQ(MaximiseOverLogs<2>([](const auto& at) {
               return at[0] == 0 && at[1] == 0 ? 0. : -std::numeric_limits<double>::infinity();
             }),
             zero);

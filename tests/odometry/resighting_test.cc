@@ -13,7 +13,7 @@ namespace {
 
 // How much larger the errors are than the noise as configured.
 struct Truth {
-  double horizontal = 1, vertical = 1, detection = 1;
+  double horizontal = 1, vertical = 1, detection = 1, heading = horizontal;
   double wrong = 0;    // share of wrong matches, which lie anywhere within 5 m
   double freedom = 4;  // of the errors' Student-t distribution
 };
@@ -30,12 +30,14 @@ std::vector<Resighting> MadeUp(const Truth& truth, unsigned seed, int count = 50
     const double path_m = 3 + 37 * uniform(random);
     each.detection = Vec3(0.02, 0.005, 0.004).asDiagonal();
     each.detection(0, 1) = each.detection(1, 0) = 0.005;
-    each.odometry = Vec3(1e-4, 1e-4, 1e-4).asDiagonal();
-    each.odometry *= path_m * path_m;
-    const Vec3 factors(truth.horizontal, truth.horizontal, truth.vertical);
-    const Eigen::Matrix3d covariance =
-        truth.detection * truth.detection * each.detection +
-        Eigen::Matrix3d(factors.asDiagonal()) * each.odometry * factors.asDiagonal();
+    each.translation = 1e-3 * path_m * Vec3(1, 1, 0.5).asDiagonal();
+    each.rotation = 2e-6 * std::pow(path_m, 3) * Vec3(0.2, 1, 1).asDiagonal();
+    const Eigen::Matrix3d position =
+        Vec3(truth.horizontal, truth.horizontal, truth.vertical).asDiagonal();
+    const Eigen::Matrix3d heading = Vec3(truth.heading, truth.heading, truth.vertical).asDiagonal();
+    const Eigen::Matrix3d covariance = truth.detection * truth.detection * each.detection +
+                                       position * each.translation * position +
+                                       heading * each.rotation * heading;
     each.moved = std::sqrt(truth.freedom / chi2(random)) *
                  (Eigen::Matrix3d(covariance.llt().matrixL()) *
                   Vec3(normal(random), normal(random), normal(random)));
@@ -66,11 +68,21 @@ TEST(FactorsFromResightings, OfGaussianErrorsAreASixthTooSmall) {
   EXPECT_NEAR(factors.vertical / 2, 5. / 6, 0.05);
 }
 
-TEST(FactorsFromResightings, HeadingAndTiltShareThem) {
+TEST(FactorsFromResightings, HeightAndTiltShareOne) {
   const OdometryFactors factors = FactorsFromResightings(MadeUp({4, 0.5}, 1));
-  EXPECT_EQ(factors.heading, factors.horizontal);
   EXPECT_EQ(factors.tilt, factors.vertical);
   EXPECT_GT(factors.horizontal, 3 * factors.vertical);
+}
+
+TEST(FactorsFromResightings, TellHeadingFromPosition) {
+  for (const auto& [position, heading] : {std::pair(0.5, 2.), {2., 0.5}}) {
+    Truth truth;
+    truth.horizontal = position;
+    truth.heading = heading;
+    const OdometryFactors factors = FactorsFromResightings(MadeUp(truth, 1, 1000));
+    EXPECT_NEAR(std::log(factors.horizontal / position), 0, 0.5);
+    EXPECT_NEAR(std::log(factors.heading / heading), 0, 0.5);
+  }
 }
 
 TEST(FactorsFromResightings, ErrorsOfTheDetectorAreNotTakenForThoseOfOdometry) {
@@ -105,7 +117,7 @@ TEST(FactorsFromResightings, OneWithoutAny) {
 TEST(FactorsFromResightings, OneOfThemMovesAFactorLessThanMany) {
   Resighting exact;
   exact.detection = 1e-3 * Eigen::Matrix3d::Identity();
-  exact.odometry = Eigen::Matrix3d::Identity();
+  exact.translation = exact.rotation = 0.5 * Eigen::Matrix3d::Identity();
   exact.moved = Vec3(0.05, 0, 0.05);
   const OdometryFactors one = FactorsFromResightings({exact}),
                         many = FactorsFromResightings(std::vector<Resighting>(50, exact));
