@@ -86,7 +86,7 @@ struct LoopAcceptanceOptions {
   /// Largest probability that the track is wrong, by its odds against all others and against
   /// "nowhere". It is never below PoseTrackOptions::look_alike.
   double max_risk = 0.0067;
-  double max_heading_sigma_rad = 0.042;  ///< largest standard deviation of the measured heading
+  double max_heading_sigma_rad = 0.07;  ///< largest standard deviation of the measured heading
   /// a loop is withdrawn if the refined trajectory differs by at least this distance
   double withdraw_m = 2.;
   double withdraw_rad = 0.06;  ///< or by at least this angle
