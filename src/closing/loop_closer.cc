@@ -16,6 +16,18 @@ std::unique_ptr<LoopFinder> MakeFinder(const LoopOptions& options, const PlaceMa
                                                          : MakeTrackFinder(options);
 }
 
+// Sightings of the matched objects, the nearest ones to the two cameras.
+std::vector<MatchedSightings> SightingsOf(const FrameStore& frames, const PassMap& passes,
+                                          const LoopMeasurement& loop) {
+  std::vector<MatchedSightings> pairs;
+  for (const auto& [local, global] : loop.row.pairs) {
+    const auto now = passes.NearestSighting(frames, local, frames[loop.query].travelled);
+    const auto before = passes.NearestSighting(frames, global, frames[loop.match].travelled);
+    if (now && before) pairs.push_back({*now, *before});
+  }
+  return pairs;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_map,
@@ -74,7 +86,7 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   const ScopedTimer timer(timing, "drift correction");
   const bool moves = !AgreesWithNewLoops(state, ledger_);
   if (moves) Correct(state, window.end_m, scale);
-  passes_.Rename(FuseMatchedObjects(state, ledger_, options_.fuse_m, whole_map_));
+  FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);
   if (!moves) return;
   const int here = state.frames.AtPath(window.end_m);
   const Pose before = state.frames[here].T_world_cam;
@@ -97,6 +109,7 @@ bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   const std::optional<FoundLoop> found =
       finder_->Find({state, passes_, loops, odometry_factors_, window});
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
+  ledger_.attempts().back().pairs = SightingsOf(state.frames, passes_, found->loop);
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;
   ledger_.AcceptNewest();
   return true;
@@ -110,10 +123,13 @@ void LoopCloser::Correct(MapState& state, double end_m, double scale) {
   finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
 }
 
-void LoopCloser::Review(const MapState& state) {
+bool LoopCloser::Review(MapState& state) {
   passes_.Rebuild(state);
   finder_->Reset();  // its poses are invalid after the correction
   ReviewLoops(state, passes_, ledger_, options_, odometry_factors_);
+  if (!ledger_.FusedByRefused()) return false;
+  FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);
+  return true;
 }
 
 }  // namespace sslcd

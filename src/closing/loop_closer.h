@@ -34,8 +34,9 @@ class LoopCloser {
   /// prior is narrow and few objects suffice.
   void Finish(MapState& state, double scale, TimingTable& timing);
 
-  /// Reviews the loops after the refinement, see ReviewLoops.
-  void Review(const MapState& state);
+  /// Reviews the loops after the refinement, see ReviewLoops. True: a loop that has fused landmarks
+  /// was withdrawn, so they were split, and the map needs another refinement.
+  bool Review(MapState& state);
 
   /// Factors on LoopOptions::odometry that the resightings of the run have taught so far.
   const OdometryFactors& odometry_factors() const { return odometry_factors_; }

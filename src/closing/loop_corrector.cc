@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "closing/split_fused.h"
 #include "loop/decision.h"
 #include "loop/layout_likelihood.h"
 #include "refine/optimise_map.h"
@@ -60,23 +61,29 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
   return true;
 }
 
-MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
-                             const WholeMapOptions& options) {
+void FuseMatchedObjects(MapState& state, PassMap& passes, LoopLedger& ledger, double fuse_m,
+                        const WholeMapOptions& options) {
+  if (ledger.FusedByRefused()) {
+    SplitFused(state, passes, options);
+    ledger.ForgetFusions();
+  }
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;
   const auto& all = state.map.landmarks();
-  for (const LoopAttempt& attempt : ledger.attempts()) {
+  const auto seen = [&](const std::pair<int, int>& sighting) {
+    return state.frames[sighting.first].matched[sighting.second];
+  };
+  for (LoopAttempt& attempt : ledger.attempts()) {
     if (!attempt.accepted()) continue;
-    for (const auto& [local, global] : attempt.pairs) {
+    attempt.fused = true;
+    for (const MatchedSightings& pair : attempt.pairs) {
+      const LandmarkId local = seen(pair.local), global = seen(pair.global);
       const auto a = all.find(local.value), b = all.find(global.value);
       if (local == global || a == all.end() || b == all.end()) continue;
       if ((a->second.pose.position - b->second.pose.position).norm() <= fuse_m)
         pairs.push_back({global, local});
     }
   }
-  if (pairs.empty()) return {};
-  const MergedIds merged = FuseMatched(state, pairs, options);
-  ledger.Rename(merged);
-  return merged;
+  if (!pairs.empty()) passes.Rename(FuseMatched(state, pairs, options));
 }
 
 BaSummary AdjustAfterLoop(MapState& state, double scale, const LoopOptions& options,

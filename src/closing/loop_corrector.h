@@ -2,6 +2,8 @@
 #pragma once
 
 #include "closing/loop_ledger.h"
+#include "closing/pass_map.h"
+#include "refine/fuse.h"
 #include "sslcd/refine/options.h"
 
 namespace sslcd {
@@ -20,9 +22,10 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
                        const OdometryFactors& factors);
 
 /// Fuses matched objects of accepted loops that are within `fuse_m` of each other, and the
-/// duplicates that this reveals. Updates the ids of the ledger.
-MergedIds FuseMatchedObjects(MapState& state, LoopLedger& ledger, double fuse_m,
-                             const WholeMapOptions& options);
+/// duplicates that this reveals. If a loop that has fused objects is no longer accepted, splits all
+/// fused landmarks before (SplitFused), so that the accepted loops alone decide what is fused.
+void FuseMatchedObjects(MapState& state, PassMap& passes, LoopLedger& ledger, double fuse_m,
+                        const WholeMapOptions& options);
 
 /// Adjusts cameras and objects after a loop closure: a few steps of bundle adjustment over the
 /// keyframes of the pose graph, with fixed scale and the odometry noise of the pose graph. Not

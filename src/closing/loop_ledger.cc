@@ -25,7 +25,6 @@ bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int new
   LoopAttempt& attempt = attempts_.emplace_back();
   attempt.found = found;
   attempt.row().newest_frame = newest_frame;
-  attempt.pairs = attempt.row().pairs;
   attempt.window = window;
   return true;
 }
@@ -50,13 +49,14 @@ void LoopLedger::DropUnaccepted(std::size_t first) {
       attempts_.end());
 }
 
-void LoopLedger::Rename(const MergedIds& merged) {
-  for (LoopAttempt& attempt : attempts_) {
-    for (auto& [local, global] : attempt.pairs) {
-      local = Resolve(local, merged);
-      global = Resolve(global, merged);
-    }
-  }
+bool LoopLedger::FusedByRefused() const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [](const LoopAttempt& attempt) {
+    return attempt.fused && !attempt.accepted();
+  });
+}
+
+void LoopLedger::ForgetFusions() {
+  for (LoopAttempt& attempt : attempts_) attempt.fused = false;
 }
 
 bool LoopLedger::AnyAccepted() const {

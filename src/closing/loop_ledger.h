@@ -9,20 +9,26 @@
 #include "closing/loop_finder.h"
 #include "closing/loop_graph.h"
 #include "closing/path_graph.h"
-#include "refine/fuse.h"
 
 namespace sslcd {
+
+/// Sightings of an object of the local map and of the one that it was matched with: index of the
+/// frame and of the detection in it.
+struct MatchedSightings {
+  std::pair<int, int> local, global;
+};
 
 /// An attempt to close a loop with a candidate.
 struct LoopAttempt {
   FoundLoop found;
-  /// matched pairs of the row with current ids
-  std::vector<std::pair<LandmarkId, LandmarkId>> pairs;
+  /// a sighting of each object of the row's pairs, which says what its landmark is now
+  std::vector<MatchedSightings> pairs;
   std::optional<LoopClosure> remeasured;  ///< the row measured in the refined map
   SearchWindow window;
   /// accepted at some time, so it is an edge of the pose graph, which may refuse it
   bool in_graph = false;
   bool solved = false;  ///< a solve of the pose graph has included it
+  bool fused = false;   ///< its matched objects were fused
 
   LoopClosure& row() { return found.loop.row; }
   const LoopClosure& row() const { return found.loop.row; }
@@ -43,8 +49,10 @@ class LoopLedger {
   /// Removes attempts from index `first` on that were never accepted.
   void DropUnaccepted(std::size_t first);
 
-  /// Updates the ids of fused landmarks.
-  void Rename(const MergedIds& merged);
+  /// Whether objects were fused by a loop that is no longer accepted.
+  bool FusedByRefused() const;
+  /// To be called when all fused landmarks were split.
+  void ForgetFusions();
 
   std::vector<LoopAttempt>& attempts() { return attempts_; }
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }

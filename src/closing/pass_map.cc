@@ -19,9 +19,12 @@ void PassMap::Take(const FrameRecord& frame, int index, const std::vector<Detect
     if (known == open_.end() || frame.travelled - passes_[known->second].last_m > split_m_) {
       if (known != open_.end()) Finish(state, passes_[known->second]);
       open_[id.value] = static_cast<int>(passes_.size());
-      passes_of_[id.value].push_back(static_cast<int>(passes_.size()));
+      std::vector<int>& all = passes_of_[id.value];
+      const LandmarkId own_id = all.empty() ? id : passes_[all.back()].own_id;
+      all.push_back(static_cast<int>(passes_.size()));
       PassObject& fresh = passes_.emplace_back();
       fresh.id = id;
+      fresh.own_id = own_id;
       fresh.first_m = frame.travelled;
       fresh.appearance = PerCue<Gallery>(Gallery(galleries_));
     }
@@ -58,19 +61,33 @@ void PassMap::Rebuild(const MapState& state) {
   for (int f = 0; f < state.frames.size(); ++f)
     Take(state.frames[f], f, state.frames[f].detections, state);
   if (!state.frames.empty()) FinishOld(state);
+  InheritFrom(before);
+}
+
+void PassMap::InheritFrom(const std::vector<PassObject>& before) {
   std::map<std::pair<int, int>, std::size_t> now;
   for (std::size_t i = 0; i < passes_.size(); ++i)
     for (const auto& sighting : passes_[i].sightings) now[sighting] = i;
+  std::vector<std::map<int, int>> votes(passes_.size());  // sightings by own id
   for (const PassObject& old : before) {
     std::map<std::size_t, std::size_t> shares;
     const std::size_t half = (old.sightings.size() + 1) / 2;
+    bool inherited = false;
     for (const auto& sighting : old.sightings) {
       const auto pass = now.find(sighting);
-      if (pass == now.end() || ++shares[pass->second] != half) continue;
+      if (pass == now.end()) continue;
+      ++votes[pass->second][old.own_id.value];
+      if (++shares[pass->second] != half || inherited) continue;
+      inherited = true;
       for (const CueRow& row : kCueRows)
         passes_[pass->second].appearance[row.cue].Merge(old.appearance[row.cue]);
-      break;
     }
+  }
+  for (std::size_t i = 0; i < passes_.size(); ++i) {
+    const auto most =
+        std::max_element(votes[i].begin(), votes[i].end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most != votes[i].end()) passes_[i].own_id = {most->first};
   }
 }
 
@@ -114,6 +131,21 @@ const std::vector<int>& PassMap::PassesOf(LandmarkId id) const {
   static const std::vector<int> kNone;
   const auto known = passes_of_.find(id.value);
   return known == passes_of_.end() ? kNone : known->second;
+}
+
+std::optional<std::pair<int, int>> PassMap::NearestSighting(const FrameStore& frames, LandmarkId id,
+                                                            double path_m) const {
+  std::optional<std::pair<int, int>> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int i : PassesOf(id)) {
+    for (const auto& sighting : passes_[i].sightings) {
+      const double away = std::abs(frames[sighting.first].travelled - path_m);
+      if (away >= least) continue;
+      least = away;
+      nearest = sighting;
+    }
+  }
+  return nearest;
 }
 
 double PassMap::NearestPass(const FrameStore& frames, LandmarkId id, double path_m) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ namespace sslcd {
 /// landmarks, which measures the drift between them even if the map has fused their landmarks.
 struct PassObject {
   LandmarkId id;
+  LandmarkId own_id;                           ///< the landmark that it was before any fusion
   double first_m = 0, last_m = 0;              ///< path length at its first and last sighting
   std::vector<std::pair<int, int>> sightings;  ///< index of the frame and of the detection in it
   /// frame that a finished pass moves with; -1: not finished
@@ -40,7 +42,7 @@ class PassMap {
   void AddFrame(const MapState& state, const std::vector<Detection>& seen);
 
   /// Rebuilds all passes from the frames, e.g. after a new association. A pass gets the appearance
-  /// of the previous passes that it mostly consists of.
+  /// of the previous passes that it mostly consists of, and the own id of most of its sightings.
   void Rebuild(const MapState& state);
 
   /// Updates the ids of fused landmarks. `merged` maps merged ids to their landmarks.
@@ -48,6 +50,11 @@ class PassMap {
 
   /// Indices of the passes of a landmark, ascending.
   const std::vector<int>& PassesOf(LandmarkId id) const;
+
+  /// The sighting of a landmark that is nearest to `path_m`: index of the frame and of the
+  /// detection in it.
+  std::optional<std::pair<int, int>> NearestSighting(const FrameStore& frames, LandmarkId id,
+                                                     double path_m) const;
 
   /// The path length of a landmark's finished pass that is nearest to `path_m`. [m]
   double NearestPass(const FrameStore& frames, LandmarkId id, double path_m) const;
@@ -69,6 +76,7 @@ class PassMap {
  private:
   void Take(const FrameRecord& frame, int index, const std::vector<Detection>& seen,
             const MapState& state);
+  void InheritFrom(const std::vector<PassObject>& before);
   void FinishOld(const MapState& state);
   void Finish(const MapState& state, PassObject& pass);
 

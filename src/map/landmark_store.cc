@@ -2,6 +2,7 @@
 #include "map/landmark_store.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace sslcd {
@@ -9,11 +10,24 @@ namespace sslcd {
 LandmarkId LandmarkStore::Insert(MapLandmark landmark) {
   landmark.id = {next_id_++};
   const LandmarkId id = landmark.id;
-  const Vec2 place = Horizontal(landmark.pose.position, gravity_);
-  index_.Put(id.value, place.x(), place.y());
-  if (landmark.state != LandmarkState::kConfirmed) open_.push_back(id.value);
-  landmarks_.emplace(id.value, std::move(landmark));
+  Put(std::move(landmark));
   return id;
+}
+
+void LandmarkStore::Restore(MapLandmark landmark) {
+  assert(landmark.id.value < next_id_);
+  ++rewrites_;
+  open_.erase(std::remove(open_.begin(), open_.end(), landmark.id.value), open_.end());
+  landmark.dims = FuseDims(landmark.sightings);
+  Put(std::move(landmark));
+}
+
+void LandmarkStore::Put(MapLandmark landmark) {
+  const int id = landmark.id.value;
+  const Vec2 place = Horizontal(landmark.pose.position, gravity_);
+  index_.Put(id, place.x(), place.y());
+  if (landmark.state != LandmarkState::kConfirmed) open_.push_back(id);
+  landmarks_.insert_or_assign(id, std::move(landmark));
 }
 
 void LandmarkStore::SetPose(LandmarkId id, const UprightPose& pose) {

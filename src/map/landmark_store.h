@@ -22,12 +22,16 @@ class LandmarkStore {
   /// To change it. Index() must follow a change of place; states change by SetState.
   MapLandmark& at(LandmarkId id) { return landmarks_.at(id.value); }
 
-  /// Counts replaced sightings and fused landmarks. A change invalidates data that was computed
-  /// from landmarks by id.
+  /// Counts replaced sightings, and fused and restored landmarks. A change invalidates data that
+  /// was computed from landmarks by id.
   int rewrites() const { return rewrites_; }
 
   /// Adds an existing landmark, e.g. of a loaded map. Returns its new id.
   LandmarkId Insert(MapLandmark landmark);
+
+  /// Puts a landmark under an id that it has had before, e.g. after the split of a fused one.
+  /// Replaces one that has this id now. Needs at least one sighting.
+  void Restore(MapLandmark landmark);
 
   /// Sets the result of an optimisation. The motion test moves with the pose.
   void SetPose(LandmarkId id, const UprightPose& pose);
@@ -54,6 +58,8 @@ class LandmarkStore {
   std::vector<LandmarkId> FindWithin(const Vec2& place, double radius_m) const;
 
  private:
+  void Put(MapLandmark landmark);
+
   GravityFrame gravity_;
   MotionTestOptions motion_;
   std::map<int, MapLandmark> landmarks_;

@@ -6,6 +6,7 @@
 #include "association/gallery.h"
 #include "map/motion_test.h"
 #include "sslcd/core/cue.h"
+#include "sslcd/core/detection.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/landmark.h"
 #include "sslcd/core/pose.h"
@@ -21,6 +22,11 @@ struct Sighting {
   Pose T_cam_object;
   Vec3 dims{0, 0, 0};  ///< length, width, height [m]
 };
+
+/// The sighting of a detection in a frame.
+inline Sighting SightingOf(int frame, double stamp, const Detection& detection) {
+  return {frame, stamp, detection.row, detection.score, detection.T_cam_object, detection.dims};
+}
 
 /// A landmark of the map under construction: the paper's o_k = {l, u, b, H, E, T_wo} (III-B) with
 /// its state.

@@ -142,8 +142,7 @@ void ObjectMap::Update(MapLandmark& landmark, const AssociationQuery& query,
   landmark.motion.Add(query.place.position, query.place.covariance, view.stamp, options_.motion);
   for (const CueRow& row : kCueRows)
     landmark.appearance[row.cue].Add(detection.appearance[row.cue], query.viewpoint_rad);
-  landmark.sightings.push_back({view.frame, view.stamp, detection.row, detection.score,
-                                detection.T_cam_object, detection.dims});
+  landmark.sightings.push_back(SightingOf(view.frame, view.stamp, detection));
   landmark.last_seen = view.stamp;
   landmark.last_seen_at = view.travelled_m;
 

@@ -42,6 +42,7 @@ class ObjectMap {
   const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id); }
   int rewrites() const { return landmarks_.rewrites(); }
   LandmarkId Insert(MapLandmark landmark) { return landmarks_.Insert(std::move(landmark)); }
+  void Restore(MapLandmark landmark) { landmarks_.Restore(std::move(landmark)); }
   void SetPose(LandmarkId id, const UprightPose& pose) { landmarks_.SetPose(id, pose); }
   void SetState(LandmarkId id, LandmarkState state) { landmarks_.SetState(id, state); }
   void SetSightings(LandmarkId id, std::vector<Sighting> sightings) {

@@ -77,7 +77,8 @@ struct Mapper::Impl {
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
   const MapState& best() const { return final_trajectory.state ? *final_trajectory.state : state; }
-  BaSummary Adjust(const WholeMapOptions& whole_map, const LoopEvidence& evidence);
+  void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
+  BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
 
   Options options;
   MapperContext context;
@@ -149,12 +150,25 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   return report;
 }
 
-BaSummary Mapper::Impl::Adjust(const WholeMapOptions& whole_map, const LoopEvidence& evidence) {
+// Sets the noise of odometry. Later frames keep the correction of the loops.
+void Mapper::Impl::LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const {
+  whole_map.ba.odometry = options.ba.odometry;
+  evidence.odometry_factors = {};
+  if (!loops.ledger().AnyAccepted()) return;
+  whole_map.ba.odometry = options.loop.odometry;
+  evidence.odometry_factors =
+      LearnOdometry(state, loops.ledger(), scale(), options.loop, loops.odometry_factors());
+}
+
+// Adjusts again while loops are withdrawn.
+BaSummary Mapper::Impl::Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence) {
   const ScopedTimer timer(timing, "full-map optimisation");
-  const BaSummary summary = RefineMap(state, log_scale, evidence, whole_map, camera());
-  refined_log_scale = log_scale;
-  loops.Review(state);
-  return summary;
+  while (true) {
+    const BaSummary summary = RefineMap(state, log_scale, evidence, whole_map, camera());
+    refined_log_scale = log_scale;
+    if (!loops.Review(state)) return summary;
+    LearnFromLoops(whole_map, evidence);
+  }
 }
 
 BaSummary Mapper::Refine() {
@@ -164,11 +178,7 @@ BaSummary Mapper::Refine() {
   LoopEvidence evidence;
   if (m.state.frames.empty()) return {};
   if (loop.enabled) m.loops.Finish(m.state, m.scale(), m.timing);
-  if (m.loops.ledger().AnyAccepted()) {  // later frames keep the correction of the loops
-    whole_map.ba.odometry = loop.odometry;
-    evidence.odometry_factors =
-        LearnOdometry(m.state, m.loops.ledger(), m.scale(), loop, m.loops.odometry_factors());
-  }
+  m.LearnFromLoops(whole_map, evidence);
   m.view_ties.clear();
   BaSummary summary = m.Adjust(whole_map, evidence);
   if (m.context.view_aligner && loop.enabled && loop.views.enabled) {

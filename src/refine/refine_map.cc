@@ -60,9 +60,7 @@ void AssociateAgain(MapState& state, const WholeMapOptions& options, const Camer
     for (std::size_t k = 0; k < open.size(); ++k) {
       all_matched[index[k]] = matched[k];
       if (matched[k].value < 0) continue;
-      const Detection& d = open[k];
-      sightings[matched[k].value].push_back(
-          {record.frame, record.stamp, d.row, d.score, d.T_cam_object, d.dims});
+      sightings[matched[k].value].push_back(SightingOf(record.frame, record.stamp, open[k]));
     }
     state.frames.SetMatched(f, std::move(all_matched));
   }

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "loop_closer_drive.h"
+#include "refine/fuse.h"
 
 namespace sslcd {
 namespace {
@@ -116,6 +117,23 @@ TEST_F(Review, WithdrawsALoopThatTheTrajectoryContradicts) {
     closer_->Review(state_);
     EXPECT_EQ(CountAccepted(), share < 1 ? 1 : 0);
   }
+}
+
+TEST_F(Review, SplitsWhatWithdrawnLoopsHaveFused) {
+  options_.layout.hindsight_m = 0;
+  DriveOnly();
+  const std::size_t count = state_.map.landmarks().size();
+  Finish();
+  ASSERT_GT(CountAccepted(), 0);
+  ASSERT_LT(state_.map.landmarks().size(), count);
+  EXPECT_FALSE(closer_->Review(state_)) << "the trajectory agrees";
+  EXPECT_LT(state_.map.landmarks().size(), count);
+  for (int i = TwoPasses::kSecond; i < state_.frames.size(); ++i)
+    state_.frames.SetPose(i, Pose::Trans(3, 0, 0) * state_.frames[i].T_world_cam);
+  EXPECT_TRUE(closer_->Review(state_));
+  EXPECT_EQ(CountAccepted(), 0);
+  EXPECT_EQ(state_.map.landmarks().size(), count);
+  EXPECT_FALSE(closer_->Review(state_)) << "once";
 }
 
 // The refinement has moved the map, so poses of tracks are those of another one.

@@ -25,8 +25,13 @@ void Accept(LoopLedger& ledger, const TwoPasses& world, int match, int query,
   found.loop.row.decision = LoopDecision::kAccepted;
   found.loop.row.T_match_query = world.TrueLoop(match, query) * off;
   found.loop.row.covariance = 1e-4 * Eigen::Matrix<double, 6, 6>::Identity();
-  for (const auto& [early, late] : world.trees) found.loop.row.pairs.push_back({late, early});
   ASSERT_TRUE(ledger.Add(found, {}, query));
+  const auto nearest = [&](LandmarkId id, int frame) {
+    const FrameStore& frames = world.state.frames;
+    return world.passes.NearestSighting(frames, id, frames[frame].travelled).value();
+  };
+  for (const auto& [early, late] : world.trees)
+    ledger.attempts().back().pairs.push_back({nearest(late, query), nearest(early, match)});
   ledger.AcceptNewest();
 }
 
@@ -120,51 +125,100 @@ TEST(CorrectTrajectory, TheGraphRefusesALoopThatContradictsTheOthers) {
   }
 }
 
-TEST(FuseMatchedObjects, WhereTheyHaveComeTogether) {
-  TwoPasses world(Pose::Trans(0, 0, 0.5));
-  LoopLedger ledger;
-  Accept(ledger, world, kFirst, kSecond);
-  EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 0.4, {}).empty()) << "still too far apart";
-  const MergedIds merged = FuseMatchedObjects(world.state, ledger, 1., {});
-  EXPECT_EQ(merged.size(), world.trees.size());
-  for (const auto& [local, global] : ledger.attempts()[0].pairs) EXPECT_EQ(local, global);
-  EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 1., {}).empty()) << "nothing is left";
-}
+class FuseMatched : public ::testing::Test {
+ protected:
+  // Returns the number of landmarks that are gone.
+  std::size_t Fuse(double fuse_m = 1.) {
+    const std::size_t before = world.state.map.landmarks().size();
+    FuseMatchedObjects(world.state, world.passes, ledger, fuse_m, {});
+    return before - world.state.map.landmarks().size();
+  }
+  void Refuse(int attempt) { ledger.attempts()[attempt].row().decision = LoopDecision::kAmbiguous; }
+  LandmarkId Now(const std::pair<int, int>& sighting) const {
+    return world.state.frames[sighting.first].matched[sighting.second];
+  }
 
-TEST(FuseMatchedObjects, OfAcceptedLoopsOnly) {
   TwoPasses world;
   LoopLedger ledger;
+};
+
+TEST_F(FuseMatched, WhereTheyHaveComeTogether) {
+  world = TwoPasses(Pose::Trans(0, 0, 0.5));
   Accept(ledger, world, kFirst, kSecond);
-  ledger.attempts()[0].row().decision = LoopDecision::kAmbiguous;
-  EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
+  EXPECT_EQ(Fuse(0.4), 0u) << "still too far apart";
+  EXPECT_EQ(Fuse(), world.trees.size());
+  for (const auto& [local, global] : ledger.attempts()[0].pairs) EXPECT_EQ(Now(local), Now(global));
+  for (const PassObject& pass : world.passes.passes())
+    EXPECT_EQ(pass.id, Now(pass.sightings.front()));
+  EXPECT_EQ(Fuse(), 0u) << "nothing is left";
 }
 
-TEST(FuseMatchedObjects, PairsOfALandmarkThatIsGoneAreLeftOut) {
-  TwoPasses world;
-  LoopLedger ledger;
+TEST_F(FuseMatched, OfAcceptedLoopsOnly) {
   Accept(ledger, world, kFirst, kSecond);
-  auto& pairs = ledger.attempts()[0].pairs;
-  const std::size_t count = pairs.size();
-  pairs.push_back({LandmarkId{10000}, world.trees[0].first});
-  pairs.push_back({world.trees[0].second, LandmarkId{10000}});
-  EXPECT_EQ(FuseMatchedObjects(world.state, ledger, 1., {}).size(), count);
+  Refuse(0);
+  EXPECT_EQ(Fuse(), 0u);
+}
+
+TEST_F(FuseMatched, PairsOfALandmarkThatIsGoneAreLeftOut) {
+  Accept(ledger, world, kFirst, kSecond);
+  const auto [local, global] = ledger.attempts()[0].pairs[0];
+  std::vector<LandmarkId> matched = world.state.frames[local.first].matched;
+  matched[local.second] = {10000};
+  world.state.frames.SetMatched(local.first, matched);
+  matched = world.state.frames[global.first].matched;
+  matched[global.second] = {};
+  world.state.frames.SetMatched(global.first, matched);
+  ledger.attempts()[0].pairs.resize(1);
+  EXPECT_EQ(Fuse(), 0u);
 }
 
 // Duplicates come to light where something was fused; else nothing has changed for them.
-TEST(FuseMatchedObjects, LooksForDuplicatesOnlyWhereItHasFusedSomething) {
-  TwoPasses world;
-  LoopLedger ledger;
+TEST_F(FuseMatched, LooksForDuplicatesOnlyWhereItHasFusedSomething) {
   Accept(ledger, world, kFirst, kSecond);
-  ASSERT_FALSE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
-  MapLandmark twin = world.state.map.at(ledger.attempts()[0].pairs[0].first);
+  ASSERT_GT(Fuse(), 0u);
+  MapLandmark twin = world.state.map.at(Now(ledger.attempts()[0].pairs[0].local));
   std::vector<Sighting> of_one, of_twin;  // by turns
   for (const Sighting& sighting : twin.sightings)
     (of_one.size() > of_twin.size() ? of_twin : of_one).push_back(sighting);
   world.state.map.SetSightings(twin.id, of_one);
   twin.sightings = of_twin;
   world.state.map.Insert(twin);
-  EXPECT_TRUE(FuseMatchedObjects(world.state, ledger, 1., {}).empty());
+  EXPECT_EQ(Fuse(), 0u);
   EXPECT_EQ(FuseDuplicates(world.state, {}).size(), 1u);
+}
+
+TEST_F(FuseMatched, ARefusedLoopTakesBackAllThatItHasFused) {
+  const std::size_t count = world.state.map.landmarks().size();
+  const auto passes_of = world.passes.passes_of();
+  Accept(ledger, world, kFirst, kSecond);
+  ledger.attempts()[0].pairs.resize(3);
+  EXPECT_EQ(Fuse(), world.trees.size()) << "the others come to light as duplicates";
+  Refuse(0);
+  Fuse();
+  EXPECT_EQ(world.state.map.landmarks().size(), count);
+  EXPECT_EQ(world.passes.passes_of(), passes_of);
+  ledger.attempts()[0].row().decision = LoopDecision::kAccepted;
+  EXPECT_EQ(Fuse(), world.trees.size()) << "and may come back";
+}
+
+TEST_F(FuseMatched, WhatAnotherLoopAsksForStays) {
+  world = TwoPasses(Pose::Trans(0, 0, 0.5));
+  for (const int i : {0, 5}) {
+    Accept(ledger, world, kFirst + i, kSecond + i);
+    ledger.attempts().back().pairs.resize(i == 0 ? 8 : 4);
+  }
+  WholeMapOptions no_duplicates;
+  no_duplicates.refine.duplicate_m = 0;
+  const auto fuse = [&] {
+    FuseMatchedObjects(world.state, world.passes, ledger, 1., no_duplicates);
+    std::size_t fused = 0;
+    for (const auto& [local, global] : ledger.attempts()[0].pairs)
+      fused += Now(local) == Now(global);
+    return fused;
+  };
+  EXPECT_EQ(fuse(), 8u);
+  Refuse(0);
+  EXPECT_EQ(fuse(), 4u);
 }
 
 TEST(AdjustAfterLoop, LeavesLongRunsAloneAndKeepsTheScale) {
@@ -194,7 +248,8 @@ TEST(AdjustAfterLoop, TakesFourStepsAtMostAndLearnsNoNoise) {
   TwoPasses world(Pose::Trans(20, 0, -10) * Pose::RotY(1));
   LoopLedger ledger;
   Accept(ledger, world, kFirst, kSecond);
-  ASSERT_FALSE(FuseMatchedObjects(world.state, ledger, 100., {}).empty());
+  FuseMatchedObjects(world.state, world.passes, ledger, 100., {});
+  ASSERT_EQ(world.state.map.landmarks().size(), world.trees.size());
   const NoiseScale before = world.state.map.noise_scale();
   const auto steps = [&](int max_iterations) {
     TwoPasses copy = world;

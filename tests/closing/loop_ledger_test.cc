@@ -116,15 +116,18 @@ TEST(LoopLedger, AcceptedNearLooksAtQueryCameras) {
   EXPECT_FALSE(ledger.AcceptedNear(frames, 10, 2.5)) << "that is the match camera";
 }
 
-TEST(LoopLedger, FollowsFusedLandmarksButKeepsTheRow) {
+TEST(LoopLedger, KnowsFusionsOfLoopsThatAreNoLongerAccepted) {
   LoopLedger ledger;
-  FoundLoop found = Loop(1, 50, kOpen);
-  found.loop.row.pairs = {{{20}, {3}}, {{21}, {4}}};
-  ledger.Add(found, {}, 50);
-  ledger.Rename({{20, {9}}, {9, {3}}});
-  EXPECT_EQ(ledger.attempts()[0].pairs[0].first.value, 3);
-  EXPECT_EQ(ledger.attempts()[0].pairs[1].first.value, 21);
-  EXPECT_EQ(ledger.Rows()[0].pairs[0].first.value, 20);
+  ledger.Add(Loop(1, 50, kOpen), {}, 50);
+  ledger.Add(Loop(4, 65, kAccepted), {}, 65);
+  ledger.AcceptNewest();
+  EXPECT_FALSE(ledger.FusedByRefused()) << "the refused one has fused nothing";
+  ledger.attempts()[1].fused = true;
+  EXPECT_FALSE(ledger.FusedByRefused());
+  ledger.attempts()[1].row().decision = kOpen;
+  EXPECT_TRUE(ledger.FusedByRefused());
+  ledger.ForgetFusions();
+  EXPECT_FALSE(ledger.FusedByRefused());
 }
 
 TEST(LoopLedger, RowsAreAsMeasuredLastWhereAccepted) {

@@ -253,6 +253,58 @@ TEST(PassMap, AnOpenPassGoesOnUnderItsNewName) {
   EXPECT_EQ(world.passes.passes()[1].sightings.size(), 5u);
 }
 
+TEST(PassMap, KeepsTheLandmarksThatPassesWereBeforeAFusion) {
+  TwoVisits world;
+  const LandmarkId early = world.Add({4, 1, 12}), late = world.Add({4, 1, 12});
+  world.See(early, 0, 6);
+  world.See(late, 300, 303);
+  world.Plan(400, 340, {});
+  world.Drive(13);
+  world.Rematch(late, early);
+  world.passes.Rename({{late.value, early}});
+  world.See(early, 304, 306);
+  world.See(early, 400, 401);  // another pass, but no loop
+  world.Drive();
+  for (const bool rebuilt : {false, true}) {
+    if (rebuilt) world.passes.Rebuild(world.state);
+    ASSERT_EQ(world.passes.passes().size(), 3u);
+    for (const int pass : {0, 1, 2}) {
+      EXPECT_EQ(world.passes.passes()[pass].id, early);
+      EXPECT_EQ(world.passes.passes()[pass].own_id, pass == 0 ? early : late)
+          << "the one that it was seen as last";
+    }
+  }
+}
+
+TEST(PassMap, ANewAssociationIsWhatMostOfItsSightingsWere) {
+  TwoVisits world;
+  const LandmarkId one = world.Add({4, 1, 12}), other = world.Add({4, 1, 12});
+  world.See(one, 0, 2);
+  world.See(other, 2, 5);
+  world.Drive();
+  world.Rematch(other, one);
+  world.passes.Rebuild(world.state);
+  ASSERT_EQ(world.passes.passes().size(), 1u);
+  EXPECT_EQ(world.passes.passes()[0].id, one);
+  EXPECT_EQ(world.passes.passes()[0].own_id, other);
+}
+
+TEST(PassMap, NearestSightingAlongThePath) {
+  TwoVisits world;
+  const LandmarkId tree = world.Add({4, 1, 12}), other = world.Add({-4, 1, 12});
+  world.See(other, 0, 10);
+  world.See(tree, 2, 6);
+  world.See(tree, 300, 303);
+  world.Drive();
+  const auto nearest = [&](double path_m) {
+    return world.passes.NearestSighting(world.state.frames, tree, path_m);
+  };
+  EXPECT_EQ(nearest(0), std::make_pair(2, 1));
+  EXPECT_EQ(nearest(4.2), std::make_pair(4, 1));
+  EXPECT_EQ(nearest(400), std::make_pair(12, 0));
+  EXPECT_FALSE(world.passes.NearestSighting(world.state.frames, {77}, 4));
+}
+
 TEST(PassMap, NothingSeen) {
   TwoVisits world;
   world.Drive();

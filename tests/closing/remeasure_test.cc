@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "refine/fuse.h"
 #include "two_passes.h"
 
 namespace sslcd {

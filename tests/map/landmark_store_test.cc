@@ -50,6 +50,33 @@ TEST_F(LandmarkStoreTest, FoundWhereItWasSetTo) {
   EXPECT_NEAR((moved - Vec2(47, 0)).norm(), 0, 1e-9) << "the motion test moves along";
 }
 
+TEST_F(LandmarkStoreTest, AFusedOneIsRestoredUnderItsId) {
+  const LandmarkId keep = Add({3, 20}, LandmarkState::kConfirmed, {0, 1});
+  const LandmarkId drop = Add({4, 20}, LandmarkState::kConfirmed, {5, 6, 7});
+  MapLandmark dropped = store.at(drop), kept = store.at(keep);
+  store.Fuse(keep, drop);
+  const int rewrites = store.rewrites();
+  dropped.dims = {};
+  store.Restore(dropped);
+  EXPECT_NE(store.rewrites(), rewrites);
+  EXPECT_EQ(store.at(drop).sightings.size(), 3u);
+  EXPECT_EQ(store.at(drop).dims, Vec3(4, 2, 1.5)) << "by its sightings";
+  EXPECT_EQ(store.FindWithin({4, 20}, 0.5), Ids{drop});
+  kept.state = LandmarkState::kTentative;
+  kept.pose.position += 7 * gravity.forward;
+  for (int twice = 0; twice < 2; ++twice) store.Restore(kept);
+  EXPECT_EQ(store.at(keep).sightings.size(), 2u);
+  EXPECT_EQ(store.FindWithin({10, 20}, 0.5), Ids{keep});
+  EXPECT_TRUE(store.FindWithin({3, 20}, 0.5).empty()) << "replaced";
+  store.Retire(9., 2.);
+  EXPECT_EQ(store.at(keep).state, LandmarkState::kStale) << "it can become stale now";
+  kept.state = LandmarkState::kConfirmed;
+  store.Restore(kept);
+  store.Retire(9., 2.);
+  EXPECT_EQ(store.FindWithin({10, 20}, 0.5), Ids{keep}) << "and now it cannot";
+  EXPECT_EQ(Add({0, 0}, LandmarkState::kConfirmed, {9}).value, 3);
+}
+
 TEST_F(LandmarkStoreTest, OpenOnesAreLostWhenUnseenForLong) {
   const LandmarkId parked = Add({0, 0}, LandmarkState::kConfirmed, {0});
   const LandmarkId tentative = Add({1, 0}, LandmarkState::kTentative, {0});

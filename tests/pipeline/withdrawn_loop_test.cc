@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Wrong loops that are accepted first and refused later leave nothing behind.
+#include <gtest/gtest.h>
+
+#include "loop_drives.h"
+#include "sslcd/loop/layout_match.h"
+#include "sslcd/pipeline/options.h"
+
+namespace sslcd {
+namespace {
+
+// Frames of the second lap: the matcher is wrong up to kWrongUntil, where it has seen the street
+// whose objects were moved, and then unsure until it sees other streets.
+constexpr int kWrongUntil = 460, kUnsureUntil = 545;
+
+// Twice round the block. Between the laps all objects of the first street are moved 6 m along it.
+Drives MovedStreet(std::uint64_t seed) {
+  constexpr double kStreetM = 70, kWideM = 12, kMovedM = 6, kBeforeM = 32, kHeadingNoise = 2e-3;
+  const sim::Path path = Block();
+  sim::World world = EmptyWorld();
+  Plant(path, path.length(), 0.5, seed, world);
+  Drive(path, 0, 2 * path.length(), world);
+  const int moved = static_cast<int>((path.length() - kBeforeM) / kStep);
+  const Pose T_start_world = path.CameraAt(0).inverse();
+  for (std::size_t i = 0, count = world.objects.size(); i < count; ++i) {
+    const Pose T_start_object = T_start_world * world.objects[i].T_world_object[0];
+    const Vec3& place = T_start_object.translation();
+    if (std::abs(place.x()) > kWideM || place.z() > kStreetM) continue;
+    Add(world.objects[i].label, path.CameraAt(0) * Pose::Trans(0, 0, kMovedM) * T_start_object,
+        world);
+    world.objects.back().first_frame = moved;
+    world.objects[i].end_frame = moved;
+  }
+  return Drives(std::move(world), seed, 30, kHeadingNoise);
+}
+
+// A matcher that compares objects alone. It accepts nothing between two frames.
+RunResult RunWithout(int first, int end, const Drives& drives, std::size_t frames) {
+  Options options;
+  options.loop.odometry.translation_walk *= 0.25;  // near to what this odometry is
+  options.loop.odometry.rotation_walk *= 0.25;
+  MapperContext context = drives.Context();
+  context.place_matcher = [=](const PlaceQuery& query) -> std::optional<PlaceAnswer> {
+    const LayoutAnswer found = MatchLayouts(query.local, query.global);
+    if (found.hypotheses.empty()) return std::nullopt;
+    PlaceAnswer answer;
+    answer.matches = found.hypotheses[0].fit.matches;
+    answer.score = found.score;
+    answer.accepted = found.decision == LoopDecision::kAccepted && found.score > 5 &&
+                      (query.frame < first || query.frame >= end);
+    return answer;
+  };
+  return RunSequence({drives.frames.begin(), drives.frames.begin() + frames}, context, options);
+}
+
+int CountConfirmed(const RunResult& result) {
+  return static_cast<int>(std::count_if(
+      result.objects.begin(), result.objects.end(),
+      [](const MapObject& object) { return object.state == LandmarkState::kConfirmed; }));
+}
+
+TEST(WithdrawnLoop, LeavesNothingBehind) {
+  for (const std::uint64_t seed : {1, 3}) {
+    SCOPED_TRACE(seed);
+    const Drives drives = MovedStreet(seed);
+    const std::size_t all = drives.frames.size();
+    const RunResult halfway = RunWithout(kWrongUntil, kUnsureUntil, drives, kUnsureUntil);
+    EXPECT_GT(drives.Judge(halfway).wrong_loops, 0) << "accepted first";
+    const RunResult result = RunWithout(kWrongUntil, kUnsureUntil, drives, all);
+    EXPECT_GT(Accepted(result), 40);
+    EXPECT_EQ(drives.Judge(result).wrong_loops, 0);
+    const RunResult never_wrong = RunWithout(0, kUnsureUntil, drives, all);
+    EXPECT_EQ(Accepted(result), Accepted(never_wrong));
+    EXPECT_EQ(CountConfirmed(result), CountConfirmed(never_wrong));
+    double largest_m = 0;
+    for (std::size_t i = 0; i < all; ++i) {
+      const Pose& one = result.trajectory.poses[i];
+      const Pose& other = never_wrong.trajectory.poses[i];
+      largest_m = std::max(largest_m, (one.translation() - other.translation()).norm());
+    }
+    EXPECT_LT(largest_m, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace sslcd
