@@ -163,6 +163,7 @@ class TopPoses {
   }
 
   void Propose(CoarsePose pose) {
+    ++looked_at_;
     pose.score = CanReachThreshold(pose) ? Score(pose) : 0;
     if (!(pose.score >= threshold_)) return;
     const auto key = [](double v) { return static_cast<std::int64_t>(std::floor(v)) & 0xfffff; };
@@ -172,6 +173,8 @@ class TopPoses {
     if (pose.score > kept.score) kept = pose;
     RaiseThreshold(pose.score);
   }
+
+  std::size_t looked_at() const { return looked_at_; }
 
   std::vector<CoarsePose> Best() const {
     std::vector<CoarsePose> coarse;
@@ -267,7 +270,7 @@ class TopPoses {
   int total_bound_ = 0;                   // sum of these bounds
   GainBound bound_;
   float inlier2_, threshold_ = 0;  // smallest score that is still relevant
-  std::size_t capacity_, proposed_ = 0;
+  std::size_t capacity_, proposed_ = 0, looked_at_ = 0;
   std::unordered_map<std::int64_t, CoarsePose> cells_;
 };
 
@@ -305,8 +308,8 @@ void ProposePairPoses(const std::vector<LayoutObject>& local,
 
 }  // namespace
 
-std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
-                                    const LayoutIndex& index, const PoseSearchOptions& options) {
+CoarseSearch CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
+                         const LayoutIndex& index, const PoseSearchOptions& options) {
   std::vector<LayoutPoint> points;
   for (const LayoutObject& object : local) {
     const Eigen::Vector3f p = (object.position - centre).cast<float>();
@@ -315,7 +318,10 @@ std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, cons
   if (index.tiles() != nullptr) return LargeMapPoses(points, index, options);
   TopPoses top_poses(points, index, options);
   ProposePairPoses(local, points, index, top_poses);
-  return top_poses.Best();
+  CoarseSearch found;
+  found.best = top_poses.Best();
+  found.looked_at = top_poses.looked_at();
+  return found;
 }
 
 }  // namespace sslcd

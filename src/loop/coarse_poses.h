@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "loop/pose_search.h"
@@ -22,8 +23,17 @@ struct CoarsePose {
   float x = 0, y = 0, z = 0;   ///< transformed centre [m]
 };
 
-/// Finds the best `options.refine` distinct poses, best first.
-std::vector<CoarsePose> CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
-                                    const LayoutIndex& index, const PoseSearchOptions& options);
+/// What a search for coarse poses has found.
+struct CoarseSearch {
+  std::vector<CoarsePose> best;  ///< distinct, best first
+  std::size_t looked_at = 0;     ///< number of poses that were scored
+  /// log of the sum of the likelihoods of the poses that were scored and are not in `best`,
+  /// relative to those that are; known in large maps only
+  double left_out = -std::numeric_limits<double>::infinity();
+};
+
+/// Finds the best `options.refine` distinct poses.
+CoarseSearch CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
+                         const LayoutIndex& index, const PoseSearchOptions& options);
 
 }  // namespace sslcd

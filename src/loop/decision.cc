@@ -14,9 +14,8 @@ constexpr double kLeastHeight = -3;
 
 std::string Nats(double value) { return std::to_string(std::lround(value)) + " nats"; }
 
-// Log odds of one of the poses against all others and chance.
-double LogOdds(const std::vector<double>& evidence, std::size_t of, double chance) {
-  std::vector<double> rivals = {chance};
+// Log odds of one of the poses against the other ones and `rivals`.
+double LogOdds(const std::vector<double>& evidence, std::size_t of, std::vector<double> rivals) {
   for (std::size_t i = 0; i < evidence.size(); ++i)
     if (i != of) rivals.push_back(evidence[i]);
   return evidence[of] - LogSumExp(rivals);
@@ -46,14 +45,16 @@ void DescribeFields(FieldVisitor& visitor, LoopAcceptanceOptions& options) {
                "a loop is withdrawn where the refined trajectory is off by this angle");
 }
 
-LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t matches,
-                             const std::function<double()>& mirror_evidence,
+LoopVerdict DecideSingleLook(const SingleLook& look, const std::function<double()>& mirror_evidence,
                              const SingleLookOptions& options) {
-  const double chance = options.min_evidence, best = evidence.at(0);
+  const double chance = options.min_evidence, best = look.evidence.at(0);
+  std::vector<double> others = {chance};
+  if (std::isfinite(look.left_out)) others.push_back(look.left_out);
   LoopVerdict verdict;
-  verdict.score = LogOdds(evidence, 0, chance);
-  verdict.second_score = evidence.size() > 1 ? LogOdds(evidence, 1, chance) : chance - best;
-  const std::string objects = std::to_string(matches) + " objects agree";
+  verdict.score = LogOdds(look.evidence, 0, others);
+  verdict.second_score =
+      look.evidence.size() > 1 ? LogOdds(look.evidence, 1, others) : chance - best;
+  const std::string objects = std::to_string(look.matches) + " objects agree";
   if (best < chance) {
     verdict.reason = objects + ", which chance explains (" + Nats(best) + ")";
   } else if (verdict.score < options.min_margin) {

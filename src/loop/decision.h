@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,17 @@
 /// (ApplyGraphVerdict), and of the refined trajectory (IsWithdrawn).
 namespace sslcd {
 
-/// `evidence` has the evidence of the distinct poses, best first, at least one [nats]. `matches` is
-/// the number of matched objects of the best one. `mirror_evidence` computes the evidence of the
-/// mirror image of the local map; it is only called if all other rules accept the pose.
-LoopVerdict DecideSingleLook(const std::vector<double>& evidence, std::size_t matches,
-                             const std::function<double()>& mirror_evidence,
+/// What one search has found, the evidence for the decision about its best pose.
+struct SingleLook {
+  std::vector<double> evidence;  ///< of the distinct poses, best first, at least one [nats]
+  std::size_t matches = 0;       ///< number of matched objects of the best one
+  /// log of the sum of exp(evidence) of the poses that were not refined [nats]
+  double left_out = -std::numeric_limits<double>::infinity();
+};
+
+/// `mirror_evidence` computes the evidence of the mirror image of the local map; it is only called
+/// if all other rules accept the pose.
+LoopVerdict DecideSingleLook(const SingleLook& look, const std::function<double()>& mirror_evidence,
                              const SingleLookOptions& options);
 
 /// The evidence for the decision about the best track of poses.

@@ -19,8 +19,8 @@ constexpr std::size_t kMostLocal = 200;
 
 }  // namespace
 
-std::vector<CoarsePose> LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& index,
-                                      const PoseSearchOptions& options) {
+CoarseSearch LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& index,
+                           const PoseSearchOptions& options) {
   if (points.size() > kMostLocal) {
     std::stable_sort(points.begin(), points.end(), [](const LayoutPoint& a, const LayoutPoint& b) {
       return a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;

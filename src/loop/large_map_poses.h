@@ -11,7 +11,7 @@ namespace sslcd {
 /// map has rows, all poses along them are searched (SearchRasters); elsewhere triangles of
 /// neighbours propose poses (TrianglePoses), which rows would have by the ten thousand. RankPoses
 /// ranks both. `points` are the local ones with the centre at the origin.
-std::vector<CoarsePose> LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& index,
-                                      const PoseSearchOptions& options);
+CoarseSearch LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& index,
+                           const PoseSearchOptions& options);
 
 }  // namespace sslcd

@@ -64,20 +64,25 @@ LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIn
     answer.reason = std::to_string(fewest) + " objects are too few: " + needed + " have to agree";
     return answer;
   }
+  SearchedPoses searched =
+      SearchAllPoses(LayoutLikelihood(usable.objects, index, options.likelihood), options.search);
+  answer.looked_at = searched.looked_at;
+  answer.left_out = searched.left_out;
   std::vector<PoseHypothesis>& found = answer.hypotheses;
-  found = SearchPoses(LayoutLikelihood(usable.objects, index, options.likelihood), options.search);
+  found = std::move(searched.found);
   if (found.empty()) {
     answer.reason = "no pose brings " + needed + " objects together";
     return answer;
   }
-  std::vector<double> evidence;
+  SingleLook look;
+  look.matches = found[0].fit.matches.size();
+  look.left_out = answer.left_out;
   for (PoseHypothesis& hypothesis : found) {
-    evidence.push_back(hypothesis.fit.evidence);
+    look.evidence.push_back(hypothesis.fit.evidence);
     for (auto& [i, j] : hypothesis.fit.matches) i = usable.origin[i];
   }
   static_cast<LoopVerdict&>(answer) = DecideSingleLook(
-      evidence, found[0].fit.matches.size(),
-      [&] { return MirrorEvidence(usable.objects, index, options); }, decision);
+      look, [&] { return MirrorEvidence(usable.objects, index, options); }, decision);
   return answer;
 }
 

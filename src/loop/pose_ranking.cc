@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/math.h"
 #include "loop/raster_search.h"
 #include "loop/view_hull.h"
 
@@ -139,26 +141,43 @@ void KeepBest(std::vector<CoarsePose>& poses, std::size_t most) {
   poses.resize(most);
 }
 
-// The best of poses that are nearly the same.
-std::vector<CoarsePose> Distinct(const std::vector<CoarsePose>& sorted, std::size_t most) {
-  constexpr float kSame = 1.f, kSameCosine = 0.995f;  // [m], of 6 degrees
-  std::vector<CoarsePose> distinct;
-  for (const CoarsePose& pose : sorted) {
-    if (distinct.size() >= most) break;
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const CoarsePose& other) {
-      return std::abs(pose.x - other.x) < kSame && std::abs(pose.y - other.y) < kSame &&
-             pose.cosine * other.cosine + pose.sine * other.sine > kSameCosine;
-    });
-    if (!known) distinct.push_back(pose);
-  }
-  return distinct;
+// Log of the sum of exp(score), if each pose counts `times` times.
+double LogSumOfScores(const std::vector<double>& scores, double times = 1) {
+  if (scores.empty()) return -std::numeric_limits<double>::infinity();
+  return LogSumExp(scores) + std::log(times);
 }
+
+// Splits the poses into the best distinct ones and the others. Poses that are nearly the same as a
+// better one are neither.
+struct Split {
+  std::vector<CoarsePose> best;
+  std::vector<double> best_scores, other_scores;
+
+  Split(const std::vector<CoarsePose>& sorted, std::size_t most) {
+    constexpr float kSame = 1.f, kSameCosine = 0.995f;  // [m], of 6 degrees
+    for (const CoarsePose& pose : sorted) {
+      const bool known = std::any_of(best.begin(), best.end(), [&](const CoarsePose& other) {
+        return std::abs(pose.x - other.x) < kSame && std::abs(pose.y - other.y) < kSame &&
+               pose.cosine * other.cosine + pose.sine * other.sine > kSameCosine;
+      });
+      if (known) continue;
+      if (best.size() == most) {
+        other_scores.push_back(pose.score);
+        continue;
+      }
+      best.push_back(pose);
+      best_scores.push_back(pose.score);
+    }
+  }
+};
 
 }  // namespace
 
-std::vector<CoarsePose> RankPoses(std::vector<CoarsePose> poses,
-                                  const std::vector<LayoutPoint>& points, const LayoutIndex& index,
-                                  const PoseSearchOptions& options) {
+CoarseSearch RankPoses(std::vector<CoarsePose> poses, const std::vector<LayoutPoint>& points,
+                       const LayoutIndex& index, const PoseSearchOptions& options) {
+  CoarseSearch found;
+  found.looked_at = poses.size();
+  if (poses.empty()) return found;
   const Ranking ranking(points, index);
   for (CoarsePose& pose : poses) ranking.Align(pose);
   const std::size_t keep = options.refine;
@@ -169,7 +188,15 @@ std::vector<CoarsePose> RankPoses(std::vector<CoarsePose> poses,
     ranking.CountUnmatched(pose, matches);
   }
   std::sort(poses.begin(), poses.end(), IsBetter);
-  return Distinct(poses, keep);
+  Split split(poses, keep);
+  const double median = poses[poses.size() / 2].score;
+  std::vector<double> left_out = {LogSumOfScores(split.other_scores)};
+  if (found.looked_at > poses.size())
+    left_out.push_back(
+        LogSumOfScores({median}, static_cast<double>(found.looked_at - poses.size())));
+  found.left_out = LogSumExp(left_out) - LogSumExp(split.best_scores);
+  found.best = std::move(split.best);
+  return found;
 }
 
 }  // namespace sslcd

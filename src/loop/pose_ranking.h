@@ -12,8 +12,10 @@ namespace sslcd {
 ///   max over sigma of  sum over matches (gain - 2 log sigma) - sum d^2 / (2 sigma^2)
 ///   + log Beta-binomials of the mapped and of the seen objects,
 /// with one match per local object. `points` are the local ones with the centre at the origin.
-std::vector<CoarsePose> RankPoses(std::vector<CoarsePose> poses,
-                                  const std::vector<LayoutPoint>& points, const LayoutIndex& index,
-                                  const PoseSearchOptions& options);
+///
+/// CoarseSearch::left_out takes this score for the evidence. Poses without a full score, the worse
+/// ones, count like the median of those that have one.
+CoarseSearch RankPoses(std::vector<CoarsePose> poses, const std::vector<LayoutPoint>& points,
+                       const LayoutIndex& index, const PoseSearchOptions& options);
 
 }  // namespace sslcd

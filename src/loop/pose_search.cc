@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math.h"
 #include "loop/coarse_poses.h"
 
 namespace sslcd {
@@ -17,6 +18,23 @@ void DescribeFields(FieldVisitor& visitor, PoseSearchOptions& options) {
 
 namespace {
 
+Vec3 CentreOfObjects(const std::vector<LayoutObject>& objects) {
+  Vec3 centre = Vec3::Zero();
+  for (const LayoutObject& object : objects)
+    centre += object.position / static_cast<double>(objects.size());
+  return centre;
+}
+
+std::vector<YawShift> AsStarts(const std::vector<CoarsePose>& coarse_poses, const Vec3& centre) {
+  std::vector<YawShift> starts;
+  for (const CoarsePose& coarse : coarse_poses) {
+    YawShift& pose = starts.emplace_back();
+    pose.yaw = std::atan2(coarse.sine, coarse.cosine);
+    pose.t = Vec3(coarse.x, coarse.y, coarse.z) - Apply(pose, centre);
+  }
+  return starts;
+}
+
 // The poses to refine: the best coarse ones, and the best of the prior among more of them.
 std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3& centre,
                              const LayoutIndex& index, PoseSearchOptions options,
@@ -24,12 +42,7 @@ std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3&
   constexpr int kMore = 10;
   const std::size_t refine = options.refine;
   if (prior) options.refine *= kMore;
-  std::vector<YawShift> starts;
-  for (const CoarsePose& coarse : CoarsePoses(local, centre, index, options)) {
-    YawShift& pose = starts.emplace_back();
-    pose.yaw = std::atan2(coarse.sine, coarse.cosine);
-    pose.t = Vec3(coarse.x, coarse.y, coarse.z) - Apply(pose, centre);
-  }
+  std::vector<YawShift> starts = AsStarts(CoarsePoses(local, centre, index, options).best, centre);
   if (starts.size() <= refine) return starts;
   std::vector<std::pair<double, YawShift>> rest;
   for (std::size_t i = refine; i < starts.size(); ++i)
@@ -41,19 +54,12 @@ std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3&
   return starts;
 }
 
-}  // namespace
-
-std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
-                                        const PoseSearchOptions& options,
-                                        const std::function<double(const YawShift&)>& prior) {
-  const std::vector<LayoutObject>& local = likelihood.local();
-  const LayoutIndex& index = likelihood.index();
+// Refines the poses and keeps the best of equal ones, best first.
+std::vector<PoseHypothesis> RefineAll(const std::vector<YawShift>& starts,
+                                      const LayoutLikelihood& likelihood, const Vec3& centre,
+                                      const PoseSearchOptions& options) {
   std::vector<PoseHypothesis> found;
-  if (local.size() < 2 || index.objects().size() < 2) return found;
-  Vec3 centre = Vec3::Zero();
-  for (const LayoutObject& object : local)
-    centre += object.position / static_cast<double>(local.size());
-  for (const YawShift& start : Starts(local, centre, index, options, prior)) {
+  for (const YawShift& start : starts) {
     PoseHypothesis hypothesis;
     hypothesis.pose = start;
     hypothesis.fit = likelihood.Refine(hypothesis.pose, kRefineRounds);
@@ -75,6 +81,37 @@ std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
     if (!known) distinct.push_back(hypothesis);
   }
   return distinct;
+}
+
+// A pose needs two objects on either side.
+bool HasPoses(const LayoutLikelihood& likelihood) {
+  return likelihood.local().size() >= 2 && likelihood.index().objects().size() >= 2;
+}
+
+}  // namespace
+
+std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
+                                        const PoseSearchOptions& options,
+                                        const std::function<double(const YawShift&)>& prior) {
+  if (!HasPoses(likelihood)) return {};
+  const Vec3 centre = CentreOfObjects(likelihood.local());
+  return RefineAll(Starts(likelihood.local(), centre, likelihood.index(), options, prior),
+                   likelihood, centre, options);
+}
+
+SearchedPoses SearchAllPoses(const LayoutLikelihood& likelihood, const PoseSearchOptions& options) {
+  SearchedPoses searched;
+  if (!HasPoses(likelihood)) return searched;
+  const Vec3 centre = CentreOfObjects(likelihood.local());
+  const CoarseSearch coarse = CoarsePoses(likelihood.local(), centre, likelihood.index(), options);
+  searched.looked_at = coarse.looked_at;
+  searched.found = RefineAll(AsStarts(coarse.best, centre), likelihood, centre, options);
+  if (searched.found.empty()) return searched;
+  std::vector<double> evidence;
+  for (const PoseHypothesis& hypothesis : searched.found)
+    evidence.push_back(hypothesis.fit.evidence);
+  searched.left_out = LogSumExp(evidence) + coarse.left_out;
+  return searched;
 }
 
 }  // namespace sslcd

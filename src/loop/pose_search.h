@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,5 +30,15 @@ namespace sslcd {
 std::vector<PoseHypothesis> SearchPoses(const LayoutLikelihood& likelihood,
                                         const PoseSearchOptions& options,
                                         const std::function<double(const YawShift&)>& prior = {});
+
+/// SearchPoses without a prior, and what it has not refined.
+struct SearchedPoses {
+  std::vector<PoseHypothesis> found;  ///< distinct, best first
+  std::size_t looked_at = 0;          ///< number of coarse poses
+  /// log of the sum of exp(evidence) of the coarse poses that were not refined, estimated from
+  /// their scores (CoarseSearch::left_out); known in large maps only [nats]
+  double left_out = -std::numeric_limits<double>::infinity();
+};
+SearchedPoses SearchAllPoses(const LayoutLikelihood& likelihood, const PoseSearchOptions& options);
 
 }  // namespace sslcd

@@ -21,7 +21,7 @@ SemanticEvidence::SemanticEvidence(const std::vector<LayoutObject>& local, const
 
 double SemanticEvidence::Gain(int i, int j, double yaw) const {
   const LayoutObject& global = index_.objects()[j];
-  const double label = local_[i].label == global.label ? equal_label_[i] : other_label_;
+  const double label = local_[i].label == global.label ? equal_label_[i] : other_label_[i];
   return label + HeadingGain(i, global, yaw) + Appearance(i, j);
 }
 
@@ -31,10 +31,14 @@ void SemanticEvidence::PrepareLabels(double wrong_label) {
   for (const LayoutObject& object : local_) share[object.label] += 0;
   const double total = static_cast<double>(index_.objects().size() + share.size());
   const bool tells = share.size() > 1;
-  if (tells) other_label_ = std::log(wrong_label);
+  // Each wrong label is equally likely. In small maps a wrong label counts as if every object had
+  // one of its own, as when their options were chosen.
+  const bool is_large = index_.tiles() != nullptr;
+  const double confused = wrong_label / std::max(1., static_cast<double>(share.size()) - 1);
   for (const LayoutObject& object : local_) {
     const double expected = (share[object.label] + 1) / total;
     equal_label_.push_back(tells ? std::log((1 - wrong_label) / expected) : 0.);
+    other_label_.push_back(tells ? std::log(is_large ? confused / expected : wrong_label) : 0.);
   }
 }
 

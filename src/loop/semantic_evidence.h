@@ -32,7 +32,7 @@ class SemanticEvidence {
   AppearanceOptions options_;
   // gain of each local object with a correct label; 0 if there is only one label
   std::vector<double> equal_label_;
-  double other_label_ = 0;              // gain with a wrong label
+  std::vector<double> other_label_;     // the same with a wrong label
   std::vector<double> chance_heading_;  // ChanceHeadings
   mutable std::map<std::pair<int, int>, double> appearance_cache_;
 };

@@ -14,7 +14,7 @@ double Minus1000() { return -1000; }
 TEST(DecideSingleLook, TheScoreIsTheLogOddsAgainstAllRivalsAndChance) {
   SingleLookOptions options;
   options.min_evidence = 1;
-  const LoopVerdict verdict = DecideSingleLook({8, 5, 3}, 6, Minus1000, options);
+  const LoopVerdict verdict = DecideSingleLook({{8, 5, 3}, 6}, Minus1000, options);
   EXPECT_NEAR(verdict.score, 8 - std::log(std::exp(5) + std::exp(3) + std::exp(1)), 1e-12);
   EXPECT_NEAR(verdict.second_score, 5 - std::log(std::exp(8) + std::exp(3) + std::exp(1)), 1e-12);
   EXPECT_EQ(verdict.decision, LoopDecision::kAccepted);
@@ -24,7 +24,7 @@ TEST(DecideSingleLook, TheScoreIsTheLogOddsAgainstAllRivalsAndChance) {
 TEST(DecideSingleLook, WithoutARivalTheSecondScoreIsThatOfChance) {
   SingleLookOptions options;
   options.min_evidence = -2;
-  const LoopVerdict verdict = DecideSingleLook({3}, 6, Minus1000, options);
+  const LoopVerdict verdict = DecideSingleLook({{3}, 6}, Minus1000, options);
   EXPECT_NEAR(verdict.score, 5, 1e-12);
   EXPECT_NEAR(verdict.second_score, -5, 1e-12);
 }
@@ -33,8 +33,8 @@ TEST(DecideSingleLook, RefusesWhatChanceReaches) {
   SingleLookOptions options;
   options.min_evidence = 4;
   options.min_margin = -100;
-  EXPECT_EQ(DecideSingleLook({4}, 6, Minus1000, options).decision, LoopDecision::kAccepted);
-  const LoopVerdict refused = DecideSingleLook({3.9}, 6, Minus1000, options);
+  EXPECT_EQ(DecideSingleLook({{4}, 6}, Minus1000, options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({{3.9}, 6}, Minus1000, options);
   EXPECT_EQ(refused.decision, LoopDecision::kNone);
   EXPECT_THAT(refused.reason, testing::HasSubstr("chance"));
 }
@@ -43,8 +43,8 @@ TEST(DecideSingleLook, IsAmbiguousBelowTheMargin) {
   SingleLookOptions options;
   options.min_evidence = 0;
   options.min_margin = 4;
-  EXPECT_EQ(DecideSingleLook({4}, 6, Minus1000, options).decision, LoopDecision::kAccepted);
-  const LoopVerdict refused = DecideSingleLook({3.9}, 6, Minus1000, options);
+  EXPECT_EQ(DecideSingleLook({{4}, 6}, Minus1000, options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({{3.9}, 6}, Minus1000, options);
   EXPECT_EQ(refused.decision, LoopDecision::kAmbiguous);
   EXPECT_THAT(refused.reason, testing::HasSubstr("other poses"));
 }
@@ -59,13 +59,26 @@ TEST(DecideSingleLook, ABetterMirrorImageRefutesAndIsAskedLast) {
       return evidence;
     };
   };
-  EXPECT_EQ(DecideSingleLook({7}, 6, mirror(9), options).decision, LoopDecision::kAccepted);
-  const LoopVerdict refused = DecideSingleLook({7}, 6, mirror(9.1), options);
+  EXPECT_EQ(DecideSingleLook({{7}, 6}, mirror(9), options).decision, LoopDecision::kAccepted);
+  const LoopVerdict refused = DecideSingleLook({{7}, 6}, mirror(9.1), options);
   EXPECT_EQ(refused.decision, LoopDecision::kNone);
   EXPECT_THAT(refused.reason, testing::HasSubstr("mirror"));
   EXPECT_EQ(asked, 2);
-  DecideSingleLook({7, 7}, 6, mirror(0), options);
+  DecideSingleLook({{7, 7}, 6}, mirror(0), options);
   EXPECT_EQ(asked, 2) << "two equal poses are ambiguous anyway";
+}
+
+TEST(DecideSingleLook, WhatTheSearchLeftOutIsARival) {
+  SingleLookOptions options;
+  options.min_evidence = 0;
+  options.min_margin = 2;
+  SingleLook look{{8, 3}, 6};
+  look.left_out = 4;
+  const LoopVerdict verdict = DecideSingleLook(look, Minus1000, options);
+  EXPECT_NEAR(verdict.score, 8 - std::log(std::exp(3) + std::exp(4) + std::exp(0)), 1e-12);
+  EXPECT_EQ(verdict.decision, LoopDecision::kAccepted);
+  look.left_out = 7;
+  EXPECT_EQ(DecideSingleLook(look, Minus1000, options).decision, LoopDecision::kAmbiguous);
 }
 
 // A track that everything speaks for.

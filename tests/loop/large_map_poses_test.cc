@@ -47,12 +47,12 @@ TEST(LargeMapPoses, RowsAndNoRowsInOneMap) {
 
 TEST(LargeMapPoses, OddLayouts) {
   const LayoutIndex index(CarParks(20, 1), 50, 2);
-  EXPECT_TRUE(LargeMapPoses({}, index, {}).empty());
+  EXPECT_TRUE(LargeMapPoses({}, index, {}).best.empty());
   std::vector<LayoutPoint> many;
   for (int i = 0; i < 20000; ++i)
     many.push_back(
         {0.02f * static_cast<float>(i % 1000), 0.9f * static_cast<float>(i / 1000), 0, 0});
-  EXPECT_LE(LargeMapPoses(many, index, {}).size(), 100u);
+  EXPECT_LE(LargeMapPoses(many, index, {}).best.size(), 100u);
 }
 
 TEST(LargeMapPoses, AllObjectsAtOnePoint) {

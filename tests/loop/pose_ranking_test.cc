@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "loop/layout_index.h"
 #include "row_cases.h"
@@ -33,9 +34,10 @@ struct Scene {
 
 TEST(RankPoses, AlignsAndPutsTheTruthFirst) {
   const Scene scene;
-  const std::vector<CoarsePose> ranked = RankPoses(
-      {scene.At(2.5, 0, 0), scene.At(0.5, -0.4, 0.03), scene.At(0, 8, 0), scene.At(105, 75, M_PI)},
-      scene.points, scene.index, scene.options);
+  const std::vector<CoarsePose> ranked = RankPoses({scene.At(2.5, 0, 0), scene.At(0.5, -0.4, 0.03),
+                                                    scene.At(0, 8, 0), scene.At(105, 75, M_PI)},
+                                                   scene.points, scene.index, scene.options)
+                                             .best;
   ASSERT_GE(ranked.size(), 2u);
   const Vec3 place = Apply(scene.truth, scene.centre);
   EXPECT_NEAR(ranked[0].x, place.x(), 0.1);
@@ -51,13 +53,37 @@ TEST(RankPoses, KeepsDistinctOnesUpToTheLimit) {
   std::vector<CoarsePose> poses;
   for (int i = 0; i < 60; ++i) poses.push_back(scene.At(2.5 * (i % 12), 8 * (i / 12), 0));
   for (int i = 0; i < 20; ++i) poses.push_back(scene.At(0.02 * i, 0, 0));
-  const std::vector<CoarsePose> all = RankPoses(poses, scene.points, scene.index, scene.options);
+  const std::vector<CoarsePose> all =
+      RankPoses(poses, scene.points, scene.index, scene.options).best;
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       EXPECT_GT(std::hypot(all[i].x - all[j].x, all[i].y - all[j].y), 0.9);
   scene.options.refine = 5;
-  EXPECT_EQ(RankPoses(poses, scene.points, scene.index, scene.options).size(), 5u);
-  EXPECT_TRUE(RankPoses({}, scene.points, scene.index, scene.options).empty());
+  EXPECT_EQ(RankPoses(poses, scene.points, scene.index, scene.options).best.size(), 5u);
+  EXPECT_TRUE(RankPoses({}, scene.points, scene.index, scene.options).best.empty());
+}
+
+TEST(RankPoses, LeavesOutWhatIsLessLikely) {
+  Scene scene;
+  std::vector<CoarsePose> poses;
+  for (int i = 0; i < 60; ++i) poses.push_back(scene.At(2.5 * (i % 12), 8 * (i / 12), 0));
+  const CoarseSearch all = RankPoses(poses, scene.points, scene.index, scene.options);
+  EXPECT_EQ(all.looked_at, poses.size());
+  EXPECT_EQ(all.left_out, -std::numeric_limits<double>::infinity());
+  scene.options.refine = 5;
+  const CoarseSearch few = RankPoses(poses, scene.points, scene.index, scene.options);
+  EXPECT_LT(few.left_out, -3) << "the truth is not left out";
+  // a grid of equal objects: as likely as what is kept, and more of them
+  std::vector<LayoutObject> grid;
+  for (int i = 0; i < 2500; ++i) grid.push_back(ObjectAt({2.5 * (i % 50), 6. * (i / 50), 0}));
+  const LayoutIndex index(grid, 50, 2);
+  const std::vector<LayoutPoint> points = {{-2.5, 0, 0, 0}, {2.5, 0, 0, 0}, {0, 6, 0, 0}};
+  std::vector<CoarsePose> equal(40);
+  for (int i = 0; i < 40; ++i) {
+    equal[i].x = 2.5f * static_cast<float>(2 + i);
+    equal[i].y = 60;
+  }
+  EXPECT_NEAR(RankPoses(equal, points, index, scene.options).left_out, std::log(35. / 5), 0.2);
 }
 
 TEST(RankPoses, FewerUnseenObjectsAreBetter) {
@@ -70,7 +96,7 @@ TEST(RankPoses, FewerUnseenObjectsAreBetter) {
   const std::vector<LayoutPoint> points = {{-10, 0, 0, 0}, {10, 0, 0, 0}};
   CoarsePose full, empty;
   full.x = 500;
-  const std::vector<CoarsePose> ranked = RankPoses({full, empty}, points, index, {});
+  const std::vector<CoarsePose> ranked = RankPoses({full, empty}, points, index, {}).best;
   ASSERT_EQ(ranked.size(), 2u);
   EXPECT_NEAR(ranked[0].x, 0, 1e-3);
   EXPECT_GT(ranked[0].score, ranked[1].score + 1);

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "layout_cases.h"
 #include "loop/appearance_likelihood.h"
 #include "loop/heading_density.h"
+#include "row_cases.h"
 
 namespace sslcd {
 namespace {
@@ -29,6 +29,25 @@ TEST(SemanticEvidence, RareLabelsCountMore) {
   EXPECT_NEAR(evidence.Gain(0, 0, 0), std::log(0.9 * 6 / 4), 1e-12);
   EXPECT_NEAR(evidence.Gain(1, 3, 0), std::log(0.9 * 6 / 2), 1e-12);
   EXPECT_NEAR(evidence.Gain(0, 3, 0), std::log(0.1), 1e-12);
+}
+
+TEST(SemanticEvidence, InALargeMapWrongLabelsAreEquallyLikely) {
+  const std::vector<LayoutObject> map = CarParks(20, 1);
+  const LayoutIndex index(map, 50, 2);
+  ASSERT_NE(index.tiles(), nullptr);
+  const std::vector<LayoutObject> local = WithLabels({0, 1});
+  LayoutLikelihoodOptions options;
+  options.wrong_label = 0.1;
+  const SemanticEvidence evidence(local, index, options);
+  const auto of_label = [&](int label) {
+    for (std::size_t i = 0; i < map.size(); ++i)
+      if (map[i].label == label) return static_cast<int>(i);
+    return -1;
+  };
+  // of three labels: .9 for the right one, .05 for each of the others
+  for (const int i : {0, 1})
+    EXPECT_NEAR(evidence.Gain(i, of_label(i), 0) - evidence.Gain(i, of_label(2), 0),
+                std::log(0.9 / 0.05), 1e-9);
 }
 
 TEST(SemanticEvidence, OneLabelIsNoEvidence) {

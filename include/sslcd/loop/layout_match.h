@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct LayoutAnswer : LoopVerdict {
   /// Distinct poses, best first; may be empty. The answer is the first. Matches are indices into
   /// the objects as given.
   std::vector<PoseHypothesis> hypotheses;
+  std::size_t looked_at = 0;  ///< number of coarse poses that the search has scored
+  /// Log of the sum of exp(evidence) of those that it has not refined, estimated; known in large
+  /// maps only, where it counts against the answer (docs/decision.md). [nats]
+  double left_out = -std::numeric_limits<double>::infinity();
 };
 
 /// Searches the pose of the local map in the global one without a prior and decides whether to
