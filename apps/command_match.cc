@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "core/for_each.h"
 #include "formats/atomic_file.h"
 #include "formats/pairs.h"
+#include "loop/layout_index.h"
 #include "loop/layout_likelihood.h"
 #include "loop/paper_match.h"
 #include "sslcd/config/config.h"
@@ -56,12 +60,27 @@ struct Answer {
   double score = 0, second_score = 0;
   std::size_t matches = 0;
   double ms = 0;
+  std::size_t looked_at = 0;
+  double left_out = -std::numeric_limits<double>::infinity();
 };
 
-Answer MatchRobust(const LayoutPair& pair, const MatchConfiguration& configuration) {
+// What the local maps are matched with: a map of all pairs, whose index is built once, or those of
+// the pairs.
+struct Target {
+  const std::vector<LayoutObject>* map = nullptr;
+  std::optional<LayoutIndex> index;
+};
+
+Answer MatchRobust(const LayoutPair& pair, const Target& target,
+                   const MatchConfiguration& configuration) {
   const LayoutMatchOptions& options = configuration.match;
-  const LayoutAnswer found = MatchLayouts(pair.local, pair.global, options, configuration.decision);
+  const SingleLookOptions& decision = configuration.decision;
+  const LayoutAnswer found = target.index
+                                 ? MatchLayouts(pair.local, *target.index, options, decision)
+                                 : MatchLayouts(pair.local, pair.global, options, decision);
   Answer answer{found.decision, {}, found.score, found.second_score};
+  answer.looked_at = found.looked_at;
+  answer.left_out = found.left_out;
   if (!found.hypotheses.empty()) {
     answer.pose = found.hypotheses[0].pose;
     answer.matches = found.hypotheses[0].fit.matches.size();
@@ -70,14 +89,15 @@ Answer MatchRobust(const LayoutPair& pair, const MatchConfiguration& configurati
 }
 
 // The paper's two stages and a least-squares pose from all matches. It accepts every answer.
-Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
+Answer MatchPaper(const LayoutPair& pair, const std::vector<LayoutObject>& global,
+                  const PaperMatchOptions& options) {
   Answer answer;
-  const auto matches = PaperMatch(pair.local, pair.global, options);
+  const auto matches = PaperMatch(pair.local, global, options);
   if (!matches) return answer;
   std::vector<Vec3> from, to;
   for (const ObjectMatch& match : *matches) {
     from.push_back(pair.local[match.local].position);
-    to.push_back(pair.global[match.global].position);
+    to.push_back(global[match.global].position);
     answer.score += match.similarity;
   }
   answer.decision = LoopDecision::kAccepted;
@@ -86,44 +106,57 @@ Answer MatchPaper(const LayoutPair& pair, const PaperMatchOptions& options) {
   return answer;
 }
 
-Answer TimedMatch(const LayoutPair& pair, const MatchConfiguration& configuration) {
+Answer TimedMatch(const LayoutPair& pair, const Target& target,
+                  const MatchConfiguration& configuration) {
   const auto start = std::chrono::steady_clock::now();
-  Answer answer = configuration.mode == Mode::kPaper ? MatchPaper(pair, configuration.paper)
-                                                     : MatchRobust(pair, configuration);
+  Answer answer =
+      configuration.mode == Mode::kPaper
+          ? MatchPaper(pair, target.map ? *target.map : pair.global, configuration.paper)
+          : MatchRobust(pair, target, configuration);
   answer.ms =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return answer;
 }
 
-std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs,
+std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Target& target,
                              const MatchConfiguration& configuration, int threads,
                              const Console& console) {
   std::vector<Answer> answers(pairs.size());
   ForEach(
       pairs.size(), threads,
-      [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], configuration); },
+      [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], target, configuration); },
       [&](int done, int total) { console.Progress("pair", done, total); });
   console.EndProgress();
   return answers;
 }
 
 std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>& answers) {
-  std::string text = "pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,ms\n";
+  std::string text =
+      "pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,looked_at,left_out,ms\n";
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Answer& a = answers[i];
     text +=
         std::to_string(pairs[i].id) + "," + ToString(a.decision) + "," + Number("%.6f", a.pose.yaw);
     for (int axis = 0; axis < 3; ++axis) text += "," + Number("%.4f", a.pose.t[axis]);
     text += "," + Number("%.3f", a.score) + "," + Number("%.3f", a.second_score) + "," +
-            std::to_string(a.matches) + "," + Number("%.3f", a.ms) + "\n";
+            std::to_string(a.matches) + "," + std::to_string(a.looked_at) + "," +
+            (std::isfinite(a.left_out) ? Number("%.3f", a.left_out) : "") + "," +
+            Number("%.3f", a.ms) + "\n";
   }
   return text;
 }
 
 int Match(const MatchArguments& a, const Console& console) {
   const MatchConfiguration configuration = Load(a.config);
-  const std::vector<LayoutPair> pairs = ReadLayoutPairs(a.pairs);
-  const std::vector<Answer> answers = MatchAll(pairs, configuration, a.threads, console);
+  const LayoutPairFile file = ReadLayoutPairFile(a.pairs);
+  const std::vector<LayoutPair>& pairs = file.pairs;
+  Target target;
+  if (file.map) {
+    target.map = &*file.map;
+    if (configuration.mode == Mode::kRobust)
+      target.index.emplace(*file.map, configuration.match.max_pair_m, configuration.match.reach_m);
+  }
+  const std::vector<Answer> answers = MatchAll(pairs, target, configuration, a.threads, console);
   if (a.out.empty()) {
     std::fputs(Csv(pairs, answers).c_str(), stdout);
     return 0;

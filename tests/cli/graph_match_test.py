@@ -140,7 +140,7 @@ class GraphMatchTest(CliCase):
         result = call('match', self.strewn_pairs())
         self.assertEqual((result.returncode, result.stderr), (0, ''))
         rows = [row.split(',') for row in result.stdout.splitlines()]
-        self.assertEqual(rows[0], 'pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,ms'.split(','))
+        self.assertEqual(rows[0], 'pair,decision,yaw_rad,tx,ty,tz,score,second_score,matches,looked_at,left_out,ms'.split(','))
         self.assertEqual(rows[1][:2] + rows[1][8:9], ['5', 'accepted', '8'])
         for value, truth in zip(rows[1][2:6], (1.5707963, 10, 20, 0.5)):
             self.assertAlmostEqual(float(value), truth, places=3)
@@ -167,6 +167,26 @@ class GraphMatchTest(CliCase):
         self.assertEqual(unknown.returncode, 4)
         self.assertIn("did you mean 'min_margin'", unknown.stderr)
 
+    def test_match_reads_one_map_for_many_queries(self):
+        spots = [(0, 0), (7, 1), (13, -4), (3, 12), (-9, 5), (-4, -11), (18, 9), (-15, -3)]
+        rows = [f'MAP {len(spots)}']
+        rows += [f'G {k} {k % 3} {x + 10} {y + 20} 0.5' for k, (x, y) in enumerate(spots)]
+        for pair in (5, 7):
+            rows += [f'PAIR {pair} made/up {len(spots)} 0 1.5707963 10 20 0.5']
+            rows += [f'L -1 {k % 3} {y} {-x} 0' for k, (x, y) in enumerate(spots)]
+        whole = call('match', self.strewn_pairs()).stdout.splitlines()
+        result = call('match', self.pairs(*rows, 'PAIR 6 empty 0 0 0 0 0 0'), '--threads', 2)
+        self.assertEqual((result.returncode, result.stderr), (0, ''))
+        answers = [row.rsplit(',', 1)[0].split(',') for row in result.stdout.splitlines()]
+        self.assertEqual([row[0] for row in answers], ['pair', '5', '7', '6'])
+        self.assertEqual(answers[1], whole[1].rsplit(',', 1)[0].split(','))
+        self.assertEqual(answers[1][1:], answers[2][1:])
+        self.assertGreater(int(answers[1][answers[0].index('looked_at')]), 10)
+        self.assertEqual(call('match', self.pairs(*rows), '--mode', 'paper').returncode, 0)
+        cut = call('match', self.pairs(*rows[:5], *rows[9:]))
+        self.assertEqual(cut.returncode, 3)
+        self.assertIn('pairs.txt:1: the map announces 8 G rows, but has 4', cut.stderr)
+
     def test_match_refuses_bad_files(self):
         def refuse(code, path, *messages):
             result = call('match', path)
@@ -178,7 +198,7 @@ class GraphMatchTest(CliCase):
         refuse(3, self.pairs(''), 'pairs.txt: holds no pair')
         refuse(3, self.pairs(pair), 'pairs.txt:1: pair 0 announces 1 L rows, but has 0')
         refuse(3, self.pairs(pair, 'L 0 0 1 nan 3'), "pairs.txt:2: column 5 is 'nan'")
-        refuse(3, self.pairs(pair, 'Q 0 0 1 2 3'), "pairs.txt:2: a row starts with PAIR, L or G, not with 'Q'")
+        refuse(3, self.pairs(pair, 'Q 0 0 1 2 3'), "pairs.txt:2: a row starts with MAP, PAIR, L or G, not with 'Q'")
         refuse(3, self.data, 'is a folder')
         self.assertEqual(call('match').returncode, 2)
         self.assertEqual(call('match', self.strewn_pairs(), '--threads', '0').returncode, 2)
