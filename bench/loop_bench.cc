@@ -6,7 +6,8 @@
 //
 //   loop_bench [OBJECTS...]
 //
-// Maps of constant density, three labels; local maps of 15 mapped objects and 3 others, noise 0.3 m
+// Maps of constant density, three labels: strewn, along streets, and car parks with regular rows;
+// local maps of 15 mapped objects and 3 others, noise 0.3 m
 // per axis, one object of five missed, any heading. Prints one row for each map.
 #include <algorithm>
 #include <cmath>
@@ -40,9 +41,33 @@ LayoutObject ObjectAt(double x, double y, sim::Random& random) {
   return object;
 }
 
-// 0.0076 objects per square metre, which are 15 within 25 m. `streets`: on both kerbs of streets
-// that are 100 m apart, about one object per 13 m of kerb; otherwise anywhere.
-std::vector<LayoutObject> Map(int count, bool streets, sim::Random& random) {
+enum class World { kStrewn, kStreets, kLots };
+
+const char* NameOf(World world) {
+  constexpr const char* kNames[] = {"strewn", "streets", "lots"};
+  return kNames[static_cast<int>(world)];
+}
+
+// Car parks of 33 x 7 places, 2.5 m and 8 m apart, of which three of five are taken, 105 m and 75 m
+// from one to the next.
+std::vector<LayoutObject> Lots(int count, sim::Random& random) {
+  const int per_row = std::max(1, static_cast<int>(std::sqrt(count / 139. * 75 / 105)));
+  std::vector<LayoutObject> map;
+  for (int lot = 0; static_cast<int>(map.size()) < count; ++lot)
+    for (int place = 0; place < 33 * 7 && static_cast<int>(map.size()) < count; ++place) {
+      if (!random.Chance(0.6)) continue;
+      const double x = 105. * (lot % per_row) + 2.5 * (place % 33),
+                   y = 75. * (lot / per_row) + 8. * (place / 33);
+      map.push_back(ObjectAt(x + random.Normal(0, 0.15), y + random.Normal(0, 0.25), random));
+    }
+  return map;
+}
+
+// 0.0076 objects per square metre, which are 15 within 25 m. Streets: on both kerbs of streets that
+// are 100 m apart, about one object per 13 m of kerb. Strewn: anywhere.
+std::vector<LayoutObject> Map(int count, World world, sim::Random& random) {
+  if (world == World::kLots) return Lots(count, random);
+  const bool streets = world == World::kStreets;
   const double side = std::sqrt(count / 0.0076);
   std::vector<LayoutObject> map;
   for (int i = 0; i < count; ++i) {
@@ -87,9 +112,9 @@ double Quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-void Measure(int count, bool streets) {
+void Measure(int count, World world) {
   sim::Random random(7, static_cast<std::uint64_t>(count));
-  const std::vector<LayoutObject> map = Map(count, streets, random);
+  const std::vector<LayoutObject> map = Map(count, world, random);
   const LayoutMatchOptions options;
   std::vector<double> build_ms, search_ms, match_ms;
   PoseSearchOptions search = options.search;
@@ -123,7 +148,7 @@ void Measure(int count, bool streets) {
       "%-7s %7d  build %8.2f ms  search p50 %6.2f  p95 %6.2f ms  match p50 %6.2f  p95 %6.2f ms  of "
       "%d: best right %d  "
       "accepted right %d  wrong %d\n",
-      streets ? "streets" : "strewn", count, Quantile(build_ms, 0.5), Quantile(search_ms, 0.5),
+      NameOf(world), count, Quantile(build_ms, 0.5), Quantile(search_ms, 0.5),
       Quantile(search_ms, 0.95), Quantile(match_ms, 0.5), Quantile(match_ms, 0.95), kQueries, right,
       accepted, wrong);
   std::fflush(stdout);
@@ -196,7 +221,7 @@ class Run {
   PassLayouts::Mark mark_;
 };
 
-void MeasureAttempts(int count, bool streets) {
+void MeasureAttempts(int count, World world) {
   constexpr int kAttempts = 60;
   constexpr double kLocal = 75.,
                    kOld = 85.;  // path from the ends of the two layouts to the newest frame [m]
@@ -204,7 +229,7 @@ void MeasureAttempts(int count, bool streets) {
   PoseSearchOptions search = options.search;
   search.refine = PoseTrackOptions().max_tracks;
   sim::Random random(8, static_cast<std::uint64_t>(count));
-  Run run(Map(count + 10 * kAttempts, streets, random), random);
+  Run run(Map(count + 10 * kAttempts, world, random), random);
   for (int driven = 0; driven < count; driven += 10) run.Drive();
   LayoutIndex index(run.ChangesBefore(kOld).objects, options.max_pair_m, options.reach_m);
   std::vector<double> layouts_ms, follow_ms, search_ms, whole_ms;
@@ -227,9 +252,9 @@ void MeasureAttempts(int count, bool streets) {
       "%-7s %7d  attempt: %4.1f objects change  layouts p50 %6.2f  index p50 %6.2f  p95 %6.2f  "
       "search p50 %6.2f  "
       "whole p50 %6.2f  p95 %6.2f ms\n",
-      streets ? "streets" : "strewn", count, changed, Quantile(layouts_ms, 0.5),
-      Quantile(follow_ms, 0.5), Quantile(follow_ms, 0.95), Quantile(search_ms, 0.5),
-      Quantile(whole_ms, 0.5), Quantile(whole_ms, 0.95));
+      NameOf(world), count, changed, Quantile(layouts_ms, 0.5), Quantile(follow_ms, 0.5),
+      Quantile(follow_ms, 0.95), Quantile(search_ms, 0.5), Quantile(whole_ms, 0.5),
+      Quantile(whole_ms, 0.95));
   std::fflush(stdout);
 }
 
@@ -240,9 +265,10 @@ int main(int argc, char** argv) {
   std::vector<int> counts{200, 500, 1000, 2000, 5000, 10000, 30000, 100000};
   if (argc > 1) counts.clear();
   for (int i = 1; i < argc; ++i) counts.push_back(std::max(30, std::atoi(argv[i])));
-  for (const bool streets : {false, true})
+  for (const sslcd::World world :
+       {sslcd::World::kStrewn, sslcd::World::kStreets, sslcd::World::kLots})
     for (const int count : counts) {
-      sslcd::Measure(count, streets);
-      sslcd::MeasureAttempts(count, streets);
+      sslcd::Measure(count, world);
+      sslcd::MeasureAttempts(count, world);
     }
 }

@@ -14,6 +14,9 @@ namespace {
 // 120 places in car parks and streets with 95 000 objects the peak of the right pose was among the
 // best 2000 in 115, and 5000 bring one more.
 constexpr std::size_t kPeaksPerKept = 25, kFewestPeaks = 1000;
+// Number of poses by triangles to rank in tiles that have been searched: rows of few objects may
+// suggest wrong headings. Set by hand.
+constexpr std::size_t kMostInRows = 300;
 // Number of local objects that propose poses, those next to the centre. Bounds the time.
 constexpr std::size_t kMostLocal = 200;
 
@@ -30,10 +33,11 @@ CoarseSearch LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& i
   const std::size_t keep = options.refine;
   RasterPoses found = SearchRasters(points, index, std::max(kFewestPeaks, kPeaksPerKept * keep));
   std::vector<CoarsePose>& poses = found.poses;
-  if (!found.searched_all) {
-    for (const CoarsePose& pose : TrianglePoses(points, index))
-      if (!found.HasSearched(*index.tiles(), pose)) poses.push_back(pose);
-  }
+  std::vector<CoarsePose> in_rows;
+  for (const CoarsePose& pose : TrianglePoses(points, index))
+    (found.HasSearched(*index.tiles(), pose) ? in_rows : poses).push_back(pose);
+  KeepMostVoted(kMostInRows, in_rows);
+  poses.insert(poses.end(), in_rows.begin(), in_rows.end());
   return RankPoses(std::move(poses), points, index, options);
 }
 

@@ -131,10 +131,7 @@ RasterPoses SearchRasters(const std::vector<LayoutPoint>& points, const LayoutIn
   map.VisitAll([&](const MapTiles::Tile& tile) {
     if (tile.points.empty()) return;
     const auto headings = pair_directions::FindHeadings(local_pairs, tile.pairs);
-    if (headings.count == 0) {
-      found.searched_all = false;
-      return;
-    }
+    if (headings.count == 0) return;
     found.searched.insert(&tile);
     raster.Enter(map, tile);
     for (int i = 0; i < headings.count; ++i) {

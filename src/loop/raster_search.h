@@ -17,7 +17,6 @@ struct RasterPoses {
   float cut_off = 0;
   /// tiles where rows have a common heading with the local objects
   std::unordered_set<const MapTiles::Tile*> searched;
-  bool searched_all = true;  ///< no tile is without such rows
 
   bool HasSearched(const MapTiles& map, const CoarsePose& pose) const;
 };

@@ -131,21 +131,25 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
     for (const ObjectTriangle* other : found)
       Lay(triangle, points, *other, index.points(), tolerance, poses);
   }
-  if (poses.size() <= kMaxPoses) return poses;
-
   Votes votes(poses.size());
   for (const CoarsePose& pose : poses) votes.Add(pose);
-  std::vector<int> near;
-  for (const CoarsePose& pose : poses) near.push_back(votes.CountNear(pose));
-  std::vector<int> sorted = near;
-  std::nth_element(sorted.begin(), sorted.begin() + kMaxPoses, sorted.end(), std::greater<>());
-  const int enough = sorted[kMaxPoses];
+  for (CoarsePose& pose : poses) pose.score = static_cast<float>(votes.CountNear(pose));
+  KeepMostVoted(kMaxPoses, poses);
+  return poses;
+}
+
+void KeepMostVoted(std::size_t most, std::vector<CoarsePose>& poses) {
+  if (poses.size() <= most) return;
+  std::vector<float> sorted;
+  for (const CoarsePose& pose : poses) sorted.push_back(pose.score);
+  const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(sorted.begin(), last, sorted.end(), std::greater<>());
   std::vector<CoarsePose> kept;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    if (near[i] > enough) kept.push_back(poses[i]);
-  for (std::size_t i = 0; i < poses.size() && kept.size() < kMaxPoses; ++i)
-    if (near[i] == enough) kept.push_back(poses[i]);
-  return kept;
+  for (const CoarsePose& pose : poses)
+    if (pose.score > *last) kept.push_back(pose);
+  for (std::size_t i = 0; i < poses.size() && kept.size() < most; ++i)
+    if (poses[i].score == *last) kept.push_back(poses[i]);
+  poses = std::move(kept);
 }
 
 }  // namespace sslcd

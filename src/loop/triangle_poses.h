@@ -8,10 +8,14 @@
 
 namespace sslcd {
 
-/// Poses from aligning triangles of the local map with equal ones of the global map, without a
-/// score. If there are many, returns those with most votes. `points` are the local ones with the
-/// centre at the origin. The number of poses is bounded for any size of the map.
+/// Poses from aligning triangles of the local map with equal ones of the global map. `score` is the
+/// number of votes: poses near it. If there are many, returns those with most votes. `points` are
+/// the local ones with the centre at the origin. The number of poses is bounded for any size of the
+/// map.
 std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
                                       const LayoutIndex& index);
+
+/// Keeps the poses with the highest scores, of equal ones the first.
+void KeepMostVoted(std::size_t most, std::vector<CoarsePose>& poses);
 
 }  // namespace sslcd

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <random>
 #include <set>
 
-#include "layout_cases.h"
+#include "loop/raster_search.h"
 #include "loop/triangle_index.h"
+#include "row_cases.h"
 
 namespace sslcd {
 namespace {
@@ -164,6 +166,18 @@ void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double
     EXPECT_EQ(Found(kept, triangle), Found(fresh, triangle));
 }
 
+// The poses of a car park's corner in a large map, in a fixed order.
+std::vector<std::array<float, 5>> PosesIn(const LayoutIndex& index) {
+  Vec3 centre;
+  const std::vector<LayoutPoint> points =
+      CentredPoints(SeenFrom(CarParks(4, 7), {0.4, {1, 2, 0}}, {3, 2}, 14, 0.2, 1), centre);
+  std::vector<std::array<float, 5>> poses;
+  for (const CoarsePose& p : SearchRasters(points, index, 300).poses)
+    poses.push_back({p.score, p.x, p.y, p.cosine, p.sine});
+  std::sort(poses.begin(), poses.end());
+  return poses;
+}
+
 // A map that changes at random, as somebody keeps it who has no index.
 struct ChangingMap {
   ChangingMap(int count, double side_m) : side(side_m), random(static_cast<unsigned>(count)) {
@@ -260,6 +274,40 @@ TEST(LayoutIndex, AnswersAfterUpdatesAsABuiltOneDoes) {
       if (round % 5 == 0) ExpectSameAnswers(kept, LayoutIndex(map.All(), 50, 2), side / 2 + 20);
     }
   }
+}
+
+TEST(LayoutIndex, UpdatedTilesAreSearchedAsBuiltOnesAre) {
+  std::vector<LayoutObject> map = CarParks(20, 7);
+  LayoutIndex kept(map, 50, 2);
+  ASSERT_NE(kept.tiles(), nullptr);
+  const auto before = PosesIn(kept);
+  EXPECT_GT(before.size(), 50u);
+  std::mt19937 random(5);
+  for (int round = 0; round < 20; ++round) {
+    std::vector<LayoutObject> changed;
+    std::vector<int> removed;
+    for (int i = 0; i < 10; ++i) {  // moved
+      LayoutObject& object = map[random() % map.size()];
+      if (ChangingMap::Holds(changed, object.id)) continue;
+      object.position += Vec3(3. * (random() % 100) - 150, 0.1 * (random() % 10), 0);
+      changed.push_back(object);
+    }
+    for (int i = 0; i < 5; ++i) {  // come
+      map.push_back(ObjectAt({1. * (random() % 400), 1. * (random() % 300), 0}));
+      map.back().id = 100000 + 5 * round + i;
+      changed.push_back(map.back());
+    }
+    for (int i = 0; i < 5; ++i) {  // go
+      const auto at = map.begin() + static_cast<std::ptrdiff_t>(random() % map.size());
+      if (ChangingMap::Holds(changed, at->id)) continue;
+      removed.push_back(at->id);
+      map.erase(at);
+    }
+    kept.Update(changed, removed);
+  }
+  const auto after = PosesIn(kept);
+  EXPECT_NE(after, before);
+  EXPECT_EQ(after, PosesIn(LayoutIndex(map, 50, 2)));
 }
 
 TEST(LayoutIndex, UpdatesOfAllAndOfNothing) {

@@ -52,7 +52,6 @@ TEST(SearchRasters, KnowsWhereItHasSearched) {
   Vec3 centre;
   const std::vector<LayoutObject> local = SeenFrom(map, {1, {0, 0, 0}}, {5, 5}, 14, 0.2, 1);
   const RasterPoses peaks = SearchRasters(CentredPoints(local, centre), index, 500);
-  EXPECT_FALSE(peaks.searched_all);
   CoarsePose pose;
   int rows = 0, strewn = 0;
   for (int i = 0; i < 5; ++i)

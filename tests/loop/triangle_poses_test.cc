@@ -72,6 +72,13 @@ TEST(TrianglePoses, AreBoundedAndRepeatable) {
     EXPECT_EQ(a[i].x, b[i].x);
     EXPECT_EQ(a[i].sine, b[i].sine);
   }
+  std::vector<CoarsePose> kept = a;
+  KeepMostVoted(50, kept);
+  EXPECT_EQ(kept.size(), 50u);
+  float least = 1e9f;
+  for (const CoarsePose& pose : kept) least = std::min(least, pose.score);
+  EXPECT_LE(std::count_if(a.begin(), a.end(), [&](const auto& pose) { return pose.score > least; }),
+            50);
   EXPECT_TRUE(TrianglePoses({}, Index()).empty());
   EXPECT_TRUE(TrianglePoses({points[0], points[1]}, Index()).empty());
 }
