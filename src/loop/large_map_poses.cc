@@ -13,7 +13,7 @@ namespace {
 // Number of peaks of the correlation to rank, per pose that is kept, and at least. Set by hand: of
 // 120 places in car parks and streets with 95 000 objects the peak of the right pose was among the
 // best 2000 in 115, and 5000 bring one more.
-constexpr std::size_t kPeaksPerKept = 25, kFewestPeaks = 1000;
+constexpr std::size_t kPeaksPerKept = 25, kFewestPeaks = 500;
 // Number of poses by triangles to rank in tiles that have been searched: rows of few objects may
 // suggest wrong headings. Set by hand.
 constexpr std::size_t kMostInRows = 300;
