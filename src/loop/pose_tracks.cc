@@ -35,6 +35,26 @@ std::vector<int> IdsOf(const std::vector<LayoutObject>& objects) {
 // A pose is excluded by odometry below this prior. Set by hand. [nats]
 constexpr double kExcluded = -10;
 
+// A pose is a copy of a track if its layout fits at least this well relative to the track's: where
+// odometry excludes it, it shows that the map repeats itself; elsewhere it is a rival
+// (docs/decision.md, "Numbers").
+constexpr double kShownCopy = 0.75, kRivalCopy = 0.5;
+
+double LayoutOf(const PoseTrack& track) {
+  return track.evidence - track.prior.level - track.prior.height;
+}
+
+bool IsExcluded(const PosePrior& prior) { return prior.level + prior.height <= kExcluded; }
+
+// Whether the map has copies of the place of a track: another pose fits nearly as well, and
+// odometry excludes it.
+bool HasCopies(const PoseTrack& track, const std::vector<PoseTrack>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const PoseTrack& other) {
+    return &other != &track && IsExcluded(other.prior) &&
+           LayoutOf(other) >= kShownCopy * LayoutOf(track);
+  });
+}
+
 // Number of different objects in the local maps of several attempts.
 double CountObjects(const std::vector<PoseTrack::Vote>& votes) {
   std::vector<int> all;
@@ -117,7 +137,7 @@ void PoseTracks::Update(const LayoutLikelihood& likelihood,
     track.id = next_id_++;
     if (attempt.HasTrackAt(hypothesis.pose)) continue;
     track.prior = prior(hypothesis.pose, hypothesis.fit);
-    if (track.prior.level + track.prior.height > kExcluded)
+    if (!IsExcluded(track.prior))
       FollowBack(likelihood, hypothesis.pose, search.min_matches, track);
     AddVote(std::move(track), hypothesis.pose, hypothesis.fit, attempt);
   }
@@ -143,19 +163,26 @@ void PoseTracks::FollowBack(const LayoutLikelihood& likelihood, const YawShift& 
   }
 }
 
-double PoseTracks::Margin(std::size_t track) const {
+double PoseTracks::Margin(std::size_t number) const {
   // A place that looks like a track's may be anywhere, also above it: neither of the priors that
   // speak against the track speaks against such a place.
   double alike = -std::numeric_limits<double>::infinity();
   for (const PoseTrack& each : tracks_)
     alike = std::max(alike, each.evidence - each.prior.height - std::min(0., each.prior.level) +
                                 std::log(options_.look_alike));
-  std::vector<double> evidence = {LogSumExp({0., alike})};  // of "nowhere", then of the tracks
-  for (const PoseTrack& each : tracks_) evidence.push_back(each.evidence);
-  const std::size_t subject = track < tracks_.size() ? track + 1 : 0;
-  const double own = evidence[subject];
-  evidence.erase(evidence.begin() + static_cast<std::ptrdiff_t>(subject));
-  return own - LogSumExp(evidence);
+  const double nowhere = LogSumExp({0., alike});
+  const PoseTrack* track = number < tracks_.size() ? &tracks_[number] : nullptr;
+  const bool has_copies = track && HasCopies(*track, tracks_);
+  std::vector<double> others;
+  if (track) others.push_back(nowhere);
+  for (const PoseTrack& other : tracks_) {
+    if (&other == track) continue;
+    others.push_back(other.evidence);
+    if (has_copies && LayoutOf(other) >= kRivalCopy * LayoutOf(*track))
+      others.back() =
+          std::max(other.evidence, LayoutOf(*track) + other.prior.level + other.prior.height);
+  }
+  return (track ? track->evidence : nowhere) - LogSumExp(others);
 }
 
 void PoseTracks::Move(const YawShift& change) {

@@ -55,8 +55,9 @@ class PoseTracks {
 
   /// Log odds of a track against all others and against "nowhere"; those of "nowhere" against all
   /// tracks where there is no track of that number. At least one track. "Nowhere" is a place that
-  /// is not in the map: it looks like chance, or like the place of a track. [nats]
-  double Margin(std::size_t track) const;
+  /// is not in the map: it looks like chance, or like the place of a track. Where the map repeats
+  /// itself, only odometry tells a track from its copies. [nats]
+  double Margin(std::size_t number) const;
 
   /// Transforms the tracks after a change of the local map's coordinates: new = change(old).
   void Move(const YawShift& change);
