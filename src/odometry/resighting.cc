@@ -55,15 +55,22 @@ double VerticalPosterior(const std::vector<Resighting>& all,
 }  // namespace
 
 OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings) {
-  const auto horizontal = MaximiseOverLogs<3>([&](const std::array<double, 3>& log_factors) {
+  const auto apart = MaximiseOverLogs<3>([&](const std::array<double, 3>& log_factors) {
     return HorizontalPosterior(resightings, log_factors);
   });
+  double position = apart[1], heading = apart[2];
+  if (position > heading) {
+    const auto one = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
+      return HorizontalPosterior(resightings, {log_factors[0], log_factors[1], log_factors[1]});
+    });
+    position = heading = one[1];
+  }
   const auto vertical = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
     return VerticalPosterior(resightings, log_factors);
   });
   OdometryFactors factors;
-  factors.horizontal = std::exp(horizontal[1]);
-  factors.heading = std::exp(horizontal[2]);
+  factors.horizontal = std::exp(position);
+  factors.heading = std::exp(heading);
   factors.vertical = factors.tilt = std::exp(vertical[1]);
   return factors;
 }

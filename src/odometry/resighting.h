@@ -24,9 +24,10 @@ struct Resighting {
 /// Learns how accurate this odometry is before any loop closes: the factors on the configured noise
 /// that make the resightings most likely, with unknown factors on the detector's noise. Horizontal
 /// position and heading have a factor each, with a prior on their ratio, because over the path that
-/// an object stays in sight they look similar. Height and tilt share one. The likelihood is a
-/// Student-t, since some matches are wrong. Log-normal priors keep factors at one where no
-/// resightings tell otherwise.
+/// an object stays in sight they look similar. They share one if that of position came out larger,
+/// because a biased range of the detector looks like errors of position. Height and tilt always
+/// share one. The likelihood is a Student-t, since some matches are wrong. Log-normal priors keep
+/// factors at one where no resightings tell otherwise.
 OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings);
 
 }  // namespace sslcd

@@ -245,28 +245,6 @@ TEST(PoseTracks, TwoRivalsAreComparedInFull) {
   }
 }
 
-// The place itself, a copy with a fifth of the objects missing, and perhaps another copy, where
-// odometry says that the camera cannot be.
-TEST(PoseTracks, WhereTheMapRepeatsItselfOdometryAloneTellsCopiesApart) {
-  std::vector<LayoutObject> map = Strewn(20, 40, 4);
-  for (int i = 0; i < 16; ++i)
-    map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
-  std::vector<LayoutObject> repeated = map;
-  for (int i = 0; i < 20; ++i)
-    repeated.push_back(ObjectAt(map[i].position + Vec3(600, 0, 0), map[i].label));
-  const auto margin = [](const std::vector<LayoutObject>& objects, double level_of_copy) {
-    Attempts attempts(objects);
-    attempts.Update(attempts.SeenAt(0, 0, 25), 100, [=](const YawShift& pose, const LayoutFit&) {
-      return PosePrior{pose.t.x() > 450 ? -20. : pose.t.x() > 150 ? level_of_copy : 0., 0};
-    });
-    EXPECT_LT(attempts.tracks.tracks().at(0).pose.t.x(), 150);
-    return attempts.tracks.Margin(0);
-  };
-  EXPECT_GT(margin(map, -1), 5) << "four objects more";
-  EXPECT_NEAR(margin(repeated, -1), 1, 0.2) << "objects prove nothing";
-  EXPECT_NEAR(margin(repeated, -6), 6, 0.3);
-}
-
 TEST(PoseTracks, MarginHoldsWhereEvidenceIsBeyondTheRangeOfExp) {
   std::vector<LayoutObject> map = Strewn(20, 40, 4);
   for (int i = 0; i < 20; ++i)
