@@ -16,6 +16,13 @@ double LogSumExp(const std::vector<double>& values) {
   return top + std::log(sum);
 }
 
+double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
+  const auto log_beta = [](double a, double b) {
+    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+  };
+  return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
+}
+
 double Chi2Quantile(double probability, int dof) {
   double low = -40, high = 40;  // the normal distribution's quantile by bisection
   for (int i = 0; i < 100; ++i) {

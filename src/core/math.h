@@ -8,6 +8,9 @@ namespace sslcd {
 /// log(sum(exp(values))) without overflow; minus infinity for no values.
 double LogSumExp(const std::vector<double>& values);
 
+/// Log probability of a sequence of `yes` and `no` outcomes of unknown rate: the Beta-binomial.
+double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no);
+
 /// The quantile of the chi-squared distribution with `dof` degrees of freedom; Wilson and
 /// Hilferty's approximation (within 0.5 % for dof >= 3 and probabilities from .9 to .999).
 double Chi2Quantile(double probability, int dof);

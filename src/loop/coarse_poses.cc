@@ -180,14 +180,9 @@ class TopPoses {
     std::vector<CoarsePose> coarse;
     for (const auto& [cell, pose] : cells_)
       if (pose.score >= threshold_) coarse.push_back(pose);
-    const auto better = [](const CoarsePose& a, const CoarsePose& b) {
-      if (a.score != b.score) return a.score > b.score;
-      if (a.x != b.x) return a.x < b.x;
-      return a.y != b.y ? a.y < b.y : a.sine < b.sine;
-    };
     const std::size_t keep = std::min(coarse.size(), capacity_);
     std::partial_sort(coarse.begin(), coarse.begin() + static_cast<std::ptrdiff_t>(keep),
-                      coarse.end(), better);
+                      coarse.end(), IsBetter);
     coarse.resize(keep);
     return coarse;
   }
@@ -307,6 +302,12 @@ void ProposePairPoses(const std::vector<LayoutObject>& local,
 }
 
 }  // namespace
+
+bool IsBetter(const CoarsePose& a, const CoarsePose& b) {
+  if (a.score != b.score) return a.score > b.score;
+  if (a.x != b.x) return a.x < b.x;
+  return a.y != b.y ? a.y < b.y : a.sine < b.sine;
+}
 
 CoarseSearch CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
                          const LayoutIndex& index, const PoseSearchOptions& options) {

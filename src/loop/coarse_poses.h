@@ -23,6 +23,9 @@ struct CoarsePose {
   float x = 0, y = 0, z = 0;   ///< transformed centre [m]
 };
 
+/// Order of coarse poses: by score, of equal ones by place.
+bool IsBetter(const CoarsePose& a, const CoarsePose& b);
+
 /// What a search for coarse poses has found.
 struct CoarseSearch {
   std::vector<CoarsePose> best;  ///< distinct, best first

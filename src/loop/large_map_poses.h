@@ -8,10 +8,10 @@
 namespace sslcd {
 
 /// The best distinct poses in a map with MapTiles, `options.refine` at most, best first. Where the
-/// map has rows, all poses along them are searched (SearchRasters); elsewhere, and where
-/// they have most votes, triangles of neighbours propose poses (TrianglePoses); rows have them by
-/// the ten thousand. RankPoses
-/// ranks both. `points` are the local ones with the centre at the origin.
+/// map has rows, all poses at their headings are searched (SearchRasters). Elsewhere triangles of
+/// neighbours propose poses (TrianglePoses). A triangle of a row has tens of thousands of twins, so
+/// in rows only those with most votes count. RankPoses ranks both. `points` are the local ones with
+/// the centre at the origin.
 CoarseSearch LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& index,
                            const PoseSearchOptions& options);
 

@@ -10,10 +10,6 @@
 namespace sslcd {
 namespace {
 
-// Standard deviations of one object's position between two maps, per axis. The likelihood
-// marginalises over them. They span the accuracy of maps from stereo to monocular boxes; set by
-// hand. [m]
-constexpr double kSigmas[] = {0.15, 0.3, 0.5, 0.8};
 constexpr double kGate = 3.;       // gate of hard matches in standard deviations
 constexpr double kMinGain = -1.5;  // smallest evidence of a match; set by hand [nats]
 // Refine() shrinks the gate by this factor per round, down to a standard deviation. Set by hand.
@@ -32,14 +28,6 @@ constexpr double kLeastSpread = 1e-3;  // smallest variance of matches at the sa
 double HeightSigma(double sigma) {
   constexpr double kConstant = 0.06, kShare = 0.4;
   return kConstant + kShare * sigma;
-}
-
-// Log probability of a sequence of `yes` and `no` outcomes of unknown rate: the Beta-binomial.
-double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
-  const auto log_beta = [](double a, double b) {
-    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
-  };
-  return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
 }
 
 }  // namespace
@@ -198,9 +186,9 @@ LayoutFit LayoutLikelihood::Evaluate(const YawShift& pose) const {
   const double searched = index_.pose_volume();
   LayoutFit best;
   best.score = best.evidence = kNothing;
-  const double log_sigmas = std::log(static_cast<double>(std::size(kSigmas)));
+  const double log_sigmas = std::log(static_cast<double>(std::size(kPlaceSigmas)));
   double score = kNothing, evidence = kNothing;
-  for (const double sigma : kSigmas) {
+  for (const double sigma : kPlaceSigmas) {
     LayoutFit fit = Assign(candidates, in_view, on_map, sigma);
     Vec2 centre(0, 0);
     const double n = static_cast<double>(fit.matches.size());

@@ -20,6 +20,11 @@ namespace sslcd {
 /// hand.
 inline constexpr int kRefineRounds = 4;
 
+/// Standard deviations of one object's position between two maps, per axis. The likelihood
+/// marginalises over them. They span the accuracy of maps from stereo to monocular boxes; set by
+/// hand. [m]
+inline constexpr double kPlaceSigmas[] = {0.15, 0.3, 0.5, 0.8};
+
 /// The objects of an index that a local layout may match.
 struct MapLimits {
   /// Altitudes differ by no more. [m]

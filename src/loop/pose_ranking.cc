@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/math.h"
+#include "loop/layout_likelihood.h"
 #include "loop/raster_search.h"
 #include "loop/view_hull.h"
 
@@ -13,20 +14,9 @@ namespace sslcd {
 namespace {
 
 // All set by hand (docs/notes, city).
-constexpr float kRankSigmas[] = {0.15f, 0.3f, 0.5f, 0.8f};  // as in LayoutLikelihood [m]
 constexpr float kMatchGate = 1.8f;   // largest distance of objects that match [m]
 constexpr std::size_t kPerKept = 5;  // poses whose view is counted, per pose that is kept
 constexpr int kRounds = 2;           // alignments of these
-
-float LogGamma(float x) { return static_cast<float>(std::lgamma(x)); }
-
-// As in LayoutLikelihood, with the default priors.
-float LogBetaBinomial(float yes, float no, float prior_yes, float prior_no) {
-  const auto log_beta = [](float a, float b) {
-    return LogGamma(a) + LogGamma(b) - LogGamma(a + b);
-  };
-  return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
-}
 
 class Ranking {
  public:
@@ -88,9 +78,11 @@ class Ranking {
     pose.z = dz / count;
     const float error = std::max(0.f, squares - 2 * norm);  // sum of d^2 after the alignment
     pose.score = -1e9f;
-    for (const float sigma : kRankSigmas)
+    for (const double place_sigma : kPlaceSigmas) {
+      const float sigma = static_cast<float>(place_sigma);
       pose.score =
           std::max(pose.score, gains - 2 * count * std::log(sigma) - error / (2 * sigma * sigma));
+    }
     return n;
   }
 
@@ -104,14 +96,12 @@ class Ranking {
       in_view +=
           view_.Contains(pose.cosine * dx + pose.sine * dy, -pose.sine * dx + pose.cosine * dy);
     });
-    const LayoutLikelihoodOptions priors;
-    const float n = static_cast<float>(matches);
-    pose.score += LogBetaBinomial(n, static_cast<float>(points_.size()) - n,
-                                  static_cast<float>(priors.mapped_prior),
-                                  static_cast<float>(priors.unmapped_prior)) +
-                  LogBetaBinomial(n, std::max(0.f, static_cast<float>(in_view) - n),
-                                  static_cast<float>(priors.seen_prior),
-                                  static_cast<float>(priors.unseen_prior));
+    const LayoutLikelihoodOptions defaults;
+    const double all = static_cast<double>(points_.size());
+    pose.score += static_cast<float>(
+        LogBetaBinomial(matches, all - matches, defaults.mapped_prior, defaults.unmapped_prior) +
+        LogBetaBinomial(matches, std::max(0, in_view - matches), defaults.seen_prior,
+                        defaults.unseen_prior));
   }
 
  private:
@@ -127,12 +117,6 @@ class Ranking {
   ViewHull view_;
   std::vector<float> gain_;  // MatchGain of each local object
 };
-
-bool IsBetter(const CoarsePose& a, const CoarsePose& b) {
-  if (a.score != b.score) return a.score > b.score;
-  if (a.x != b.x) return a.x < b.x;
-  return a.y != b.y ? a.y < b.y : a.sine < b.sine;
-}
 
 void KeepBest(std::vector<CoarsePose>& poses, std::size_t most) {
   if (poses.size() <= most) return;

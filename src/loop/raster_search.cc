@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "loop/gain_raster.h"
+#include "sslcd/loop/options.h"
 
 namespace sslcd {
 namespace {
@@ -101,12 +102,12 @@ class Peaks {
 }  // namespace
 
 float MatchGain(int label, const LayoutIndex& index) {
-  constexpr double kRightLabel = 0.97;  // LayoutLikelihoodOptions::wrong_label
+  const double right_label = 1 - LayoutLikelihoodOptions().wrong_label;  // the default
   const auto& labels = index.counts().labels;
   const auto known = labels.find(label);
   const double count = known == labels.end() ? 0 : known->second;
   const double all = static_cast<double>(index.objects().size() + labels.size());
-  const double by_label = labels.size() > 1 ? std::log(kRightLabel * all / (count + 1)) : 0.;
+  const double by_label = labels.size() > 1 ? std::log(right_label * all / (count + 1)) : 0.;
   return static_cast<float>(by_label - std::log(2 * M_PI * index.density()));
 }
 

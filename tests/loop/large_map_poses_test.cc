@@ -17,9 +17,8 @@ TEST(LargeMapPoses, ACityOfCarParksLosesNoPlace) {
   for (unsigned query = 0; query < 12; ++query) {
     const YawShift truth{0.5 * query - 3, {20, -10. * query, 0.3}};
     const Vec2 place(105. * (query % 9) - 12, 75. * (query % 8) + 6);
-    std::vector<LayoutObject> local = SeenFrom(map, truth, place, 14, 0.3, query);
-    for (std::size_t i = 0; i < local.size(); i += 6)  // missed
-      local.erase(local.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::vector<LayoutObject> local =
+        WithMisses(SeenFrom(map, truth, place, 14, 0.3, query), 6);
     const LayoutAnswer answer = MatchLayouts(local, index);
     ASSERT_FALSE(answer.hypotheses.empty());
     right += answer.decision == LoopDecision::kAccepted &&

@@ -27,9 +27,8 @@ TEST(SearchRasters, TheTruePoseIsAmongThePeaksOfACity) {
   for (unsigned query = 0; query < 20; ++query) {
     const YawShift truth{0.3 * query - 3, {20, -10. * query, 0.3}};
     const Vec2 place(105. * (query % 9) + 5, 75. * (query % 8) - 6);
-    std::vector<LayoutObject> local = SeenFrom(map, truth, place, 14, 0.5, query);
-    for (std::size_t i = 0; i < local.size(); i += 5)  // missed
-      local.erase(local.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::vector<LayoutObject> local =
+        WithMisses(SeenFrom(map, truth, place, 14, 0.5, query), 5);
     Vec3 centre;
     const RasterPoses peaks = SearchRasters(CentredPoints(local, centre), index, 1000);
     EXPECT_GT(peaks.poses.size(), 100u);

@@ -40,6 +40,13 @@ inline std::vector<LayoutObject> CarParks(int count, unsigned seed) {
   return all;
 }
 
+/// What is left of the objects if one in `every` is missed.
+inline std::vector<LayoutObject> WithMisses(std::vector<LayoutObject> objects, std::size_t every) {
+  for (std::size_t i = 0; i < objects.size(); i += every)
+    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(i));
+  return objects;
+}
+
 inline std::vector<LayoutPoint> PointsOf(const std::vector<LayoutObject>& objects) {
   std::vector<LayoutPoint> points;
   for (const LayoutObject& object : objects) {
