@@ -56,6 +56,12 @@ def read_tum(path):
         return [pose_of(row.split()[1:]) for row in rows if row.strip() and row[0] != '#']
 
 
+def true_poses(sequence):
+    """T_world_cam by frame."""
+    return read_tum(next(path for path in (sequence / 'groundtruth.txt',
+                                           sequence / 'reference.txt') if path.exists()))
+
+
 def is_right(truth, query, match, T_match_query):
     """`truth`: true T_world_cam by frame. Up is -y of the camera."""
     error = np.linalg.inv(truth[query]) @ truth[match] @ T_match_query
@@ -66,8 +72,7 @@ def is_right(truth, query, match, T_match_query):
 
 def read_attempts(run, sequence):
     """Those of RUN/loops.csv that have a probability."""
-    truth = read_tum(next(path for path in (sequence / 'groundtruth.txt',
-                                            sequence / 'reference.txt') if path.exists()))
+    truth = true_poses(sequence)
     with open(run / 'loops.csv', encoding='utf-8') as rows:
         return [{'score': float(row['score']), 'probability': float(row['probability']),
                  'accepted': row['decision'] == 'accepted',
@@ -75,6 +80,33 @@ def read_attempts(run, sequence):
                                    pose_of(row[k] for k in ('tx', 'ty', 'tz', 'qx', 'qy', 'qz',
                                                             'qw')))}
                 for row in csv.DictReader(rows) if row['probability']]
+
+
+def logarithm(pose):
+    """Translation and rotation vector."""
+    R = pose[:3, :3]
+    sine_axis = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]) / 2
+    angle = math.acos(np.clip((np.trace(R) - 1) / 2, -1, 1))
+    return np.r_[pose[:3, 3], sine_axis * (angle / math.sin(angle) if angle > 1e-9 else 1)]
+
+
+def squared_errors_of_loops(run, sequence):
+    """Normalised estimation error squared (NEES) of the loops that their objects have measured: the
+    edges of RUN/graph.g2o between frames that are no neighbours. 6 on average if their covariances
+    are true."""
+    truth = true_poses(sequence)
+    squared = []
+    with open(run / 'graph.g2o', encoding='utf-8') as lines:
+        for words in map(str.split, lines):
+            if words[0] != 'EDGE_SE3:QUAT' or abs(int(words[1]) - int(words[2])) < 2:
+                continue
+            match, query = truth[int(words[1])], truth[int(words[2])]
+            error = logarithm(np.linalg.inv(pose_of(words[3:10])) @ np.linalg.inv(match) @ query)
+            upper = np.zeros((6, 6))
+            upper[np.triu_indices(6)] = [float(word) for word in words[10:31]]
+            information = upper + np.triu(upper, 1).T
+            squared.append(float(error @ information @ error))
+    return squared
 
 
 class JudgedRuns:

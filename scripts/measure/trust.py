@@ -6,11 +6,13 @@ import math
 import sys
 from statistics import mean
 
-from judged_runs import JudgedRuns, add_arguments, numbers, read_attempts
+from judged_runs import (JudgedRuns, add_arguments, numbers, read_attempts,
+                         squared_errors_of_loops)
 
 BINS = [-math.inf, 0, 1, 2, 3, 5, 7, math.inf]  # of the score [nats]
 # A bin is off if it has this many attempts and the share right differs this much from expected.
 ENOUGH, OFF = 30, 0.1
+NEES = 4, 9  # what the mean of the squared errors of ENOUGH loops should be; 6 is exact
 
 
 def is_harmed(row):
@@ -27,8 +29,8 @@ def recall_of(results):
 
 
 def table_of_runs(results):
-    lines = ['| world | runs | loops | wrong | recall | ATE odometry -> result [m] | worse |',
-             '|---|---|---|---|---|---|---|']
+    lines = ['| world | runs | loops | wrong | recall | ATE odometry -> result [m] | worse | NEES |',
+             '|---|---|---|---|---|---|---|---|']
     for name in dict.fromkeys(r['name'] for r in results):
         some = [r for r in results if r['name'] == name]
         recall = recall_of(some)
@@ -36,8 +38,16 @@ def table_of_runs(results):
             name, str(len(some)), str(sum(r['loops'] for r in some)),
             str(sum(r['wrong_loops'] for r in some)), '-' if recall is None else f'{recall:.2f}',
             ', '.join(f'{r["ate_odometry"]:.2f} -> {r["ate"]:.2f}' for r in some),
-            str(sum(is_harmed(r) for r in some))]) + ' |')
+            str(sum(is_harmed(r) for r in some)),
+            cell_of_squared_errors([e for r in some for e in r['squared_errors']])]) + ' |')
     return lines
+
+
+def cell_of_squared_errors(squared):
+    if not squared:
+        return '-'
+    off = len(squared) >= ENOUGH and not NEES[0] <= mean(squared) <= NEES[1]
+    return f'{mean(squared):.1f}' + (' off' if off else '')
 
 
 def table_of_scores(attempts):
@@ -68,6 +78,7 @@ def main():
         result = runs.measure(sequence)
         if 'error' not in result:
             result['attempts'] = read_attempts(result['run'], sequence[2])
+            result['squared_errors'] = squared_errors_of_loops(result['run'], sequence[2])
         return result
 
     results = list(runs.map(measure, runs.sequences(options.worlds, options.seeds)))

@@ -23,7 +23,8 @@ except ImportError as missing:
 def result(name='w', seed=1, loops=10, wrong=0, recall=1., stretches=10, ate=1., odometry=2.):
     return {'name': name, 'seed': seed, 'loops': loops, 'wrong_loops': wrong, 'recall': recall,
             'revisited_stretches': stretches, 'ate': ate, 'ate_odometry': odometry,
-            'horizontal': 1., 'horizontal_odometry': 1., 'height': 1., 'height_odometry': 1.}
+            'horizontal': 1., 'horizontal_odometry': 1., 'height': 1., 'height_odometry': 1.,
+            'squared_errors': []}
 
 
 def attempts(score, count, right, accepted=0):
@@ -62,6 +63,20 @@ class Judging(unittest.TestCase):
     def test_scores_that_are_no_log_odds_do_not_count(self):
         self.assertEqual(self.right(probability=''), [])
 
+    def test_squared_errors_are_those_of_loops_in_their_sigmas(self):
+        information = '4 0 0 0 0 0  1 0 0 0 0  1 0 0 0  100 0 0  100 0  100'
+        edges = [f'EDGE_SE3:QUAT 0 1 0 0 9 0 0 0 1 {information}',  # odometry
+                 f'EDGE_SE3:QUAT 0 2 .5 0 4 {math.sin(.1)} 0 0 {math.cos(.1)} {information}']
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / 'groundtruth.txt').write_text(
+                '0 0 0 0 0 0 0 1\n1 0 0 2 0 0 0 1\n2 0 0 4 0 0 0 1\n', encoding='utf-8')
+            (Path(folder) / 'graph.g2o').write_text(
+                '\n'.join(['VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1', *edges, '']), encoding='utf-8')
+            squared = judged_runs.squared_errors_of_loops(Path(folder), Path(folder))
+        self.assertEqual(len(squared), 1)
+        # -.5 m seen from a camera turned by .2 about x stays -.5; .2 rad at .1 rad
+        self.assertAlmostEqual(squared[0], 4 * .5**2 + 100 * .2**2)
+
     def test_worlds_are_chosen_by_patterns(self):
         self.assertTrue(judged_runs.is_wanted('b2_d60', 'h_*,b2_*'))
         self.assertFalse(judged_runs.is_wanted('b_copy_d60', 'h_*,b2_*'))
@@ -82,11 +97,17 @@ class Trust(unittest.TestCase):
                                                 result(recall=.5, stretches=9)]), .55)
         self.assertIsNone(trust.recall_of([result(stretches=0)]))
 
+    def test_covariances_are_off_below_4_and_above_9(self):
+        self.assertEqual(trust.cell_of_squared_errors([6.] * 30), '6.0')
+        self.assertEqual(trust.cell_of_squared_errors([3.9] * 30), '3.9 off')
+        self.assertEqual(trust.cell_of_squared_errors([9.1] * 30), '9.1 off')
+        self.assertEqual(trust.cell_of_squared_errors([9.1] * 29), '9.1')
+
     def test_runs_of_a_world_share_a_row(self):
         rows = trust.table_of_runs([result(), result(seed=2, wrong=3, recall=.5, ate=2.5),
                                     result('v', stretches=0)])
-        self.assertEqual(rows[2:], ['| w | 2 | 20 | 3 | 0.75 | 2.00 -> 1.00, 2.00 -> 2.50 | 1 |',
-                                    '| v | 1 | 10 | 0 | - | 2.00 -> 1.00 | 0 |'])
+        self.assertEqual(rows[2:], ['| w | 2 | 20 | 3 | 0.75 | 2.00 -> 1.00, 2.00 -> 2.50 | 1 | - |',
+                                    '| v | 1 | 10 | 0 | - | 2.00 -> 1.00 | 0 | - |'])
 
     def test_a_bin_is_off_by_more_than_ten_points(self):
         def row(*some):
