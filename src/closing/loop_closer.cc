@@ -43,6 +43,7 @@ LoopCloser::LoopCloser(const LoopCloser& other)
       passes_(other.passes_),
       finder_(other.finder_->Clone()),
       ledger_(other.ledger_),
+      without_candidate_(other.without_candidate_),
       last_attempt_m_(other.last_attempt_m_),
       odometry_factors_(other.odometry_factors_),
       learnt_at_m_(other.learnt_at_m_) {}
@@ -68,12 +69,14 @@ void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
 void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing) {
   finder_->Reset();
   const std::size_t first_search = ledger_.attempts().size();
+  const int without_candidate = without_candidate_;
   const LoopLayoutOptions& o = options_.layout;
   const double lag_m = options_.lag_m;
   for (double end_m = lag_m; end_m < state.frames.back().travelled; end_m += o.every_m)
     if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
       SearchAndCorrect(state, {end_m, lag_m, o.hindsight_m, lag_m}, scale, timing);
   ledger_.DropUnaccepted(first_search);
+  without_candidate_ = without_candidate;
 }
 
 void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
@@ -108,6 +111,7 @@ bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   const std::vector<LoopEdge> loops = ledger_.AcceptedEdges();
   const std::optional<FoundLoop> found =
       finder_->Find({state, passes_, loops, odometry_factors_, window});
+  without_candidate_ += !found;
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
   ledger_.attempts().back().pairs = SightingsOf(state.frames, passes_, found->loop);
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;

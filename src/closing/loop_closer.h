@@ -38,6 +38,9 @@ class LoopCloser {
   /// was withdrawn, so they were split, and the map needs another refinement.
   bool Review(MapState& state);
 
+  /// Searches that found no candidate, the second search along the run left out.
+  int without_candidate() const { return without_candidate_; }
+
   /// Factors on LoopOptions::odometry that the resightings of the run have taught so far.
   const OdometryFactors& odometry_factors() const { return odometry_factors_; }
 
@@ -57,6 +60,7 @@ class LoopCloser {
   PassMap passes_;
   std::unique_ptr<LoopFinder> finder_;
   LoopLedger ledger_;
+  int without_candidate_ = 0;
   double last_attempt_m_ = 0;
   OdometryFactors odometry_factors_;
   double learnt_at_m_ = 0;  // path at which they were learnt

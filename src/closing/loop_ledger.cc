@@ -14,6 +14,16 @@ void AddToGraph(LoopAttempt& attempt) {
 
 }  // namespace
 
+LoopClosure LoopAttempt::Measured() const {
+  LoopClosure measured = row();
+  if (!remeasured || !accepted()) return measured;
+  measured.T_match_query = remeasured->T_match_query;
+  measured.covariance = remeasured->covariance;
+  measured.viewpoint_change_rad = remeasured->viewpoint_change_rad;
+  measured.by_views = remeasured->by_views;
+  return measured;
+}
+
 bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int newest_frame) {
   const bool known =
       std::any_of(attempts_.begin(), attempts_.end(), [&](const LoopAttempt& attempt) {
@@ -24,12 +34,15 @@ bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int new
   if (known) return false;
   LoopAttempt& attempt = attempts_.emplace_back();
   attempt.found = found;
+  attempt.row().id = next_id_++;
   attempt.row().newest_frame = newest_frame;
+  ++revision_;
   attempt.window = window;
   return true;
 }
 
 void LoopLedger::AcceptNewest() {
+  ++revision_;
   LoopAttempt& newest = attempts_.back();
   const std::string settled = "settled by frame " + std::to_string(newest.row().query_frame);
   for (LoopAttempt& earlier : attempts_) {
@@ -43,6 +56,7 @@ void LoopLedger::AcceptNewest() {
 }
 
 void LoopLedger::DropUnaccepted(std::size_t first) {
+  ++revision_;
   attempts_.erase(
       std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first), attempts_.end(),
                      [](const LoopAttempt& attempt) { return !attempt.in_graph; }),
@@ -88,14 +102,7 @@ PathGraph LoopLedger::AcceptedPath(const FrameStore& frames) const {
 
 std::vector<LoopClosure> LoopLedger::Rows() const {
   std::vector<LoopClosure> rows;
-  for (const LoopAttempt& attempt : attempts_) {
-    LoopClosure& row = rows.emplace_back(attempt.row());
-    if (!attempt.remeasured || !attempt.accepted()) continue;
-    row.T_match_query = attempt.remeasured->T_match_query;
-    row.covariance = attempt.remeasured->covariance;
-    row.viewpoint_change_rad = attempt.remeasured->viewpoint_change_rad;
-    row.by_views = attempt.remeasured->by_views;
-  }
+  for (const LoopAttempt& attempt : attempts_) rows.push_back(attempt.Measured());
   return rows;
 }
 

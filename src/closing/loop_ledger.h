@@ -33,6 +33,8 @@ struct LoopAttempt {
   LoopClosure& row() { return found.loop.row; }
   const LoopClosure& row() const { return found.loop.row; }
   bool accepted() const { return row().decision == LoopDecision::kAccepted; }
+  /// The row with its last measurement.
+  LoopClosure Measured() const;
 };
 
 /// All attempts of a run and their decisions. Copyable.
@@ -54,8 +56,14 @@ class LoopLedger {
   /// To be called when all fused landmarks were split.
   void ForgetFusions();
 
-  std::vector<LoopAttempt>& attempts() { return attempts_; }
+  std::vector<LoopAttempt>& attempts() {
+    ++revision_;
+    return attempts_;
+  }
   const std::vector<LoopAttempt>& attempts() const { return attempts_; }
+
+  /// Counts what may have been changes.
+  int revision() const { return revision_; }
 
   bool AnyAccepted() const;
   /// Whether there is an accepted loop with a query camera within `within_m` of this path length.
@@ -64,11 +72,12 @@ class LoopLedger {
   std::vector<LoopEdge> AcceptedEdges() const;
   /// The path with the accepted loops as shortcuts.
   PathGraph AcceptedPath(const FrameStore& frames) const;
-  /// The rows of all attempts in order, with their last measurement.
+  /// LoopAttempt::Measured of all attempts in order.
   std::vector<LoopClosure> Rows() const;
 
  private:
   std::vector<LoopAttempt> attempts_;
+  int next_id_ = 0, revision_ = 0;
 };
 
 }  // namespace sslcd

@@ -21,8 +21,9 @@ struct OdometryFailures {
 
 /// A stored frame.
 struct FrameRecord {
-  int frame = 0;     ///< frame number in the dataset
-  double stamp = 0;  ///< [s]
+  int frame = 0;           ///< frame number in the dataset
+  double stamp = 0;        ///< increases over all sequences [s]
+  double input_stamp = 0;  ///< as odometry gave it [s]
   /// path of the odometry up to this frame [m], see FrameStore::Append
   double travelled = 0;
   OdometryFailures failures;          ///< up to this frame

@@ -3,11 +3,25 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "core/math.h"
+#include "sslcd/core/error.h"
 
 namespace sslcd {
+
+std::optional<Pose> RigidFromMatrix(const Eigen::Matrix3d& R, const Vec3& t) {
+  if (!R.allFinite() || !t.allFinite()) return std::nullopt;
+  if ((R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > kRotationTolerance ||
+      R.determinant() < 0) {
+    return std::nullopt;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
+  return Pose(lie::SO3<double>::FromMatrix(nearest), t);
+}
 
 double WrapAngle(double angle_rad, double period_rad) {
   // exact for axes
@@ -20,6 +34,8 @@ double WrapAngle(double angle_rad, double period_rad) {
 double WrapAngle(double angle_rad) { return WrapAngle(angle_rad, 2 * M_PI); }
 
 GravityFrame GravityFrame::FromUp(const Vec3& up) {
+  if (!up.allFinite() || up.isZero(0))
+    throw Error(ErrorKind::kBadInput, "the up direction is zero or not finite");
   GravityFrame frame;
   frame.up = up.normalized();
   // Forward is x unless up is (nearly) x. The horizontal axes are (x, z) for KITTI and (x, y) for

@@ -8,7 +8,6 @@
 
 #include "formats/files.h"
 #include "formats/number_text.h"
-#include "formats/rigid.h"
 #include "formats/text_rows.h"
 
 namespace sslcd {

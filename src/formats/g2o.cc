@@ -12,7 +12,6 @@
 #include "formats/information.h"
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
-#include "formats/rigid.h"
 #include "formats/text_rows.h"
 
 namespace sslcd {

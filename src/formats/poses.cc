@@ -5,7 +5,6 @@
 
 #include "formats/number_text.h"
 #include "formats/pose_text.h"
-#include "formats/rigid.h"
 #include "formats/text_rows.h"
 
 namespace sslcd {

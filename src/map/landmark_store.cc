@@ -27,6 +27,7 @@ void LandmarkStore::Put(MapLandmark landmark) {
   const Vec2 place = Horizontal(landmark.pose.position, gravity_);
   index_.Put(id, place.x(), place.y());
   if (landmark.state != LandmarkState::kConfirmed) open_.push_back(id);
+  fused_into_.erase(id);
   landmarks_.insert_or_assign(id, std::move(landmark));
 }
 
@@ -77,6 +78,16 @@ void LandmarkStore::Fuse(LandmarkId keep, LandmarkId drop) {
   kept.last_seen_at = std::max(kept.last_seen_at, dropped.last_seen_at);
   SetSightings(drop, {});
   SetSightings(keep, std::move(merged));
+  fused_into_[drop.value] = keep.value;
+}
+
+std::optional<LandmarkId> LandmarkStore::Current(LandmarkId id) const {
+  while (landmarks_.count(id.value) == 0) {
+    const auto into = fused_into_.find(id.value);
+    if (into == fused_into_.end()) return std::nullopt;
+    id.value = into->second;
+  }
+  return id;
 }
 
 void LandmarkStore::Index(const MapLandmark& landmark, double stamp) {

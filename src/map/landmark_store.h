@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "association/spatial_index.h"
@@ -45,6 +46,10 @@ class LandmarkStore {
   /// frame, `keep`'s sighting stays.
   void Fuse(LandmarkId keep, LandmarkId drop);
 
+  /// The landmark that an id names now: itself, or the one that it was fused into. None if it was
+  /// removed.
+  std::optional<LandmarkId> Current(LandmarkId id) const;
+
   /// Makes a landmark found where it is at `stamp` [s], a driving one where it is predicted.
   void Index(const MapLandmark& landmark, double stamp);
   /// The same for all landmarks that can become stale.
@@ -63,6 +68,7 @@ class LandmarkStore {
   GravityFrame gravity_;
   MotionTestOptions motion_;
   std::map<int, MapLandmark> landmarks_;
+  std::map<int, int> fused_into_;  ///< of landmarks that were fused and not restored since
   std::vector<int> open_;  ///< tentative and driving landmarks: the only ones that can become stale
   SpatialIndex index_;
   int next_id_ = 1;

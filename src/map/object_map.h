@@ -49,6 +49,7 @@ class ObjectMap {
     landmarks_.SetSightings(id, std::move(sightings));
   }
   void Fuse(LandmarkId keep, LandmarkId drop) { landmarks_.Fuse(keep, drop); }
+  std::optional<LandmarkId> Current(LandmarkId id) const { return landmarks_.Current(id); }
   std::vector<LandmarkId> FindWithin(const Vec3& point_world, double radius_m) const {
     return landmarks_.FindWithin(Horizontal(point_world, gravity_), radius_m);
   }

@@ -3,17 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 namespace sslcd {
 namespace {
 
-bool IsFinite(const Detection& detection) {
+bool IsValid(const Detection& detection) {
+  const auto is_finite = [](double value) { return std::isfinite(value); };
   const double* pose = detection.T_cam_object.data();
-  return std::isfinite(detection.score) && detection.dims.allFinite() &&
-         std::all_of(pose, pose + Pose::kParameters,
-                     [](double value) { return std::isfinite(value); });
+  return detection.score >= 0 && detection.score <= 1 && detection.dims.allFinite() &&
+         std::all_of(pose, pose + Pose::kParameters, is_finite) &&
+         std::all_of(std::begin(kCueRows), std::end(kCueRows), [&](const CueRow& row) {
+           const std::vector<float>& vector = detection.appearance[row.cue];
+           return std::all_of(vector.begin(), vector.end(), is_finite);
+         });
 }
 
 bool HasRightSize(const Vec3& dims, const DetectionFilterOptions& options) {
@@ -40,7 +45,7 @@ int DropBeyond(std::size_t most, std::vector<Detection>& detections) {
 /// The counter of this detection.
 int& Classify(const Detection& detection, const DetectionFilterOptions& options,
               FilterReport& report) {
-  if (!IsFinite(detection)) return report.not_finite;
+  if (!IsValid(detection)) return report.invalid;
   if (detection.score < options.min_score) return report.low_score;
   if (detection.T_cam_object.translation().norm() > options.max_range_m) return report.too_far;
   if (!HasRightSize(detection.dims, options)) return report.wrong_size;
@@ -51,7 +56,7 @@ int& Classify(const Detection& detection, const DetectionFilterOptions& options,
 
 FilterReport& FilterReport::operator+=(const FilterReport& other) {
   kept += other.kept;
-  not_finite += other.not_finite;
+  invalid += other.invalid;
   low_score += other.low_score;
   too_far += other.too_far;
   wrong_size += other.wrong_size;

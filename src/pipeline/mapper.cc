@@ -9,7 +9,10 @@
 #include "closing/remeasure.h"
 #include "closing/view_ties.h"
 #include "core/frame_store.h"
+#include "core/turning_axis.h"
 #include "odometry/odometry_edge.h"
+#include "pipeline/change_reporter.h"
+#include "pipeline/check_input.h"
 #include "pipeline/final_trajectory.h"
 #include "pipeline/gravity_aligner.h"
 #include "pipeline/sliding_window.h"
@@ -37,16 +40,14 @@ const Options& Checked(const Options& options) {
   return options;
 }
 
-void CheckFrame(const Frame& frame, const FrameStore& frames) {
-  const std::string name = "frame " + std::to_string(frame.index);
-  if (!std::isfinite(frame.T_odom_cam.Log().sum()) || !std::isfinite(frame.stamp))
-    throw Error(ErrorKind::kBadInput, name + ": its pose or stamp is not finite");
-  if (frame.step && !IsValid(*frame.step))
-    throw Error(ErrorKind::kBadInput,
-                name + ": a standard deviation of its step is negative or not finite");
-  if (!frames.empty() && frame.stamp <= frames.back().stamp)
-    throw Error(ErrorKind::kBadInput, name + ": its stamp " + std::to_string(frame.stamp) +
-                                          " s is not after the one before it");
+const MapperContext& Checked(const MapperContext& context) {
+  CheckContext(context);
+  return context;
+}
+
+// Time between two sequences, in which all that moves is forgotten. [s]
+double TimeBetweenSequences(const MapOptions& map) {
+  return 1 + std::max(map.stale_after_s, map.motion.forget_after_s);
 }
 
 // Nothing that associates or compares objects along the path reaches over half of it.
@@ -77,6 +78,7 @@ struct Mapper::Impl {
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
   const MapState& best() const { return final_trajectory.state ? *final_trajectory.state : state; }
+  void StampAndStep(const Frame& frame, FrameRecord& record, std::optional<StepUncertainty>& step);
   void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
   BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
 
@@ -90,11 +92,14 @@ struct Mapper::Impl {
   double refined_log_scale = 0;  // result of the last full-map optimisation
   std::vector<ViewTie> view_ties;
   FinalTrajectory final_trajectory;  // of the last refinement, until the next frame
+  ChangeReporter reporter;
+  bool starts_sequence = false;  // with the next frame
+  double stamp_shift = 0;        // from the stamps of this sequence to those of the store [s]
   TimingTable timing;
 };
 
 Mapper::Mapper(const Options& options, const MapperContext& context)
-    : impl_(std::make_unique<Impl>(Checked(options), context)) {}
+    : impl_(std::make_unique<Impl>(Checked(options), Checked(context))) {}
 Mapper::~Mapper() = default;
 Mapper::Mapper(const Mapper& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Mapper& Mapper::operator=(const Mapper& other) { return *this = Mapper(other); }
@@ -110,31 +115,49 @@ NoiseScale Mapper::noise_scale() const { return impl_->state.map.noise_scale(); 
 const std::vector<ViewTie>& Mapper::view_ties() const { return impl_->view_ties; }
 TimingTable& Mapper::timing() { return impl_->timing; }
 std::vector<LoopClosure> Mapper::LoopClosures() const { return impl_->loops.ledger().Rows(); }
+std::optional<LandmarkId> Mapper::Current(LandmarkId id) const {
+  return impl_->best().map.Current(id);
+}
+void Mapper::StartSequence() { impl_->starts_sequence = true; }
+
+// Sets the stamps, which go on over all sequences, and the step from the sequence before.
+void Mapper::Impl::StampAndStep(const Frame& frame, FrameRecord& record,
+                                std::optional<StepUncertainty>& step) {
+  if (starts_sequence && !state.frames.empty()) {
+    step = StepUncertainty{true};
+    stamp_shift = state.frames.back().stamp + TimeBetweenSequences(options.map) - frame.stamp;
+  }
+  starts_sequence = false;
+  record.input_stamp = frame.stamp;
+  record.stamp = frame.stamp + stamp_shift;
+}
 
 FrameReport Mapper::AddFrame(const Frame& frame) {
   Impl& m = *impl_;
   FrameStore& frames = m.state.frames;
-  CheckFrame(frame, frames);
+  CheckFrame(frame, frames, m.starts_sequence);
   m.final_trajectory = {};
   FrameReport report;
   const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
   const Pose T_world_cam =
       frames.empty() ? T_odom_cam : PredictPose(frames.back(), T_odom_cam, m.log_scale);
   report.keyframe = m.window.IsKeyframe(frames, T_odom_cam);
-  const bool lost = !frames.empty() && frame.step && frame.step->lost;
+  FrameRecord record;
+  std::optional<StepUncertainty> step = frame.step;
+  m.StampAndStep(frame, record, step);
+  const bool lost = !frames.empty() && step && step->lost;
   std::vector<Detection> seen = lost ? std::vector<Detection>() : frame.detections;
   {
     const ScopedTimer timer(m.timing, "data association");
     report.filter = FilterDetections(seen, m.options.filter);
-    FrameRecord record;
+    const double stamp = record.stamp;
     record.frame = frame.index;
-    record.stamp = frame.stamp;
     record.T_input_cam = frame.T_odom_cam;
     record.T_odom_cam = T_odom_cam;
     record.T_world_cam = T_world_cam;
     record.detections = WithoutAppearance(seen);
-    frames.Append(std::move(record), frame.step);
-    report.map = m.state.map.AddFrame(frame.index, frame.stamp, T_world_cam, seen, m.camera(),
+    frames.Append(std::move(record), step);
+    report.map = m.state.map.AddFrame(frame.index, stamp, T_world_cam, seen, m.camera(),
                                       frames.back().travelled);
     frames.SetMatched(frames.size() - 1, report.map.matched);
   }
@@ -147,7 +170,31 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     if (m.options.loop.enabled) m.loops.AddKeyframe(m.state, m.scale(), m.timing);
   }
   report.T_world_cam = frames.back().T_world_cam;
+  report.changes = TakeChanges();
   return report;
+}
+
+MapChanges Mapper::TakeChanges() {
+  Impl& m = *impl_;
+  return m.reporter.Take(m.best(), m.final_trajectory.state.has_value(), m.loops.ledger());
+}
+
+LoopSearchSummary Mapper::SummariseLoopSearch() const {
+  const Impl& m = *impl_;
+  const std::vector<LoopAttempt>& attempts = m.loops.ledger().attempts();
+  LoopSearchSummary summary;
+  summary.without_candidate = m.loops.without_candidate();
+  summary.searches = summary.without_candidate + static_cast<int>(attempts.size());
+  for (const LoopAttempt& attempt : attempts) {
+    if (attempt.accepted())
+      ++summary.accepted;
+    else
+      ++summary.refused[attempt.row().reason];
+  }
+  std::vector<Pose> odometry;
+  for (const FrameRecord& frame : m.state.frames) odometry.push_back(frame.T_input_cam);
+  summary.up_axis_is_plausible = MayBeUp(gravity().up, odometry);
+  return summary;
 }
 
 // Sets the noise of odometry. Later frames keep the correction of the loops.
@@ -202,7 +249,7 @@ BaSummary Mapper::Refine() {
 Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;
   for (const FrameRecord& record : impl_->best().frames) {
-    trajectory.stamps.push_back(record.stamp);
+    trajectory.stamps.push_back(record.input_stamp);
     trajectory.poses.push_back(record.T_world_cam);
   }
   return trajectory;

@@ -30,7 +30,7 @@ TEST(FilterDetections, AnObjectLongerThanTheLargestIsDropped) {
 
 TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   std::vector<Detection> detections;
-  for (int row = 0; row < 9; ++row) detections.push_back(Car(row));
+  for (int row = 0; row < 12; ++row) detections.push_back(Car(row));
   detections[1].score = 0.49;
   detections[2].T_cam_object.translation().z() = 71;
   detections[3].dims.x() = 31;
@@ -38,6 +38,9 @@ TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   detections[5].dims.z() = std::nan("");
   detections[6].T_cam_object.translation().x() = std::numeric_limits<double>::infinity();
   detections[7].score = std::nan("");
+  detections[9].score = 7;  // a logit
+  detections[10].appearance[Cue::kEmbedding] = {1, std::nanf("")};
+  detections[11].score = -0.1;
 
   const FilterReport report = FilterDetections(detections, {});
 
@@ -45,8 +48,8 @@ TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   EXPECT_EQ(report.low_score, 1);
   EXPECT_EQ(report.too_far, 1);
   EXPECT_EQ(report.wrong_size, 2);
-  EXPECT_EQ(report.not_finite, 3);
-  EXPECT_EQ(report.kept + report.dropped(), 9);
+  EXPECT_EQ(report.invalid, 6);
+  EXPECT_EQ(report.kept + report.dropped(), 12);
   ASSERT_EQ(detections.size(), 2u);
   EXPECT_EQ(detections[0].row, 0);
   EXPECT_EQ(detections[1].row, 8);

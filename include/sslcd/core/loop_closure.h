@@ -30,6 +30,7 @@ struct LoopVerdict {
 
 /// One attempt to close a loop, accepted or refused: a row of loops.csv.
 struct LoopClosure {
+  int id = 0;            ///< of the attempt: unique in a run, and stays when the decision changes
   int newest_frame = 0;  ///< newest frame of the attempt; the query frame may be earlier
   int query_frame = 0, match_frame = 0;  ///< frame numbers of the two cameras
   LoopDecision decision = LoopDecision::kNone;

@@ -3,6 +3,7 @@
 
 #include <lie/se3.h>
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace sslcd {
@@ -14,6 +15,13 @@ using Pose = lie::SE3<double>;
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3 = Eigen::Vector3d;
 using Vec6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
+
+/// Largest |R^T R - I| or ||q| - 1| of a rotation from outside; rounding errors are smaller.
+constexpr double kRotationTolerance = 1e-2;
+
+/// [R t] with R replaced by the nearest rotation. None if R differs from it by more than the
+/// tolerance, is a reflection, or a value is not finite.
+std::optional<Pose> RigidFromMatrix(const Eigen::Matrix3d& R, const Vec3& t);
 
 /// Angle wrapped to (-pi, pi]. [rad]
 double WrapAngle(double angle_rad);
@@ -29,8 +37,9 @@ struct GravityFrame {
   Vec3 forward{1, 0, 0};
   Vec3 left{0, 0, 1};
 
-  /// The frame for a given up direction (any non-zero vector; normalised here). For an axis-aligned
-  /// `up`, `forward` is another axis of the world: x for up = -y or +z.
+  /// The frame for a given up direction (any finite non-zero vector; normalised here, otherwise
+  /// Error(kBadInput)). For an axis-aligned `up`, `forward` is another axis of the world: x for up
+  /// = -y or +z.
   static GravityFrame FromUp(const Vec3& up);
 
   /// Columns [forward left up]: rotates vectors from this frame to the world.

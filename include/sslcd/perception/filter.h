@@ -22,12 +22,13 @@ void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options);
 /// Counts of filtered detections. Each detection counts once, for the first reason that applies.
 struct FilterReport {
   int kept = 0;
-  int not_finite = 0;  ///< NaN or infinity in pose, size or score
+  /// NaN or infinity in pose, size, score or appearance, or a score that is no probability
+  int invalid = 0;
   int low_score = 0;
   int too_far = 0;
   int wrong_size = 0;  ///< any dimension outside its range
   int too_many = 0;    ///< beyond the best ones of its frame
-  int dropped() const { return not_finite + low_score + too_far + wrong_size + too_many; }
+  int dropped() const { return invalid + low_score + too_far + wrong_size + too_many; }
 
   FilterReport& operator+=(const FilterReport& other);
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sslcd/bundle/options.h"
@@ -33,9 +35,45 @@ struct MapperContext {
   ViewAligner view_aligner{};    ///< none: only objects measure loops
 };
 
+/// The pose of a frame.
+struct FramePose {
+  int frame = 0;     ///< Frame::index
+  double stamp = 0;  ///< [s]
+  Pose T_world_cam;
+};
+
+/// What has changed since it was last asked for, for hosts that keep a copy of the results.
+struct MapChanges {
+  /// T_world_cam T_odom_cam^-1 of the newest frame (ROS: map to odom). Corrects the odometry until
+  /// the next frame.
+  Pose T_world_odom;
+  /// the first frame whose pose has changed, and all frames after it
+  std::vector<FramePose> poses;
+  /// the attempts that are new, or whose decision or measurement has changed, by
+  /// LoopClosure::id: a loop that is taken back is among them with its new decision. Landmarks have
+  /// their current ids; later, see Mapper::Current.
+  std::vector<LoopClosure> loops;
+};
+
+/// The attempts to close a loop so far, and why there are no more loops.
+struct LoopSearchSummary {
+  int searches = 0;  ///< local maps that were compared with the map
+  int accepted = 0;
+  /// too few objects in sight or in the map, or no pose brings enough of them together
+  int without_candidate = 0;
+  std::map<std::string, int> refused;  ///< counts by LoopClosure::reason
+  /// false: the cameras turn about another axis than `MapperContext::gravity` says, so objects lie
+  /// and nothing is found
+  bool up_axis_is_plausible = true;
+
+  /// In a line, e.g. "38 searches, 0 loops; 20 another pose fits nearly as well; 18 no candidate".
+  std::string Text() const;
+};
+
 /// The result of one frame.
 struct FrameReport {
   Pose T_world_cam;       ///< current estimate
+  MapChanges changes;     ///< since the report before
   FilterReport filter;    ///< counts of its kept and dropped detections
   MapUpdate map;          ///< changes of the map
   bool keyframe = false;  ///< it is a keyframe of the sliding window
@@ -47,7 +85,8 @@ struct FrameReport {
 /// odometry pose. Use one mapper per sequence; it is not thread-safe.
 class Mapper {
  public:
-  /// Options: pipeline/options.h
+  /// Options: pipeline/options.h. Throws Error(kBadConfig) if they are out of range or contradict
+  /// each other, Error(kBadInput) for a camera without focal length or an up axis of no length.
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
   /// A copy has its own state, e.g. to run Refine() on another thread while the original adds
@@ -59,10 +98,18 @@ class Mapper {
 
   /// Adds the next frame in order of time. O(window) for any size of the map, except for attempts
   /// to close a loop. The detections of a frame whose step is lost are not used, since nothing
-  /// tells where they are. Throws Error(kBadInput) and keeps its state if the stamp does not
-  /// increase, the pose is not finite, or a standard deviation of the step is negative or not
-  /// finite.
+  /// tells where they are. Throws Error(kBadInput) and keeps its state if the number or the stamp
+  /// does not increase, the pose is not finite or absurdly far away, or a standard deviation of the
+  /// step is negative or not finite. Counts invalid detections (FrameReport::filter).
   FrameReport AddFrame(const Frame& frame);
+
+  /// The next frame begins a new sequence on the same map, e.g. after a restart of the odometry.
+  /// Its stamp and its pose may be any, its number must be above those before. Nothing is known of
+  /// the step to it (StepUncertainty::lost); loops join the sequences.
+  void StartSequence();
+
+  /// What has changed since the last call, or the last frame's report: e.g. by Refine().
+  MapChanges TakeChanges();
 
   /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
   /// With a ViewAligner it also aligns images of different passes and optimises again with these.
@@ -75,8 +122,12 @@ class Mapper {
   NoiseScale noise_scale() const;          ///< learnt factors on the detector's noise
   Trajectory CameraTrajectory() const;     ///< T_world_cam of each frame
   std::vector<MapObject> Objects() const;  ///< all landmarks, sorted by id
+  /// The landmark that an id names now: itself, or the one that it was fused into. None if it was
+  /// removed.
+  std::optional<LandmarkId> Current(LandmarkId id) const;
   /// all attempts to close a loop, including refused ones
   std::vector<LoopClosure> LoopClosures() const;
+  LoopSearchSummary SummariseLoopSearch() const;  ///< O(frames)
   const std::vector<ViewTie>& view_ties() const;  ///< ties of the last Refine()
   ImprovementProbability improvement() const;     ///< by the last Refine()
   /// Frames by their numbers, the metric odometry between them, accepted loops and view ties.

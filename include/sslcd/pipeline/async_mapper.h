@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <future>
+#include <memory>
+#include <string>
+
+#include "sslcd/pipeline/mapper.h"
+
+namespace sslcd {
+
+/// What an AsyncMapper has done since it was last asked.
+struct AsyncReport {
+  MapChanges changes;   ///< of all frames since then, together
+  int frames = 0;       ///< frames that were added
+  int dropped = 0;      ///< frames that found the queue full
+  int refused = 0;      ///< frames that Mapper::AddFrame threw at
+  std::string refusal;  ///< the message of the last of these
+  /// what ended the thread, e.g. want of memory; empty: it runs. The results so far stay.
+  std::string failure;
+};
+
+/// A Mapper on a thread of its own, for hosts that must not wait: a frame that closes a loop takes
+/// a tenth of a second, a refinement of a long run seconds. Calls return at once but for Wait().
+/// All of them are thread-safe; frames and sequences are in the order of the calls. If no one takes
+/// the report, it grows no larger than the results.
+class AsyncMapper {
+ public:
+  /// At most `most_waiting` frames wait. Throws what Mapper's constructor throws.
+  AsyncMapper(const Options& options, const MapperContext& context, int most_waiting = 64);
+  /// Ends after the frame or the refinement in work; what waits is not done.
+  ~AsyncMapper();
+  AsyncMapper(const AsyncMapper&) = delete;
+  AsyncMapper& operator=(const AsyncMapper&) = delete;
+
+  /// Hands in the next frame. False: the queue is full, or the thread has failed, so this frame is
+  /// dropped and counted. The step to the next frame then spans it, with its uncertainty.
+  bool AddFrame(Frame frame);
+  /// Mapper::StartSequence for the next frame.
+  void StartSequence();
+  /// Refines after the frames handed in so far.
+  void Refine();
+  /// A copy of the mapper after the frames handed in so far. If the thread ends before, the future
+  /// has a std::future_error.
+  std::future<Mapper> Snapshot();
+
+  /// What was done since the last call.
+  AsyncReport TakeReport();
+  /// Waits until all that was handed in is done, or the thread has failed.
+  void Wait();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sslcd

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/pipeline/async_mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <future>
+#include <map>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "loop_drives.h"
+#include "pipeline/merge_changes.h"
+#include "sslcd/core/error.h"
+#include "sslcd/pipeline/options.h"
+
+namespace sslcd {
+namespace {
+
+Frame FrameAt(int index) {
+  Frame frame;
+  frame.index = index;
+  frame.stamp = 0.1 * index;
+  frame.T_odom_cam = Pose::Trans(0, 0, index);
+  return frame;
+}
+
+void ExpectIs(const Trajectory& trajectory, const std::map<int, Pose>& poses) {
+  ASSERT_EQ(poses.size(), trajectory.size());
+  std::size_t i = 0;
+  for (const auto& [frame, pose] : poses)
+    ASSERT_EQ(pose.matrix(), trajectory.poses[i++].matrix()) << "frame " << frame;
+}
+
+TEST(AsyncMapper, IsAMapper) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
+  Mapper mapper({}, drives.Context());
+  AsyncMapper async({}, drives.Context(), 1 << 20);
+  std::map<int, Pose> poses;
+  std::map<int, LoopDecision> loops;
+  const auto take = [&] {
+    const AsyncReport report = async.TakeReport();
+    EXPECT_EQ(report.dropped + report.refused, 0);
+    for (const FramePose& pose : report.changes.poses) poses[pose.frame] = pose.T_world_cam;
+    for (const LoopClosure& loop : report.changes.loops) loops[loop.id] = loop.decision;
+    return report.frames;
+  };
+  int frames = 0;
+  for (const Frame& frame : drives.frames) {
+    mapper.AddFrame(frame);
+    EXPECT_TRUE(async.AddFrame(frame));
+    if (frame.index % 10 == 0) frames += take();
+  }
+  async.Wait();
+  frames += take();
+  EXPECT_EQ(frames, static_cast<int>(drives.frames.size()));
+  ExpectIs(mapper.CameraTrajectory(), poses);
+
+  async.Refine();
+  std::future<Mapper> refined = async.Snapshot();
+  mapper.Refine();
+  EXPECT_EQ(refined.get().Objects().size(), mapper.Objects().size());
+  async.Wait();
+  take();
+  ExpectIs(mapper.CameraTrajectory(), poses);
+  const std::vector<LoopClosure> rows = mapper.LoopClosures();
+  ASSERT_EQ(rows.size(), loops.size());
+  for (const LoopClosure& row : rows) EXPECT_EQ(loops.at(row.id), row.decision);
+}
+
+// A host's matcher that waits for a sign, and with it the mapper's thread.
+class Gate {
+ public:
+  PlaceMatcher Matcher() {
+    return [this](const PlaceQuery&) {
+      reached_ = true;
+      opened_.wait();
+      return std::optional<PlaceAnswer>();
+    };
+  }
+  bool reached() const { return reached_; }
+  void Open() { open_.set_value(); }
+
+ private:
+  std::atomic<bool> reached_{false};
+  std::promise<void> open_;
+  std::shared_future<void> opened_{open_.get_future()};
+};
+
+TEST(AsyncMapper, NeverWaitsAndDropsWhatIsTooMuch) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  Gate gate;
+  Options options;
+  options.loop.layout.every_m = 200;  // once in the second lap
+  MapperContext context = drives.Context();
+  context.place_matcher = gate.Matcher();
+  constexpr int kMost = 3;
+  AsyncMapper async(options, context, kMost);
+  std::size_t next = 0;
+  int done = 0;
+  while (!gate.reached()) {
+    ASSERT_TRUE(async.AddFrame(drives.frames.at(next++)));
+    while (done < static_cast<int>(next) && !gate.reached()) done += async.TakeReport().frames;
+  }
+  for (int i = 0; i < kMost; ++i) EXPECT_TRUE(async.AddFrame(drives.frames[next++]));
+  Frame lost = drives.frames[next++];
+  lost.step = StepUncertainty{true};
+  EXPECT_FALSE(async.AddFrame(lost));
+  EXPECT_FALSE(async.AddFrame(drives.frames[next++]));
+  gate.Open();
+  async.Wait();
+  const std::size_t after = next++;  // the step to it spans the dropped ones
+  EXPECT_TRUE(async.AddFrame(drives.frames[after]));
+  EXPECT_TRUE(async.AddFrame(drives.frames[next++]));
+  async.Wait();
+  const AsyncReport report = async.TakeReport();
+  EXPECT_EQ(report.dropped, 2);
+  EXPECT_EQ(report.failure, "");
+  EXPECT_EQ(async.TakeReport().dropped, 0);
+  ASSERT_FALSE(drives.frames[after].detections.empty());
+  int of_lost = 0, of_next = 0;
+  for (const MapObject& object : async.Snapshot().get().Objects()) {
+    for (const Observation& observation : object.observations) {
+      of_lost += observation.frame == drives.frames[after].index;
+      of_next += observation.frame == drives.frames[after + 1].index;
+    }
+  }
+  EXPECT_EQ(of_lost, 0) << "a lost step makes its detections useless";
+  EXPECT_GT(of_next, 0);
+}
+
+TEST(AsyncMapper, ABadFrameIsCountedWithItsReason) {
+  AsyncMapper async({}, {});
+  async.AddFrame(FrameAt(3));
+  async.AddFrame(FrameAt(2));
+  async.AddFrame(FrameAt(4));
+  async.Wait();
+  const AsyncReport report = async.TakeReport();
+  EXPECT_EQ(report.frames, 2);
+  EXPECT_EQ(report.refused, 1);
+  EXPECT_NE(report.refusal.find("frame 2"), std::string::npos);
+  EXPECT_TRUE(report.failure.empty());
+}
+
+TEST(AsyncMapper, EndsWithFramesInTheQueue) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  std::future<Mapper> never;
+  {
+    AsyncMapper async({}, drives.Context(), 1 << 20);
+    for (const Frame& frame : drives.frames) async.AddFrame(frame);
+    never = async.Snapshot();
+  }
+  EXPECT_THROW(never.get(), std::future_error);
+}
+
+TEST(AsyncMapper, ManyThreadsMayCallIt) {
+  AsyncMapper async({}, {}, 8);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t) {
+    threads.emplace_back([&] {
+      for (int i = 0; i < 50; ++i) {
+        async.TakeReport();
+        async.Snapshot();
+        async.Refine();
+      }
+    });
+  }
+  for (int i = 0; i < 200; ++i) async.AddFrame(FrameAt(i));
+  for (std::thread& thread : threads) thread.join();
+  async.Wait();
+  EXPECT_EQ(async.TakeReport().failure, "");
+}
+
+TEST(AsyncMapper, RefusesWhatAMapperRefuses) {
+  MapperContext context;
+  context.camera = Camera();
+  EXPECT_THROW(AsyncMapper({}, context), Error);
+}
+
+TEST(MergeChanges, NewerPosesAndDecisionsReplaceOlderOnes) {
+  MapChanges changes, newer;
+  changes.poses = {{1, 0.1, Pose()}, {2, 0.2, Pose()}, {3, 0.3, Pose()}};
+  changes.loops.resize(2);
+  changes.loops[1].id = 1;
+  newer.T_world_odom = Pose::Trans(1, 0, 0);
+  newer.poses = {{2, 0.2, Pose::Trans(0, 1, 0)}, {3, 0.3, Pose()}, {4, 0.4, Pose()}};
+  newer.loops.resize(2);
+  newer.loops[0].id = 1;
+  newer.loops[0].decision = LoopDecision::kAccepted;
+  newer.loops[1].id = 2;
+  MergeChanges(newer, changes);
+  ASSERT_EQ(changes.poses.size(), 4u);
+  EXPECT_EQ(changes.poses[1].T_world_cam.translation(), Vec3(0, 1, 0));
+  EXPECT_EQ(changes.poses[3].frame, 4);
+  ASSERT_EQ(changes.loops.size(), 3u);
+  EXPECT_EQ(changes.loops[1].decision, LoopDecision::kAccepted);
+  EXPECT_EQ(changes.T_world_odom.translation(), Vec3(1, 0, 0));
+  MergeChanges({}, changes);
+  EXPECT_EQ(changes.T_world_odom.translation(), Vec3(1, 0, 0)) << "nothing has changed";
+  EXPECT_EQ(changes.poses.size(), 4u);
+}
+
+}  // namespace
+}  // namespace sslcd
