@@ -19,12 +19,13 @@ GainRaster::GainRaster(const std::vector<LabelGain>& gains, float unit, float re
       side_(kGroup * Correlation::kSide + 2 * margin_),
       stride_(RoundUp(side_, 16)),
       bound_side_(side_ / kBlockCells + 2),
-      bound_stride_(RoundUp(bound_side_, 16)) {
+      bound_stride_(RoundUp(bound_side_ + kStamp, 16)) {
   for (const LabelGain& gain : gains) {
     Layer& layer = layers_.emplace_back();
     layer.label = gain.label;
-    layer.most = static_cast<std::uint8_t>(gain.nats / unit + 0.5f);
-    layer.reach_cells = kSigma * std::sqrt(2 * gain.nats) / kCell;
+    const auto most = static_cast<std::uint8_t>(gain.nats / unit + 0.5f);
+    for (int blocks = 1; blocks <= kStamp; ++blocks)
+      for (int i = 0; i < blocks; ++i) layer.bound_rows[blocks][i] = most;
     layer.cells.resize(static_cast<std::size_t>(side_) * stride_);
     layer.bounds.resize(static_cast<std::size_t>(bound_side_) * bound_stride_);
     for (int phase = 0; phase < kPhases * kPhases; ++phase)
@@ -39,10 +40,12 @@ GainRaster::GainRaster(const std::vector<LabelGain>& gains, float unit, float re
         const int gain_units = static_cast<int>(nats / unit + 0.5f);
         if (!(nats > 0) || gain_units == 0) continue;
         Stamp& stamp = layer.stamps[phase];
-        const int row = cell / kStamp;
-        stamp.rows[row][cell % kStamp] = static_cast<std::uint8_t>(gain_units);
-        stamp.first = std::min(stamp.first, row);
-        stamp.end = row + 1;
+        const int row = cell / kStamp, column = cell % kStamp;
+        stamp.rows[row][column] = static_cast<std::uint8_t>(gain_units);
+        stamp.bottom = std::min(stamp.bottom, row);
+        stamp.top = std::max(stamp.top, row);
+        stamp.left = std::min(stamp.left, column);
+        stamp.right = std::max(stamp.right, column);
       }
   }
 }
@@ -83,25 +86,22 @@ void GainRaster::PaintObject(float column, float row, Layer& layer) {
   const int phase = static_cast<int>((row - static_cast<float>(y)) * kPhases) * kPhases +
                     static_cast<int>((column - static_cast<float>(x)) * kPhases);
   const Stamp& stamp = layer.stamps[phase];
-  std::uint8_t* const corner = &layer.cells[static_cast<std::size_t>(y - 3) * stride_ + (x - 3)];
-  for (int i = stamp.first; i < stamp.end; ++i) {
-    std::uint8_t* const to = corner + i * stride_;
-    StampRow now;
-    std::memcpy(&now, to, sizeof now);
-    now = now > stamp.rows[i] ? now : stamp.rows[i];
-    std::memcpy(to, &now, sizeof now);
-  }
-  // A block of a sum meets the cells of a block of the raster and of the next one.
-  const auto block = [&](float cell) {
-    return std::clamp(static_cast<int>(cell), 0, side_ - 1) / kBlockCells;
-  };
-  const int right = block(column + layer.reach_cells + 1), top = block(row + layer.reach_cells + 1);
-  const int left = std::max(0, block(column - layer.reach_cells - 1) - 1);
-  for (int j = std::max(0, block(row - layer.reach_cells - 1) - 1); j <= top; ++j)
-    for (int i = left; i <= right; ++i) {
-      std::uint8_t& bound = layer.bounds[static_cast<std::size_t>(j) * bound_stride_ + i];
-      bound = std::max(bound, layer.most);
-    }
+  const int left = x - 3, bottom = y - 3;
+  std::uint8_t* const cells = &layer.cells[static_cast<std::size_t>(bottom) * stride_ + left];
+  for (int i = stamp.bottom; i <= stamp.top; ++i) Raise(cells + i * stride_, stamp.rows[i]);
+  const auto block = [](int cell) { return cell / kBlockCells; };
+  const int first = block(left + stamp.left);
+  const StampRow& bound = layer.bound_rows[block(left + stamp.right) + 2 - first];
+  for (int j = block(bottom + stamp.bottom); j <= block(bottom + stamp.top) + 1; ++j)
+    Raise(&layer.bounds[static_cast<std::size_t>(j) * bound_stride_ + first], bound);
+}
+
+// The larger of a row of cells and `by`.
+void GainRaster::Raise(std::uint8_t* to, const StampRow& by) {
+  StampRow now;
+  std::memcpy(&now, to, sizeof now);
+  now = now > by ? now : by;
+  std::memcpy(to, &now, sizeof now);
 }
 
 void GainRaster::Append(std::size_t label, float x, float y, ShiftedRasters& rasters) const {
@@ -112,8 +112,8 @@ void GainRaster::Append(std::size_t label, float x, float y, ShiftedRasters& ras
   rasters.bound_stride = bound_stride_;
   rasters.cells[rasters.count] = &layer.cells[static_cast<std::size_t>(row) * stride_ + column];
   rasters.bounds[rasters.count] =
-      &layer.bounds[static_cast<std::size_t>(row / kBlockCells) * bound_stride_ +
-                    column / kBlockCells];
+      &layer.bounds[static_cast<std::size_t>(row / kBlockCells + 1) * bound_stride_ +
+                    column / kBlockCells + 1];
   ++rasters.count;
 }
 

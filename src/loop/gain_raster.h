@@ -44,15 +44,17 @@ class GainRaster {
   using StampRow = std::uint8_t __attribute__((vector_size(kStamp)));
   struct Stamp {
     std::array<StampRow, kStamp> rows{};
-    int first = kStamp, end = 0;  // rows that are not zero
+    int bottom = kStamp, top = 0, left = kStamp, right = 0;  // first and last cells above zero
   };
   struct Layer {
     int label = 0;
-    std::uint8_t most = 0;
-    float reach_cells = 0;
     std::array<Stamp, kPhases * kPhases> stamps{};  // by row and column of the phase
+    std::array<StampRow, kStamp + 1> bound_rows{};  // the label's gain, by number of blocks
+    // A bound of a block is that of the cells of this block and the next ones, per axis: a shifted
+    // block meets them. The first row and column of bounds is that of the block before the first.
     std::vector<std::uint8_t> cells, bounds;
   };
+  static void Raise(std::uint8_t* to, const StampRow& by);
   void Paint(const MapTiles& map, double left, double bottom);
   void PaintObject(float column, float row, Layer& layer);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace sslcd::pair_directions {
 namespace {
@@ -13,6 +14,63 @@ constexpr float kLeastPeak = 4.f;
 // Smallest excess of a further peak, share of the highest. Set by hand: streets bend, so that they
 // have peaks next to each other.
 constexpr float kFurtherPeak = 0.7f;
+
+// Counts of a map, each row twice, so that a turned row is contiguous.
+struct TwoTurns {
+  std::array<std::uint16_t, 2 * kDistances * kDirections> counts;
+  std::uint16_t most = 0;
+
+  explicit TwoTurns(const Counts& map) {
+    for (int d = 0; d < kDistances; ++d) {
+      const auto row = map.begin() + d * kDirections;
+      const auto to = counts.begin() + 2 * d * kDirections;
+      std::copy(row, row + kDirections, to);
+      std::copy(row, row + kDirections, to + kDirections);
+    }
+    for (const std::uint16_t count : map) most = std::max(most, count);
+  }
+  // The row of the bin's distance from the bin's direction on.
+  const std::uint16_t* TurnedRow(int bin) const {
+    return &counts[static_cast<std::size_t>(bin + bin / kDirections * kDirections)];
+  }
+};
+
+using Lanes = std::uint16_t __attribute__((vector_size(16)));
+constexpr int kLanes = sizeof(Lanes) / sizeof(std::uint16_t);
+
+// One variable per vector: an array would go through the stack.
+void AddLanes(const std::uint16_t* from, Lanes& sum) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  sum += lanes;
+}
+
+// c(yaw) of the header. The sums have 16 bits as long as they fit.
+std::array<int, kDirections> Agreement(const std::vector<int>& local, const Counts& map) {
+  constexpr int kStep = 3 * kLanes;
+  static_assert(kDirections % kStep == 0, "whole steps");
+  const TwoTurns turns(map);
+  const std::size_t at_once = 65535 / std::max<std::size_t>(1, turns.most);
+  std::array<int, kDirections> agreement{};
+  for (std::size_t first = 0; first < local.size(); first += at_once) {
+    const std::size_t end = std::min(local.size(), first + at_once);
+    for (int i = 0; i < kDirections; i += kStep) {
+      Lanes a{}, b{}, c{};
+      for (std::size_t k = first; k < end; ++k) {
+        const std::uint16_t* const row = turns.TurnedRow(local[k]) + i;
+        AddLanes(row, a);
+        AddLanes(row + kLanes, b);
+        AddLanes(row + 2 * kLanes, c);
+      }
+      for (int j = 0; j < kLanes; ++j) {
+        agreement[i + j] += a[j];
+        agreement[i + kLanes + j] += b[j];
+        agreement[i + 2 * kLanes + j] += c[j];
+      }
+    }
+  }
+  return agreement;
+}
 
 }  // namespace
 
@@ -40,31 +98,28 @@ std::vector<int> BinsOf(const std::vector<LayoutPoint>& points) {
 }
 
 Headings FindHeadings(const std::vector<int>& local, const Counts& map) {
-  // c(yaw) over two half turns, so that the sum needs no modulo
-  std::array<std::uint32_t, 2 * kDirections> sum{};
-  for (const int bin : local) {
-    const int direction = bin % kDirections;
-    const std::uint16_t* const row = &map[static_cast<std::size_t>(bin - direction)];
-    std::uint32_t* const at = &sum[static_cast<std::size_t>(kDirections - direction)];
-    for (int i = 0; i < kDirections; ++i) at[i] += row[i];
+  const std::array<int, kDirections> agreement = Agreement(local, map);
+  std::array<int, kDirections + 2> smooth{};  // with the bins beyond both ends
+  int sum = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const int before = agreement[(i + kDirections - 1) % kDirections],
+              after = agreement[(i + 1) % kDirections];
+    smooth[i + 1] = before + 2 * agreement[i] + after;
+    sum += smooth[i + 1];
   }
-  std::array<float, kDirections + 2> raw{}, smooth{};  // with the bins beyond both ends
-  for (int i = 0; i < kDirections; ++i)
-    raw[i + 1] = static_cast<float>(sum[i] + sum[i + kDirections]);
-  raw[0] = raw[kDirections];
-  raw[kDirections + 1] = raw[1];
-  for (int i = 1; i <= kDirections; ++i) smooth[i] = raw[i - 1] + 2 * raw[i] + raw[i + 1];
-  Headings found;
-  float highest = 0, mean = 0;
-  for (int i = 1; i <= kDirections; ++i) mean += smooth[i] / kDirections;
+  const float mean = static_cast<float>(sum) / kDirections;
   // of a count that is Poisson distributed about the mean; the smoothed bins have the weights 1, 2,
   // 1
   const float sigma = std::sqrt(1.5f * mean + 1);
+  Headings found;
+  float highest = 0;
   while (found.count < kMaxHeadings) {
-    const auto peak = std::max_element(smooth.begin() + 1, smooth.end() - 1) - smooth.begin();
-    const float excess = smooth[peak] - mean;
+    int most = 0;
+    for (int i = 1; i <= kDirections; ++i) most = std::max(most, smooth[i]);
+    const float excess = static_cast<float>(most) - mean;
     if (excess < kLeastPeak * sigma || excess < kFurtherPeak * highest) break;
     highest = std::max(highest, excess);
+    const auto peak = std::find(smooth.begin() + 1, smooth.end(), most) - smooth.begin();
     const float yaw = static_cast<float>(static_cast<double>(peak - 1) * kBinRad);
     found.yaw_rad[found.count++] = yaw;
     found.yaw_rad[found.count++] = yaw + static_cast<float>(M_PI);
