@@ -7,13 +7,17 @@
 
 namespace sslcd {
 
-/// Rasters of one byte per cell, each shifted by whole cells, to be added up.
-struct ShiftedRasters {
-  static constexpr int kMax = 32;
-  /// first cell of the sum, in each raster, and of the first block in each bound
-  std::array<const std::uint8_t*, kMax> cells{}, bounds{};
-  int count = 0;
+/// Rasters of one byte per cell, and upper bounds of their blocks.
+struct Rasters {
+  const std::uint8_t *cells = nullptr, *bounds = nullptr;
   int stride = 0, bound_stride = 0;  ///< from one row to the next
+};
+
+/// Shifts of rasters that are to be added up: where in `cells` and in `bounds` each one begins.
+struct RasterShifts {
+  static constexpr int kMax = 32;
+  std::array<int, kMax> cells, bounds;
+  int count = 0;
 };
 
 /// Sums of shifted rasters over a square of cells: s(x, y) = sum_k r_k(x, y).
@@ -23,12 +27,15 @@ class Correlation {
   static constexpr int kBlock = 4;   ///< side of the blocks that have a bound [cells]
   static constexpr int kChunk = 32;  ///< width of the parts that are added at once [cells]
 
+  static constexpr int kBorder = 16;                   ///< of zeros about the sums, per row
+  static constexpr int kStride = kSide + 2 * kBorder;  ///< of the sums
+
   Correlation() { sums_.fill(0); }
 
   /// Adds up the parts whose bound exceeds `threshold`; the sum of the others is 0. The bound of a
   /// part is the largest sum of `bounds` of its blocks. No sum may exceed 255. The same with and
   /// without AVX2, which is used where the processor has it.
-  void Add(const ShiftedRasters& rasters, std::uint8_t threshold);
+  void Add(const Rasters& rasters, const RasterShifts& shifts, std::uint8_t threshold);
 
   /// The cells above the threshold that no neighbour exceeds (of equal ones the first): calls
   /// visit(x, y, sum).
@@ -46,10 +53,8 @@ class Correlation {
   }
 
  private:
-  // with a border of zeros
   static constexpr int kWord = 8;
   using Word = std::uint8_t __attribute__((vector_size(kWord)));
-  static constexpr int kBorder = 16, kStride = kSide + 2 * kBorder;
   struct Part {
     int x, y;
   };
@@ -69,7 +74,7 @@ class Correlation {
     return any != 0;
   }
 
-  std::array<std::uint8_t, (kSide + 2) * kStride> sums_;
+  std::array<std::uint8_t, (kSide + 2) * kStride> sums_;           // with a border of zeros
   std::array<Part, (kSide / kBlock) * (kSide / kChunk)> parts_{};  // with sums above the threshold
   int part_count_ = 0;
   std::uint8_t threshold_ = 0;

@@ -33,9 +33,12 @@ class GainRaster {
   /// Sets the tile of the poses. Paints its group of tiles, unless the last tile was of it.
   void Enter(const MapTiles& map, const MapTiles::Tile& tile);
 
-  /// Adds the raster of the label with the index `label` in `gains`, seen from the poses of the
-  /// tile: the local object is at (x, y) from a pose. [m]
-  void Append(std::size_t label, float x, float y, ShiftedRasters& rasters) const;
+  /// The rasters seen from the poses of the tile.
+  Rasters FromTile() const;
+
+  /// Adds the shift of the raster of the label with the index `label` in `gains`: the local object
+  /// is at (x, y) from a pose. The same for all tiles. [m]
+  void Append(std::size_t label, float x, float y, RasterShifts& shifts) const;
 
  private:
   static constexpr int kStamp = 8;   // side of the square that an object paints [cells]
@@ -50,18 +53,23 @@ class GainRaster {
     int label = 0;
     std::array<Stamp, kPhases * kPhases> stamps{};  // by row and column of the phase
     std::array<StampRow, kStamp + 1> bound_rows{};  // the label's gain, by number of blocks
-    // A bound of a block is that of the cells of this block and the next ones, per axis: a shifted
-    // block meets them. The first row and column of bounds is that of the block before the first.
-    std::vector<std::uint8_t> cells, bounds;
   };
   static void Raise(std::uint8_t* to, const StampRow& by);
   void Paint(const MapTiles& map, double left, double bottom);
-  void PaintObject(float column, float row, Layer& layer);
+  void PaintObject(float column, float row, std::size_t layer);
+
+  int CellsOfLayer() const { return side_ * stride_; }
+  int BoundsOfLayer() const { return bound_side_ * bound_stride_; }
 
   int margin_, side_, stride_, bound_side_, bound_stride_;  // [cells], [blocks]
   int group_column_ = -1, group_row_ = -1;                  // of the painted group
-  int tile_column_ = 0, tile_row_ = 0;                      // first cell of the tile in the raster
+  int tile_column_ = 0, tile_row_ = 0;                      // of the tile in its group [tiles]
   std::vector<Layer> layers_;
+  // One layer after the other. A bound of a block is that of the cells of this block and the next
+  // ones, per axis: a shifted block meets them. The first row and column of bounds is that of the
+  // block before the first.
+  std::vector<std::uint8_t> cells_, bounds_;
+  std::vector<const MapTiles::Tile*> near_;  // whose objects are painted
 };
 
 }  // namespace sslcd

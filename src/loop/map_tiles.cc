@@ -16,6 +16,7 @@ MapTiles::Tile& MapTiles::TileOf(const LayoutPoint& point) {
   for (const int i : places_.At(column, row)) return tiles_[i];
   const int number = static_cast<int>(tiles_.size());
   Tile& tile = tiles_.emplace_back();
+  tile.number = number;
   tile.column = column;
   tile.row = row;
   tile.left = static_cast<double>(kSide) * (column - kMiddleCell);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
 #include "loop/cell_lists.h"
 #include "loop/layout_point.h"
 #include "loop/pair_directions.h"
+#include "loop/prefetch.h"
 
 namespace sslcd {
 
@@ -20,6 +22,7 @@ class MapTiles {
   static constexpr int kGroup = 4;  ///< tiles per side of a group
 
   struct Tile {
+    int number = 0;               ///< from 0 on, in the order of the first objects
     int column = 0, row = 0;      ///< of CellLists
     double left = 0, bottom = 0;  ///< lower left corner [m]
     std::vector<LayoutPoint> points;
@@ -29,6 +32,8 @@ class MapTiles {
 
   MapTiles() : places_(kSide) {}
 
+  std::size_t tile_count() const { return tiles_.size(); }
+
   void Add(const LayoutPoint& point);
   /// Removes a point that has been added.
   void Remove(const LayoutPoint& point);
@@ -37,7 +42,10 @@ class MapTiles {
   /// and column. Some may be empty.
   template <class Visitor>
   void VisitAll(Visitor&& visit) const {
-    for (const int i : order_) visit(tiles_[i]);
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      if (i + 1 < order_.size()) Prefetch(&tiles_[order_[i + 1]], sizeof(Tile));
+      visit(tiles_[order_[i]]);
+    }
   }
 
   /// Calls visit(tile) for the tiles that overlap a box.

@@ -120,14 +120,18 @@ Headings FindHeadings(const std::vector<int>& local, const Counts& map) {
     if (excess < kLeastPeak * sigma || excess < kFurtherPeak * highest) break;
     highest = std::max(highest, excess);
     const auto peak = std::find(smooth.begin() + 1, smooth.end(), most) - smooth.begin();
-    const float yaw = static_cast<float>(static_cast<double>(peak - 1) * kBinRad);
-    found.yaw_rad[found.count++] = yaw;
-    found.yaw_rad[found.count++] = yaw + static_cast<float>(M_PI);
+    found.bin[found.count++] = static_cast<int>(peak) - 1;
+    found.bin[found.count++] = static_cast<int>(peak) - 1 + kDirections;
     smooth[peak] = 0;
     smooth[peak == 1 ? kDirections : peak - 1] = 0;
     smooth[peak == kDirections ? 1 : peak + 1] = 0;
   }
   return found;
+}
+
+float YawOf(int heading) {
+  const float yaw = static_cast<float>(heading % kDirections * kBinRad);
+  return heading < kDirections ? yaw : yaw + static_cast<float>(M_PI);
 }
 
 }  // namespace sslcd::pair_directions

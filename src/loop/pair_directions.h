@@ -36,11 +36,15 @@ std::vector<int> BinsOf(const std::vector<LayoutPoint>& points);
 /// and their reverses, since a direction has no sign. None where no peak stands out: there are no
 /// rows, or others.
 inline constexpr int kMaxHeadings = 6;
+inline constexpr int kHeadings = 2 * kDirections;  ///< bins of a turn
 struct Headings {
-  std::array<float, kMaxHeadings> yaw_rad{};
+  std::array<int, kMaxHeadings> bin{};  ///< of kHeadings
   int count = 0;
 };
 Headings FindHeadings(const std::vector<int>& local, const Counts& map);
+
+/// The yaw of a heading. [rad]
+float YawOf(int heading);
 
 }  // namespace pair_directions
 }  // namespace sslcd

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "loop/gain_raster.h"
 #include "sslcd/loop/options.h"
@@ -99,6 +100,35 @@ class Peaks {
   std::vector<CoarsePose> poses_;
 };
 
+/// The local points at each heading, as shifts of rasters; computed when needed.
+class TurnedPoints {
+ public:
+  struct Turned {
+    float cosine = 1, sine = 0;
+    RasterShifts shifts;
+  };
+
+  TurnedPoints(const Chosen& chosen, const GainRaster& raster) : chosen_(chosen), raster_(raster) {}
+
+  const Turned& At(int heading) {
+    std::optional<Turned>& turned = by_heading_[heading];
+    if (turned) return *turned;
+    turned.emplace();
+    const float yaw = pair_directions::YawOf(heading);
+    const float c = turned->cosine = std::cos(yaw), s = turned->sine = std::sin(yaw);
+    for (std::size_t k = 0; k < chosen_.points.size(); ++k) {
+      const LayoutPoint& p = chosen_.points[k];
+      raster_.Append(chosen_.label_of[k], c * p.x - s * p.y, s * p.x + c * p.y, turned->shifts);
+    }
+    return *turned;
+  }
+
+ private:
+  const Chosen& chosen_;
+  const GainRaster& raster_;
+  std::array<std::optional<Turned>, pair_directions::kHeadings> by_heading_;
+};
+
 }  // namespace
 
 float MatchGain(int label, const LayoutIndex& index) {
@@ -114,7 +144,7 @@ float MatchGain(int label, const LayoutIndex& index) {
 bool RasterPoses::HasSearched(const MapTiles& map, const CoarsePose& pose) const {
   bool has = false;
   map.VisitBox(pose.x, pose.y, pose.x, pose.y,
-               [&](const MapTiles::Tile& tile) { has = searched.count(&tile) > 0; });
+               [&](const MapTiles::Tile& tile) { has = searched[tile.number]; });
   return has;
 }
 
@@ -122,10 +152,12 @@ RasterPoses SearchRasters(const std::vector<LayoutPoint>& points, const LayoutIn
                           std::size_t most) {
   const Chosen chosen = Choose(points, index);
   RasterPoses found;
+  found.searched.resize(index.tiles()->tile_count());
   if (chosen.points.empty()) return found;
   const float unit = chosen.sum / kMostUnits;
   const auto local_pairs = pair_directions::BinsOf(points);
   GainRaster raster(chosen.labels, unit, chosen.reach);
+  TurnedPoints turned_points(chosen, raster);
   Correlation correlation;
   Peaks peaks(most);
   const MapTiles& map = *index.tiles();
@@ -133,19 +165,14 @@ RasterPoses SearchRasters(const std::vector<LayoutPoint>& points, const LayoutIn
     if (tile.points.empty()) return;
     const auto headings = pair_directions::FindHeadings(local_pairs, tile.pairs);
     if (headings.count == 0) return;
-    found.searched.insert(&tile);
+    found.searched[tile.number] = true;
     raster.Enter(map, tile);
     for (int i = 0; i < headings.count; ++i) {
+      const TurnedPoints::Turned& turned = turned_points.At(headings.bin[i]);
       CoarsePose pose;
-      pose.cosine = std::cos(headings.yaw_rad[i]);
-      pose.sine = std::sin(headings.yaw_rad[i]);
-      ShiftedRasters shifted;
-      for (std::size_t k = 0; k < chosen.points.size(); ++k) {
-        const LayoutPoint& p = chosen.points[k];
-        raster.Append(chosen.label_of[k], pose.cosine * p.x - pose.sine * p.y,
-                      pose.sine * p.x + pose.cosine * p.y, shifted);
-      }
-      correlation.Add(shifted, peaks.threshold());
+      pose.cosine = turned.cosine;
+      pose.sine = turned.sine;
+      correlation.Add(raster.FromTile(), turned.shifts, peaks.threshold());
       correlation.VisitPeaks([&](int x, int y, std::uint8_t sum) {
         const auto middle = [](double from, int cell) {
           return static_cast<float>(from + (cell + 0.5) * GainRaster::kCell);

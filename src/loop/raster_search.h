@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <unordered_set>
 #include <vector>
 
 #include "loop/coarse_poses.h"
@@ -15,8 +14,8 @@ struct RasterPoses {
   std::vector<CoarsePose> poses;
   /// every other pose at the searched headings has a lower s, but for neighbours of these [nats]
   float cut_off = 0;
-  /// tiles where rows have a common heading with the local objects
-  std::unordered_set<const MapTiles::Tile*> searched;
+  /// by MapTiles::Tile::number: rows have a common heading with the local objects
+  std::vector<bool> searched;
 
   bool HasSearched(const MapTiles& map, const CoarsePose& pose) const;
 };

@@ -17,28 +17,26 @@ struct Scene {
   static constexpr int kCount = 5, kStride = 96, kBounds = 16;
 
   explicit Scene(unsigned seed) : random(seed) {
+    for (std::uint8_t& cell : cells)
+      cell = static_cast<std::uint8_t>(random() % 50 < 49 ? 0 : random() % 51);
     for (int k = 0; k < kCount; ++k) {
-      cells.emplace_back(static_cast<std::size_t>(kSide) * kStride);
-      bounds.emplace_back(static_cast<std::size_t>(kBounds) * kBounds, 0);
-      for (std::uint8_t& cell : cells[k])
-        cell = static_cast<std::uint8_t>(random() % 50 < 49 ? 0 : random() % 51);
+      shifts.cells[k] = k * kSide * kStride;
+      shifts.bounds[k] = k * kBounds * kBounds;
       for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
-          std::uint8_t& bound = bounds[k][y / kBlock * kBounds + x / kBlock];
-          bound = std::max(bound, cells[k][y * kStride + x]);
+          std::uint8_t& bound = bounds[shifts.bounds[k] + y / kBlock * kBounds + x / kBlock];
+          bound = std::max(bound, cells[shifts.cells[k] + y * kStride + x]);
         }
-      shifted.cells[k] = cells[k].data();
-      shifted.bounds[k] = bounds[k].data();
     }
-    shifted.count = kCount;
-    shifted.stride = kStride;
-    shifted.bound_stride = kBounds;
+    shifts.count = kCount;
   }
+
+  Rasters rasters() const { return {cells.data(), bounds.data(), kStride, kBounds}; }
 
   int Sum(int x, int y) const {
     if (x < 0 || y < 0 || x >= kSide || y >= kSide) return 0;
     int sum = 0;
-    for (const auto& raster : cells) sum += raster[y * kStride + x];
+    for (int k = 0; k < kCount; ++k) sum += cells[shifts.cells[k] + y * kStride + x];
     return sum;
   }
 
@@ -61,8 +59,9 @@ struct Scene {
   }
 
   std::mt19937 random;
-  std::vector<std::vector<std::uint8_t>> cells, bounds;
-  ShiftedRasters shifted;
+  std::vector<std::uint8_t> cells = std::vector<std::uint8_t>(kCount * kSide * kStride);
+  std::vector<std::uint8_t> bounds = std::vector<std::uint8_t>(kCount * kBounds * kBounds);
+  RasterShifts shifts;
 };
 
 TEST(Correlation, FindsThePeaksOfTheSum) {
@@ -71,7 +70,7 @@ TEST(Correlation, FindsThePeaksOfTheSum) {
     const Scene scene(seed);
     for (const int threshold : {0, 40, 70, 200}) {
       std::map<std::pair<int, int>, int> found;
-      correlation.Add(scene.shifted, static_cast<std::uint8_t>(threshold));
+      correlation.Add(scene.rasters(), scene.shifts, static_cast<std::uint8_t>(threshold));
       correlation.VisitPeaks([&](int x, int y, int sum) { found[{x, y}] = sum; });
       // A part is skipped where no block can exceed the threshold, so that only neighbours below
       // it are missing.
@@ -82,11 +81,11 @@ TEST(Correlation, FindsThePeaksOfTheSum) {
 
 TEST(Correlation, SkipsWhatTheBoundExcludes) {
   Scene scene(1);
-  for (auto& bound : scene.bounds) std::fill(bound.begin(), bound.end(), 8);
+  std::fill(scene.bounds.begin(), scene.bounds.end(), 8);
   Correlation correlation;
-  correlation.Add(scene.shifted, 8 * Scene::kCount);
+  correlation.Add(scene.rasters(), scene.shifts, 8 * Scene::kCount);
   correlation.VisitPeaks([](int, int, int) { ADD_FAILURE() << "not skipped"; });
-  correlation.Add(scene.shifted, 8 * Scene::kCount - 1);
+  correlation.Add(scene.rasters(), scene.shifts, 8 * Scene::kCount - 1);
   int peaks = 0;
   correlation.VisitPeaks([&](int, int, int) { ++peaks; });
   EXPECT_GT(peaks, 0);
@@ -94,7 +93,7 @@ TEST(Correlation, SkipsWhatTheBoundExcludes) {
 
 TEST(Correlation, NoRasterNoPeak) {
   Correlation correlation;
-  correlation.Add({}, 0);
+  correlation.Add(Scene(1).rasters(), {}, 0);
   correlation.VisitPeaks([](int, int, int) { ADD_FAILURE(); });
 }
 

@@ -14,8 +14,15 @@ constexpr float kUnit = 0.05f;
 const std::vector<LabelGain> kGains = {{0, 2.5f}, {1, 5.f}};
 
 // The value of cell (x, y) of a tile's square.
-int CellOf(const ShiftedRasters& shifted, int x, int y) {
-  return shifted.cells[0][y * shifted.stride + x];
+int CellOf(const GainRaster& raster, const RasterShifts& shifts, int x, int y) {
+  const Rasters from = raster.FromTile();
+  return from.cells[shifts.cells[0] + y * from.stride + x];
+}
+
+// The bound of a block of such cells.
+int BoundOf(const GainRaster& raster, const RasterShifts& shifts, int column, int row) {
+  const Rasters from = raster.FromTile();
+  return from.bounds[shifts.bounds[0] + row * from.bound_stride + column];
 }
 
 MapTiles MapOf(const std::vector<LayoutObject>& objects) {
@@ -33,8 +40,8 @@ TEST(GainRaster, IsTheGainOfTheNearestObject) {
     raster.Enter(map, tile);
     for (std::size_t label = 0; label < kGains.size(); ++label)
       for (const Vec2& shift : {Vec2(0, 0), Vec2(7.5, -12.5)}) {
-        ShiftedRasters shifted;
-        raster.Append(label, static_cast<float>(shift.x()), static_cast<float>(shift.y()), shifted);
+        RasterShifts shifts;
+        raster.Append(label, static_cast<float>(shift.x()), static_cast<float>(shift.y()), shifts);
         for (int y = 0; y < Correlation::kSide; y += 3)
           for (int x = 0; x < Correlation::kSide; x += 3) {
             const Vec2 place =
@@ -49,7 +56,7 @@ TEST(GainRaster, IsTheGainOfTheNearestObject) {
                   0., kGains[label].nats - d * d / (2. * GainRaster::kSigma * GainRaster::kSigma));
             };
             const double aside = std::sqrt(2.) * GainRaster::kCell / 8;
-            const double value = kUnit * CellOf(shifted, x, y);
+            const double value = kUnit * CellOf(raster, shifts, x, y);
             EXPECT_LE(value, gain(std::max(0., nearest - aside)) + kUnit / 2 + 1e-4);
             EXPECT_GE(value, gain(nearest + aside) - kUnit / 2 - 1e-4);
             painted += value > 0;
@@ -66,13 +73,13 @@ TEST(GainRaster, BoundsAreUpperBounds) {
   map.VisitAll([&](const MapTiles::Tile& tile) {
     raster.Enter(map, tile);
     for (float shift = -30; shift <= 30; shift += 1.1f) {
-      ShiftedRasters shifted;
-      raster.Append(0, shift, 0.7f * shift, shifted);
+      RasterShifts shifts;
+      raster.Append(0, shift, 0.7f * shift, shifts);
       for (int y = 0; y < Correlation::kSide; ++y)
         for (int x = 0; x < Correlation::kSide; ++x) {
-          const int bound = shifted.bounds[0][y / Correlation::kBlock * shifted.bound_stride +
-                                              x / Correlation::kBlock];
-          ASSERT_LE(CellOf(shifted, x, y), bound) << x << " " << y << " " << shift;
+          const int bound =
+              BoundOf(raster, shifts, x / Correlation::kBlock, y / Correlation::kBlock);
+          ASSERT_LE(CellOf(raster, shifts, x, y), bound) << x << " " << y << " " << shift;
           low += bound == 0;
         }
     }
@@ -90,10 +97,10 @@ TEST(GainRaster, IgnoresOtherLabelsAndFarObjects) {
     if (!first) return;
     first = false;
     raster.Enter(map, tile);
-    ShiftedRasters shifted;
-    raster.Append(0, 0, 0, shifted);
+    RasterShifts shifts;
+    raster.Append(0, 0, 0, shifts);
     for (int y = 0; y < Correlation::kSide; ++y)
-      for (int x = 0; x < Correlation::kSide; ++x) EXPECT_EQ(CellOf(shifted, x, y), 0);
+      for (int x = 0; x < Correlation::kSide; ++x) EXPECT_EQ(CellOf(raster, shifts, x, y), 0);
   });
 }
 

@@ -22,7 +22,7 @@ Counts CountsOf(const std::vector<LayoutPoint>& points) {
 
 bool Contains(const Headings& headings, double yaw_rad) {
   for (int i = 0; i < headings.count; ++i)
-    if (std::abs(WrapAngle(headings.yaw_rad[i] - yaw_rad)) < kBinRad) return true;
+    if (std::abs(WrapAngle(YawOf(headings.bin[i]) - yaw_rad)) < kBinRad) return true;
   return false;
 }
 
@@ -50,6 +50,27 @@ TEST(PairDirections, FindTheHeadingOfRows) {
     EXPECT_TRUE(Contains(headings, yaw)) << yaw;
     EXPECT_TRUE(Contains(headings, yaw + M_PI)) << "a direction has no sign";
   }
+}
+
+TEST(PairDirections, BinsOfHeadingsAreInOrder) {
+  for (int heading = 0; heading < kHeadings; ++heading)
+    EXPECT_NEAR(YawOf(heading), heading * kBinRad, 1e-6);
+}
+
+// The sums have 16 bits, which 200 local objects and dense rows exceed.
+TEST(PairDirections, CountsOfAnySize) {
+  const Counts map = CountsOf(PointsOf(CarPark({0, 0}, 0.3, 1)));
+  const std::vector<int> bins =
+      BinsOf(PointsOf(SeenFrom(CarPark({0, 0}, 0.3, 1), {0.7, {5, 5, 0}}, {3, 2}, 14, 0.3, 2)));
+  const Headings expected = FindHeadings(bins, map);
+  ASSERT_GT(expected.count, 0);
+  std::vector<int> many;
+  for (int i = 0; i < 500; ++i) many.insert(many.end(), bins.begin(), bins.end());
+  Counts large = map;
+  const int factor = 65535 / *std::max_element(map.begin(), map.end());
+  for (std::uint16_t& count : large) count = static_cast<std::uint16_t>(count * factor);
+  EXPECT_EQ(FindHeadings(many, map).bin, expected.bin);
+  EXPECT_EQ(FindHeadings(bins, large).bin[0], expected.bin[0]);
 }
 
 TEST(PairDirections, NoHeadingWithoutCommonRows) {

@@ -90,5 +90,35 @@ TEST(SearchRasters, EqualObjectsOnAPerfectGridEndWithFewPoses) {
   EXPECT_LE(SearchRasters(local, index, 1000).poses.size(), 1000u);
 }
 
+TEST(SearchRasters, ManyObjectsAtOnePoint) {
+  std::vector<LayoutObject> map = CarParks(20, 1);
+  map.insert(map.end(), 2000, ObjectAt({7, 7, 0}));
+  const LayoutIndex index(map, 50, 2);
+  ASSERT_NE(index.tiles(), nullptr);
+  std::vector<LayoutPoint> local;
+  for (int i = 0; i < 10; ++i) local.push_back({3.f * static_cast<float>(i % 5), 0, 0, 0});
+  EXPECT_LE(SearchRasters(local, index, 500).poses.size(), 500u);
+}
+
+// The time grows with the tiles that have objects, not with the area of the map.
+TEST(SearchRasters, FewRowsInAHugeArea) {
+  const std::vector<LayoutObject> park = CarPark({5, 5}, 0.3, 1);
+  std::vector<LayoutObject> map;
+  for (int i = 0; i < 30; ++i)
+    for (LayoutObject object : park) {
+      object.position.x() += 1e5 * i;
+      map.push_back(object);
+    }
+  const LayoutIndex index(map, 50, 2);
+  ASSERT_NE(index.tiles(), nullptr);
+  EXPECT_LT(index.tiles()->tile_count(), 200u);
+  Vec3 centre;
+  const YawShift truth{1, {1e5, 0, 0}};
+  const std::vector<LayoutObject> local = SeenFrom(map, truth, {1e5 + 5, 5}, 14, 0.2, 1);
+  const RasterPoses found = SearchRasters(CentredPoints(local, centre), index, 500);
+  EXPECT_TRUE(std::any_of(found.poses.begin(), found.poses.end(),
+                          [&](const CoarsePose& pose) { return IsNear(pose, truth, centre); }));
+}
+
 }  // namespace
 }  // namespace sslcd
