@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
+#include "sslcd/version.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {

@@ -10,6 +10,7 @@
 #include "core/for_each.h"
 #include "formats/atomic_file.h"
 #include "formats/pairs.h"
+#include "loop/indexed_match.h"
 #include "loop/layout_index.h"
 #include "loop/layout_likelihood.h"
 #include "loop/paper_match.h"

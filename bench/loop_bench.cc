@@ -19,9 +19,9 @@
 
 #include "closing/pass_layout.h"
 #include "closing/pass_map.h"
+#include "loop/indexed_match.h"
 #include "loop/pose_tracks.h"
 #include "sim/random.h"
-#include "sslcd/loop/layout_match.h"
 
 namespace sslcd {
 namespace {

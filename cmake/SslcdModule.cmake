@@ -9,8 +9,10 @@
 # sslcd_use_rooms(TARGET <modules>...)
 #   private headers for a program: a tool, a benchmark, a test.
 # sslcd_library(TARGET [LINK <libraries>...])
-#   the modules since the last sslcd_library() as one installed library: `sslcd` as sslcd::sslcd,
-#   `sslcd_vision` as sslcd::vision.
+#   the modules since the last sslcd_library() as an installed library: `sslcd`, `sslcd_vision`. It
+#   is static; tools and tests, which use private headers, link it. With SSLCD_BUILD_SHARED there is
+#   also TARGET_shared, of the same objects, which shows only what installed headers declare.
+#   sslcd::sslcd and sslcd::vision are the shared ones if BUILD_SHARED_LIBS is on.
 function(sslcd_room name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   set(room ${PROJECT_BINARY_DIR}/rooms/${name})
@@ -41,7 +43,8 @@ function(sslcd_module name)
   sslcd_room(${name} LINK ${ARG_LINK})
   add_library(sslcd_${name} OBJECT ${sources})
   target_link_libraries(sslcd_${name} PRIVATE sslcd_${name}_headers ${ARG_PRIVATE} sslcd_compiler)
-  set_target_properties(sslcd_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(sslcd_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   set_property(GLOBAL APPEND PROPERTY SSLCD_OBJECT_LIBRARIES ${name})
   set_property(GLOBAL APPEND PROPERTY SSLCD_MODULES ${name})
   set_property(GLOBAL APPEND PROPERTY SSLCD_OUTSIDE_LIBRARIES ${ARG_PRIVATE})
@@ -59,15 +62,37 @@ function(sslcd_library target)
     list(APPEND objects $<TARGET_OBJECTS:sslcd_${module}>)
   endforeach()
   string(REPLACE "sslcd_" "" export_name ${target})
-  add_library(${target} ${objects})
-  add_library(sslcd::${export_name} ALIAS ${target})
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  target_compile_features(${target} PUBLIC cxx_std_17)
-  target_link_libraries(${target} PUBLIC sslcd_lie ${ARG_LINK} PRIVATE ${outside})
-  set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0
-    EXPORT_NAME ${export_name})
+
+  add_library(${target} STATIC ${objects})
+  target_link_libraries(${target} PUBLIC ${ARG_LINK})
+  set(kinds ${target})
+  if(SSLCD_BUILD_SHARED OR BUILD_SHARED_LIBS)
+    add_library(${target}_shared SHARED ${objects})
+    list(TRANSFORM ARG_LINK APPEND _shared)
+    target_link_libraries(${target}_shared PUBLIC ${ARG_LINK})
+    set_target_properties(${target}_shared PROPERTIES OUTPUT_NAME ${target}
+      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+      LINK_DEPENDS ${SSLCD_SYMBOLS} INSTALL_RPATH $ORIGIN)
+    target_link_options(${target}_shared PRIVATE LINKER:--version-script=${SSLCD_SYMBOLS})
+    if(NOT SSLCD_SANITIZE)
+      target_link_options(${target}_shared PRIVATE LINKER:-z,defs)
+    endif()
+    list(APPEND kinds ${target}_shared)
+  endif()
+  foreach(kind ${kinds})
+    target_include_directories(${kind} PUBLIC
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+      $<BUILD_INTERFACE:${SSLCD_GENERATED_INCLUDE_DIR}>
+      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+    target_compile_features(${kind} PUBLIC cxx_std_17)
+    target_link_libraries(${kind} PUBLIC sslcd_lie PRIVATE ${outside})
+    set_target_properties(${kind} PROPERTIES EXPORT_NAME ${export_name})
+  endforeach()
+  if(BUILD_SHARED_LIBS)
+    add_library(sslcd::${export_name} ALIAS ${target}_shared)
+  else()
+    add_library(sslcd::${export_name} ALIAS ${target})
+  endif()
 endfunction()
 
 # Adds the cases of a gtest filter to ctest, as one entry each or together. They run in the build

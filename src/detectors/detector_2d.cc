@@ -6,7 +6,7 @@
 
 namespace sslcd {
 
-struct Detector2d::Impl {
+struct SSLCD_HIDDEN Detector2d::Impl {
   Model model;
 };
 

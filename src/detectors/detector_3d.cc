@@ -34,7 +34,7 @@ Detection CuboidInCamera(const ClassCuboid& cuboid, const Camera& camera) {
   return detection;
 }
 
-struct Detector3d::Impl {
+struct SSLCD_HIDDEN Detector3d::Impl {
   Model model;
   std::map<int, AnchorPriors> priors;
 

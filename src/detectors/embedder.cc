@@ -42,7 +42,7 @@ std::vector<float> UnitVector(const float* values, std::size_t size) {
 
 }  // namespace
 
-struct Embedder::Impl {
+struct SSLCD_HIDDEN Embedder::Impl {
   Model model;
   int dimension = 0;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 
 namespace sslcd {
 
@@ -14,6 +15,6 @@ namespace sslcd {
 /// the boxes of a frame and has no entry for frames without boxes. Throws Error with file:line for
 /// a wrong number of columns, a malformed or infinite number, a negative frame, a score outside [0,
 /// 1] and a box without area.
-std::map<int, std::vector<ImageDetection>> ReadBoxes(const std::string& path);
+SSLCD_EXPORT std::map<int, std::vector<ImageDetection>> ReadBoxes(const std::string& path);
 
 }  // namespace sslcd

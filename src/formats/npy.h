@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
+
 namespace sslcd {
 
 /// A matrix of a NumPy file, stored row by row.
@@ -16,7 +18,7 @@ struct NpyMatrix {
 
 /// Reads a two-dimensional little-endian float32 or float64 array in C order, format version 1
 /// to 3. Throws Error for any other array and says how to save it.
-NpyMatrix ReadNpy(const std::string& path);
+SSLCD_EXPORT NpyMatrix ReadNpy(const std::string& path);
 
 /// Returns the bytes of a float32 .npy file, format version 1.
 std::string NpyBytes(const NpyMatrix& matrix);

@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/export.h"
 
 namespace sslcd {
 
 /// Reads a whole file. Throws Error if it is missing, is a folder or cannot be read.
-std::string ReadFileBytes(const std::string& path);
+SSLCD_EXPORT std::string ReadFileBytes(const std::string& path);
 
 /// Parses a text that is one number ("1.5x" is not). Ignores the locale; accepts "nan" and "inf".
 std::optional<double> ParseNumber(std::string_view text);

@@ -31,7 +31,7 @@ void Naming(const Frame& frame, const F& work) {
 
 }  // namespace
 
-struct ImageFrontend::Impl {
+struct SSLCD_HIDDEN ImageFrontend::Impl {
   /// A frame in the pipeline.
   struct Item {
     Frame frame;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "loop/decision.h"
+#include "loop/indexed_match.h"
 #include "loop/layout_index.h"
 #include "loop/layout_likelihood.h"
 #include "loop/pose_search.h"

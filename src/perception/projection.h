@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 
 namespace sslcd {
 
@@ -13,8 +14,8 @@ namespace sslcd {
 /// cuboids that extend behind the camera or contain it. Clips the box to the image if its size is
 /// known. None: the cuboid is behind the camera or outside the image, has no volume or is not
 /// finite.
-std::optional<Box2d> ProjectCuboid(const Pose& T_cam_object, const Vec3& dims, const Camera& camera,
-                                   double near_m = 0.1);
+SSLCD_EXPORT std::optional<Box2d> ProjectCuboid(const Pose& T_cam_object, const Vec3& dims,
+                                                const Camera& camera, double near_m = 0.1);
 
 /// Eq. 1 as printed: minimum and maximum over the eight projected corners of any depth, not
 /// clipped. Meaningless for cuboids that extend behind the camera; for `mode: paper` and

@@ -30,7 +30,7 @@ Step Together(const Step& a, const Step& b) {
 
 }  // namespace
 
-struct AsyncMapper::Impl {
+struct SSLCD_HIDDEN AsyncMapper::Impl {
   using Job = std::function<void(Mapper&, AsyncReport&)>;
 
   Impl(const Options& options, const MapperContext& context, int most)

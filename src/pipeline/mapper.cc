@@ -65,7 +65,7 @@ std::vector<Detection> WithoutAppearance(std::vector<Detection> detections) {
 
 }  // namespace
 
-struct Mapper::Impl {
+struct SSLCD_HIDDEN Mapper::Impl {
   Impl(const Options& all, const MapperContext& world)
       : options(all),
         context(world),

@@ -58,7 +58,7 @@ std::vector<StereoFrame*> Pointers(std::deque<StereoFrame>& frames) {
 
 }  // namespace
 
-class StereoOdometry::Impl {
+class SSLCD_HIDDEN StereoOdometry::Impl {
  public:
   Impl(const StereoCamera& camera, const StereoOdometryOptions& options)
       : camera_(camera), options_(options), T_left_ref_(Pose::Trans(camera.left.offset)) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "loop/indexed_match.h"
 #include "row_cases.h"
 
 namespace sslcd {

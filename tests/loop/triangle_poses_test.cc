@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "layout_cases.h"
+#include "loop/indexed_match.h"
 
 namespace sslcd {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Data association, paper III-B.
 struct AssociationOptions {

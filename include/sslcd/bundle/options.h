@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/odometry/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Object bundle adjustment, paper III-C.
 struct BaOptions {

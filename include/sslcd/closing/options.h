@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/loop/options.h"
 #include "sslcd/odometry/options.h"
 #include "sslcd/pose_graph/pose_graph.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The local and the global map of an attempt to close a loop.
 struct LoopLayoutOptions {

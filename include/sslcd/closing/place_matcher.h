@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/layout.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The query of an attempt to close a loop: find the recently seen objects (`local`) among those of
 /// older passes (`global`). Both lists are in gravity-aligned axes of the current world frame, so

@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Two frames by number (Frame::index) and a guess of the second camera's pose in the first one's
 /// frame, from odometry or closed loops, with errors of some decimetres.

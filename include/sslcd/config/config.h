@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Describes the fields of the root options struct, e.g. `[&](FieldVisitor& v) { DescribeFields(v,
 /// options); }`.

@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Rectified pinhole camera as a 3x4 projection P = K [I | t], the rows of KITTI's calib.txt. [px,
 /// m]

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <optional>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// An appearance cue: a vector of unit length per detection, whose dot product (cosine) measures
 /// the similarity of two objects. CONTRIBUTING.md describes how to add one.

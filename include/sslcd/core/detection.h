@@ -7,9 +7,10 @@
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/cue.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// One detected object in one frame: the paper's d_i = {l, b, h, e, T_co} (III-B) and its cuboid.
 /// The origin of the object frame is the cuboid's centre: x along its length, y to its left, z up.

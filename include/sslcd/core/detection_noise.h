@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The noise of a 3D detector as a function of range: sigma = (base + slope * range) * scale. The
 /// shape fits LiDAR and stereo detectors, whose errors differ by a factor of 3 to 10. That factor

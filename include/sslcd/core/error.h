@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// The kind of an error. It determines the exit code of the command-line tools.
 enum class ErrorKind {

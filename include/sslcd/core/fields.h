@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// Visits the fields of an options struct. Each struct has a function `void
 /// DescribeFields(FieldVisitor&, XOptions&)` that lists every field once. Loading from YAML,

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// A view of an 8-bit image, rows from the top. It does not own the pixels.
 struct ImageView {

@@ -5,7 +5,9 @@
 #include <optional>
 #include <string>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// The rotational symmetry of an object about the vertical.
 enum class Symmetry {

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Strong type of landmark ids. Ids are never reused; a fused landmark keeps one of its two ids.
 struct LandmarkId {

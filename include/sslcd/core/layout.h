@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "sslcd/core/cue.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The mean appearance of an object from one direction.
 struct AppearanceView {

@@ -4,7 +4,9 @@
 #include <functional>
 #include <string>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 

@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/landmark.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 enum class LoopDecision {
   kNone,       ///< no pose fits better than chance

@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// Rigid transform. `T_a_b` maps points of frame b to frame a.
 /// Storage [qx qy qz qw tx ty tz], tangent order [rho (translation), phi (rotation)], right

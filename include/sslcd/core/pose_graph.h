@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Poses and relative measurements between them.
 struct PoseGraph {

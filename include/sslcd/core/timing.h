@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-namespace sslcd {
+#include "sslcd/core/export.h"
+
+namespace SSLCD_EXPORT sslcd {
 
 /// Times of one stage over a run. [ms]
 struct StageTimes {

@@ -7,12 +7,13 @@
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/formats/detections.h"
 #include "sslcd/formats/poses.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Returns "auto" (detect the format from the folder) and the names of the dataset formats in the
 /// order of detection: "sequence", "kitti-odometry", "kitti-raw", "kitti-tracking"

@@ -7,11 +7,12 @@
 
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/inference/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// A model that finds cuboids in a stereo pair, or in its left image alone.
 class Detector3d {

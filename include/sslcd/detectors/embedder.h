@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/inference/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// A re-identification model, which maps the appearance of an object to a vector (paper III-A.2).
 class Embedder {

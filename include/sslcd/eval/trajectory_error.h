@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The degrees of freedom in which an estimate is aligned before it is compared with the reference.
 enum class Alignment {

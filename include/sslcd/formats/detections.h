@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The meaning of the score column.
 enum class ScoreKind {

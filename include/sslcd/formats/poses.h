@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The format of a pose file, one pose per row.
 enum class PoseFormat {

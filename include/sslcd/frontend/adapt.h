@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/pipeline/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The parts of a mapper's input that come from images.
 struct ImageSource {

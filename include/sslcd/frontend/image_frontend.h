@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/timing.h"
 #include "sslcd/frontend/options.h"
 #include "sslcd/perception/colour.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The 2D boxes of a sequence by frame number.
 using BoxesByFrame = std::map<int, std::vector<ImageDetection>>;

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/ground/ground_alignment.h"
 #include "sslcd/inference/options.h"
 #include "sslcd/lifting/lift.h"
 #include "sslcd/visual_odometry/odometry.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Options of making frames from images.
 struct VisionOptions {

@@ -6,12 +6,13 @@
 #include <string>
 
 #include "sslcd/core/error.h"
+#include "sslcd/core/export.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/frontend/adapt.h"
 #include "sslcd/frontend/image_frontend.h"
 #include "sslcd/frontend/stereo_files.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The parts to make from the images of a recorded sequence.
 struct ImageRequest {

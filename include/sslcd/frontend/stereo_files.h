@@ -10,11 +10,12 @@
 #include "sslcd/closing/view_aligner.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 #include "sslcd/frontend/options.h"
 #include "sslcd/visual_odometry/odometry.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The stereo images of a recorded sequence. The host decodes the files, not the library.
 struct StereoFiles {

@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/ground/ground_plane.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 struct GroundAlignmentOptions {
   /// largest error of the guess in each direction; a larger value leaves less ground to compare

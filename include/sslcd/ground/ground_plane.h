@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The prior of the ground plane. The search covers three standard deviations.
 struct GroundOptions {

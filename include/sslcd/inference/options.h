@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// How models are run.
 struct InferenceOptions {

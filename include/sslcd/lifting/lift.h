@@ -8,11 +8,12 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/ground/ground_plane.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Usual size and outline of the objects of a class: means and standard deviations.
 struct ClassPrior {

@@ -5,13 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/layout.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/loop/options.h"
 
-namespace sslcd {
-
-class LayoutIndex;
+namespace SSLCD_EXPORT sslcd {
 
 /// How well a local layout agrees with the global one under a pose.
 struct LayoutFit {
@@ -50,12 +49,6 @@ struct LayoutAnswer : LoopVerdict {
 /// throws; the verdict has the reason of a failure.
 LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local,
                           const std::vector<LayoutObject>& global,
-                          const LayoutMatchOptions& options = {},
-                          const SingleLookOptions& decision = {});
-
-/// The same in a map that is searched more than once. Matches are indices into `index.objects()`.
-/// For callers inside the library: its header is not installed.
-LayoutAnswer MatchLayouts(const std::vector<LayoutObject>& local, const LayoutIndex& index,
                           const LayoutMatchOptions& options = {},
                           const SingleLookOptions& decision = {});
 

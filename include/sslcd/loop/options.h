@@ -2,9 +2,10 @@
 #pragma once
 
 #include "sslcd/core/cue.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The CosineStatistics of all rows of kCueRows.
 PerCue<CosineStatistics> CosinesOfTable();

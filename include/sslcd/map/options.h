@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/landmark.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// When an object counts as parked, and when as driving.
 struct MotionTestOptions {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The noise of odometry: a random walk whose variance grows with the distance d between two
 /// frames, plus a share of each rotation angle a: var = floor^2 + walk^2 d (+ turn^2 a^2 for

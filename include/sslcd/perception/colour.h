@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Colour of an object from the pixels of its box (paper III-A.2).
 struct ColourOptions {

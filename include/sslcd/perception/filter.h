@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The filter of detections (paper III-A.1: "excessively large or distant" ones are dropped).
 struct DetectionFilterOptions {

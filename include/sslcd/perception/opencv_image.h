@@ -3,9 +3,10 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/image.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Conversions for hosts with OpenCV. They copy nothing: the source must outlive the result.
 inline ImageView ViewOf(const cv::Mat& image) {

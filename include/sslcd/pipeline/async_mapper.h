@@ -5,9 +5,10 @@
 #include <memory>
 #include <string>
 
+#include "sslcd/core/export.h"
 #include "sslcd/pipeline/mapper.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// What an AsyncMapper has done since it was last asked.
 struct AsyncReport {

@@ -13,6 +13,7 @@
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/landmark.h"
 #include "sslcd/core/loop_closure.h"
@@ -21,7 +22,7 @@
 #include "sslcd/map/options.h"
 #include "sslcd/perception/filter.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 class TimingTable;
 struct Options;

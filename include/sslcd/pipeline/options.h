@@ -7,13 +7,14 @@
 #include "sslcd/bundle/options.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/map/options.h"
 #include "sslcd/perception/colour.h"
 #include "sslcd/perception/filter.h"
 #include "sslcd/refine/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The sliding-window adjustment at every keyframe.
 struct WindowOptions {

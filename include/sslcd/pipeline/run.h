@@ -8,6 +8,7 @@
 
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/core/timing.h"
@@ -15,7 +16,7 @@
 #include "sslcd/pipeline/mapper.h"
 #include "sslcd/pipeline/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// Hands out the frames of a sequence in order; none: that was the last one. May throw, and is not
 /// asked again then.

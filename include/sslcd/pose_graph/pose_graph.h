@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/pose_graph.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The degrees of freedom of a vertex.
 enum class PoseFreedom {

@@ -3,10 +3,11 @@
 
 #include "sslcd/bundle/options.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/map/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 /// The full-map optimisation at the end of a run (callable any time).
 struct RefineOptions {

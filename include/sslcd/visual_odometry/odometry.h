@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "sslcd/core/camera.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/fields.h"
 #include "sslcd/core/image.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/odometry/options.h"
 
-namespace sslcd {
+namespace SSLCD_EXPORT sslcd {
 
 struct StereoOdometryOptions {
   /// number of tracked points, spread over the image; the time grows with it

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A host program: one parked car, seen ten times on the way past it.
+#include <sslcd/sslcd.h>
 #include <cstdio>
+#include <string>
 #include <vector>
 
-#include "sslcd/core/pose.h"
-#include "sslcd/pipeline/run.h"
+namespace {
+
+// Exceptions cross the boundary of a shared library.
+bool Refuses() {
+  try {
+    sslcd::LoadConfigFile("missing.yaml", [](sslcd::FieldVisitor&) {});
+  } catch (const sslcd::Error& error) {
+    return error.kind() == sslcd::ErrorKind::kBadInput;
+  }
+  return false;
+}
+
+}  // namespace
 
 int main() {
   std::vector<sslcd::Frame> frames(10);
@@ -21,6 +34,7 @@ int main() {
     frame.detections.push_back(car);
   }
   const sslcd::RunResult result = sslcd::RunSequence(frames, {}, sslcd::Options());
-  std::printf("%zu frames, %zu objects\n", result.frames.size(), result.objects.size());
-  return result.frames.size() == 10 && result.objects.size() == 1 ? 0 : 1;
+  std::printf("sslcd %s: %zu frames, %zu objects\n", SSLCD_VERSION, result.frames.size(),
+              result.objects.size());
+  return Refuses() && result.frames.size() == 10 && result.objects.size() == 1 ? 0 : 1;
 }
