@@ -49,3 +49,4 @@ write_basic_package_version_file(sslcdConfigVersion.cmake COMPATIBILITY SameMino
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfig.cmake
   ${CMAKE_CURRENT_BINARY_DIR}/sslcdConfigVersion.cmake
   cmake/FindFLANN.cmake DESTINATION ${SSLCD_CONFIG_DIR} COMPONENT dev)
+include(SslcdPkgConfig)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds and runs the outside program with the flags of pkg-config: static, and shared where there
+# is a shared library (SHARED).
+cmake_minimum_required(VERSION 3.22)
+find_program(pkg_config NAMES pkg-config pkgconf)
+if(NOT pkg_config)
+  message("SKIPPED: no pkg-config")
+  return()
+endif()
+if(SANITIZE)
+  string(APPEND CXX_FLAGS " -fsanitize=${SANITIZE}")
+endif()
+file(GLOB_RECURSE description ${PREFIX}/*/sslcd.pc)
+get_filename_component(folder ${description} DIRECTORY)
+get_filename_component(libraries ${folder} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+function(query out)
+  execute_process(COMMAND ${pkg_config} ${ARGN} sslcd OUTPUT_VARIABLE flags
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  set(${out} ${flags} PARENT_SCOPE)
+endfunction()
+function(link_and_run program)
+  execute_process(COMMAND ${CXX} ${cxx_flags} ${WORK_DIR}/main.o ${ARGN} -o ${WORK_DIR}/${program}
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${WORK_DIR}/${program} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+separate_arguments(cxx_flags UNIX_COMMAND "${CXX_FLAGS}")
+file(MAKE_DIRECTORY ${WORK_DIR})
+query(compile --cflags)
+execute_process(COMMAND ${CXX} -std=c++17 ${cxx_flags} ${compile} -c ${OUTSIDE}/main.cc
+  -o ${WORK_DIR}/main.o COMMAND_ERROR_IS_FATAL ANY)
+query(static --libs --static)
+list(TRANSFORM static REPLACE "^-lsslcd$" "-l:libsslcd.a")
+link_and_run(static ${static})
+if(SHARED)
+  query(shared --libs)
+  link_and_run(shared ${shared} -Wl,-rpath,${libraries})
+endif()
