@@ -14,7 +14,8 @@ build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libfl
        libyaml-cpp-dev libpugixml-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
        libopencv-features2d-dev libopencv-calib3d-dev)
-test=(libgtest-dev libgmock-dev python3 pkgconf clang-14 clang-format-14 libembree-dev)
+test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
+      libembree-dev)
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-numpy python3-shapely git)
 
 what=${1:-test}
