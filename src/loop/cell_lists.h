@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "loop/append.h"
+
 namespace sslcd {
 
 /// Lists of numbers by the cells of an unbounded grid, as chains in a hash table. Adding, removing
@@ -13,7 +15,7 @@ namespace sslcd {
 /// cells.
 class CellLists {
  public:
-  explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(256, -1) {}
+  explicit CellLists(double cell_m) : per_cell_(1 / cell_m), heads_(4 * kTile * kTile, -1) {}
 
   /// The column or row of a finite coordinate. Coordinates beyond 2^29 cells share the last one.
   int Cell(double coordinate) const {
@@ -22,11 +24,11 @@ class CellLists {
   }
 
   void Add(int column, int row, int number) {
-    if (kRoom * entries_.size() == heads_.size() && free_ < 0) Widen();
+    if (kRoom * entries_.size() >= heads_.size() && free_ < 0) Widen();
     int entry = free_;
     if (entry < 0) {
       entry = static_cast<int>(entries_.size());
-      entries_.emplace_back();
+      Append(entries_);
     } else {
       free_ = entries_[entry].next;
     }
@@ -95,12 +97,14 @@ class CellLists {
   std::size_t Slot(int column, int row) const {
     const std::uint64_t tile =
         static_cast<std::uint64_t>(column / kTile) << 32 | static_cast<unsigned>(row / kTile);
-    const std::uint64_t first = (tile * 0x9E3779B97F4A7C15u >> 32) * (kTile * kTile);
-    return (first + static_cast<unsigned>(column % kTile * kTile + row % kTile)) &
-           (heads_.size() - 1);
+    const std::uint64_t hash = tile * 0x9E3779B97F4A7C15u >> 32;
+    const std::uint64_t first = (hash * (heads_.size() / (kTile * kTile)) >> 32) * (kTile * kTile);
+    return first + static_cast<unsigned>(column % kTile * kTile + row % kTile);
   }
   void Widen() {  // called when all entries are in use
-    heads_.assign(2 * heads_.size(), -1);
+    const std::size_t tiles = heads_.size() / (kTile * kTile);
+    heads_ = {};  // frees the memory first
+    heads_.assign((tiles + tiles / 2) * (kTile * kTile), -1);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       int& head = heads_[Slot(entries_[i].column, entries_[i].row)];
       entries_[i].next = head;
@@ -109,7 +113,7 @@ class CellLists {
   }
 
   double per_cell_;
-  std::vector<int> heads_;  // first entries of the chains; the size is a power of two
+  std::vector<int> heads_;  // first entries of the chains; the size is a multiple of a tile
   std::vector<Entry> entries_;
   int free_ = -1;
 };

@@ -309,6 +309,13 @@ bool IsBetter(const CoarsePose& a, const CoarsePose& b) {
   return a.y != b.y ? a.y < b.y : a.sine < b.sine;
 }
 
+void KeepBest(std::size_t most, std::vector<CoarsePose>& poses) {
+  if (poses.size() <= most) return;
+  std::nth_element(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(most), poses.end(),
+                   IsBetter);
+  poses.resize(most);
+}
+
 CoarseSearch CoarsePoses(const std::vector<LayoutObject>& local, const Vec3& centre,
                          const LayoutIndex& index, const PoseSearchOptions& options) {
   std::vector<LayoutPoint> points;

@@ -25,6 +25,8 @@ struct CoarsePose {
 
 /// Order of coarse poses: by score, of equal ones by place.
 bool IsBetter(const CoarsePose& a, const CoarsePose& b);
+/// Keeps the `most` best poses, in an unspecified order. The set does not depend on their order.
+void KeepBest(std::size_t most, std::vector<CoarsePose>& poses);
 
 /// What a search for coarse poses has found.
 struct CoarseSearch {

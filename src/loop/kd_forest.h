@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace sslcd {
@@ -22,23 +21,10 @@ class KdForest {
   using Point = std::array<Scalar, 3>;
 
   KdForest() { trees_.push_back(std::make_unique<Tree>()); }
-  KdForest(const KdForest& other) {
-    for (const auto& tree : other.trees_) trees_.push_back(tree->Copy());
-  }
-  KdForest& operator=(KdForest other) {
-    trees_.swap(other.trees_);
-    return *this;
-  }
 
   void Add(const Point& point, const Value& value) {
     trees_.back()->Add(point.data(), value);
     if (trees_.back()->values.size() >= kLinear) MergeTail(false);
-  }
-
-  /// Builds one tree of many points. Must be called before other additions.
-  void Build(const std::vector<std::pair<Point, Value>>& all) {
-    for (const auto& [point, value] : all) trees_.back()->Add(point.data(), value);
-    MergeTail(true);
   }
 
   /// Removes one point with this value at this position. False: there is none.
@@ -90,17 +76,6 @@ class KdForest {
     void BuildIndex() {
       index = std::make_unique<Index>(flann::Matrix<Scalar>(coordinates.data(), values.size(), 3));
       index->buildIndex();
-    }
-
-    // FLANN's tree refers to the coordinates, so a copy builds its own, equal tree.
-    std::unique_ptr<Tree> Copy() const {
-      auto copy = std::make_unique<Tree>();
-      copy->coordinates = coordinates;
-      copy->values = values;
-      copy->alive = alive;
-      copy->dead = dead;
-      if (index) copy->BuildIndex();
-      return copy;
     }
 
     template <class Visitor>

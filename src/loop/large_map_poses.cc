@@ -36,7 +36,7 @@ CoarseSearch LargeMapPoses(std::vector<LayoutPoint> points, const LayoutIndex& i
   std::vector<CoarsePose> in_rows;
   for (const CoarsePose& pose : TrianglePoses(points, index))
     (found.HasSearched(*index.tiles(), pose) ? in_rows : poses).push_back(pose);
-  KeepMostVoted(kMostInRows, in_rows);
+  KeepBest(kMostInRows, in_rows);
   poses.insert(poses.end(), in_rows.begin(), in_rows.end());
   return RankPoses(std::move(poses), points, index, options);
 }

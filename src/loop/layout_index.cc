@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/append.h"
+
 namespace sslcd {
 namespace {
 
@@ -67,13 +69,6 @@ void LayoutIndex::Build() {
   pairs_ = PairIndex(objects_, pairs, max_pair_);
 }
 
-// One update: the indices of changed objects, and whether it ends with a rebuild, so that lists
-// need no updates.
-struct LayoutIndex::Change {
-  bool rebuild = false;
-  std::vector<int> touched;
-};
-
 void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
                          const std::vector<int>& removed) {
   if (index_of_.empty())
@@ -82,60 +77,55 @@ void LayoutIndex::Update(const std::vector<LayoutObject>& changed,
   const auto gone = std::count_if(removed.begin(), removed.end(),
                                   [&](int id) { return index_of_.count(id) > 0; });
   const std::size_t changes = changed.size() + static_cast<std::size_t>(gone);
-  Change change;
-  change.rebuild = !triangles_ || kFewOf * changes > objects_.size();
-  for (const int id : removed) Remove(id, change);
+  // whether this ends with a rebuild, so that lists need no updates
+  const bool rebuild = !triangles_ || kFewOf * changes > objects_.size();
+  for (const int id : removed) Remove(id, rebuild);
   for (const LayoutObject& object : changed) {
     if (object.position.allFinite()) {
-      Put(object, change);
+      Put(object, rebuild);
     } else {
-      Remove(object.id, change);
+      Remove(object.id, rebuild);
     }
   }
-  if (change.rebuild) {
+  if (rebuild) {
     std::stable_sort(objects_.begin(), objects_.end(),
                      [](const LayoutObject& a, const LayoutObject& b) { return a.id < b.id; });
     Build();
   } else {
     UpdateDensity();
-    triangles_->Update(*this, std::move(change.touched));
   }
 }
 
 // The last object takes the place of the removed one.
-void LayoutIndex::Remove(int id, Change& change) {
+void LayoutIndex::Remove(int id, bool rebuild) {
   const auto known = index_of_.find(id);
   if (known == index_of_.end()) return;
   const int place = known->second, last = static_cast<int>(objects_.size()) - 1;
   index_of_.erase(known);
-  change.touched.push_back(place);
-  if (!change.rebuild) {
+  if (!rebuild) {
     counts_.Count(objects_[place], -1);
     RemoveFromCells(place);
   }
   if (place != last) {
-    change.touched.push_back(last);
-    if (!change.rebuild) RemoveFromCells(last);
+    if (!rebuild) RemoveFromCells(last);
     index_of_[objects_[last].id] = place;
     objects_[place] = std::move(objects_[last]);
-    change.touched.push_back(place);
-    if (!change.rebuild) InsertIntoCells(place);
+    if (!rebuild) InsertIntoCells(place);
   }
   objects_.pop_back();
   points_.pop_back();
 }
 
 // Adds an object or replaces the one with its id.
-void LayoutIndex::Put(const LayoutObject& object, Change& change) {
+void LayoutIndex::Put(const LayoutObject& object, bool rebuild) {
   const auto [place, is_new] = index_of_.insert({object.id, static_cast<int>(objects_.size())});
   const int i = place->second;
   const bool moves = is_new || !SamePoint(objects_[i], object);
   if (is_new) {
-    objects_.emplace_back();
-    points_.emplace_back();
+    Append(objects_);
+    Append(points_);
   }
-  if (moves) change.touched.push_back(i);
-  if (change.rebuild) {
+  if (rebuild) {
     objects_[i] = object;
     return;
   }
@@ -159,6 +149,7 @@ void LayoutIndex::InsertIntoCells(int i) {
   for (int column = near_.Cell(p.x() - reach_); column <= near_.Cell(p.x() + reach_); ++column)
     for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row)
       near_.Add(column, row, i);
+  if (triangles_) triangles_->Add(*this, i);
 }
 
 void LayoutIndex::RemoveFromCells(int i) {
@@ -169,6 +160,7 @@ void LayoutIndex::RemoveFromCells(int i) {
     for (int row = near_.Cell(p.y() - reach_); row <= near_.Cell(p.y() + reach_); ++row)
       near_.Remove(column, row, i);
   CountNeighbours(i, -1);
+  if (triangles_) triangles_->Remove(*this, i);
 }
 
 // Updates density and height spread by an object that is not in the cells.

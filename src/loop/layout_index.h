@@ -20,7 +20,8 @@ namespace sslcd {
 
 /// A search index of the global map: objects near a point, and places with a given arrangement of
 /// objects. Small maps have lists of all object pairs by distance. Maps with more than 50 000 pairs
-/// have tiles with counts of their pairs, and the triangles of neighbours in k-d trees, instead.
+/// have tiles with counts of their pairs, and the triangles of neighbours, instead: less than 1 KiB
+/// per object.
 class LayoutIndex {
  public:
   /// Ignores objects whose position is not finite. Keeps pairs up to `max_pair_m`;
@@ -31,7 +32,7 @@ class LayoutIndex {
   /// Adds or replaces the `changed` objects and removes those with the ids `removed`. Ids must be
   /// unique; unknown ids in `removed` are ignored. The result equals a new index of the current
   /// objects in another order: indices may change, and on a tie another neighbour may count. In a
-  /// large map this costs O(log^2 n) on average per object. A small map, or one with more than one
+  /// large map this costs O(log n) on average per object. A small map, or one with more than one
   /// changed object in 32, is rebuilt and ordered by id; a map that was large counts as large until
   /// then.
   void Update(const std::vector<LayoutObject>& changed, const std::vector<int>& removed);
@@ -94,9 +95,8 @@ class LayoutIndex {
 
  private:
   void Build();
-  struct Change;  // changes of an update
-  void Remove(int id, Change& change);
-  void Put(const LayoutObject& object, Change& change);
+  void Remove(int id, bool rebuild);
+  void Put(const LayoutObject& object, bool rebuild);
   void InsertIntoCells(int object);
   void RemoveFromCells(int object);
   void CountNeighbours(int object, int by);

@@ -118,13 +118,6 @@ class Ranking {
   std::vector<float> gain_;  // MatchGain of each local object
 };
 
-void KeepBest(std::vector<CoarsePose>& poses, std::size_t most) {
-  if (poses.size() <= most) return;
-  std::nth_element(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(most), poses.end(),
-                   IsBetter);
-  poses.resize(most);
-}
-
 // Log of the sum of exp(score), if each pose counts `times` times.
 double LogSumOfScores(const std::vector<double>& scores, double times = 1) {
   if (scores.empty()) return -std::numeric_limits<double>::infinity();
@@ -165,7 +158,7 @@ CoarseSearch RankPoses(std::vector<CoarsePose> poses, const std::vector<LayoutPo
   const Ranking ranking(points, index);
   for (CoarsePose& pose : poses) ranking.Align(pose);
   const std::size_t keep = options.refine;
-  KeepBest(poses, kPerKept * keep);
+  KeepBest(kPerKept * keep, poses);
   for (CoarsePose& pose : poses) {
     int matches = 0;
     for (int round = 0; round < kRounds; ++round) matches = ranking.Align(pose);

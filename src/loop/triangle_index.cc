@@ -3,21 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <map>
 
-#include "loop/kd_forest.h"
+#include "loop/append.h"
 #include "loop/layout_index.h"
 
 namespace sslcd {
 namespace {
 
+using Neighbours = TriangleIndex::Neighbours;
+
 // Number of neighbours: enough triangles remain if one of five is missed. Set by hand.
-constexpr int kNeighbours = 6;
+constexpr int kNeighbours = std::tuple_size<Neighbours>::value;
 // Smallest length of the longest side, which determines the yaw. Set by hand. [m]
 constexpr float kShortest = 4.f;
 
-using Neighbours = std::array<int, kNeighbours>;  // -1: none
+constexpr Neighbours kNone = {-1, -1, -1, -1, -1, -1};
+
+// Cells of the first two sides: their length and number. Set by hand. [m]
+constexpr float kCell = 0.5f;
+constexpr int kCells = 256;
+// Factor from the start of the search for neighbours to the usual distance. Set by hand.
+constexpr double kUsual = 1.5;
+// More than the rounding errors of distances (factor), of coordinates (factor) and of sides [m].
+constexpr double kMargin = 1.1, kRoundingOfCoordinates = 1e-6;
+constexpr float kRoundingOfSides = 1e-3f;
 
 struct Near {
   float d2;
@@ -34,16 +43,9 @@ float SquaredDistance(const LayoutPoint& a, const LayoutPoint& b) {
 Neighbours Nearest(std::vector<Near>& all) {
   const std::size_t n = std::min<std::size_t>(all.size(), kNeighbours);
   std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), all.end());
-  Neighbours nearest;
-  nearest.fill(-1);
+  Neighbours nearest = kNone;
   for (std::size_t i = 0; i < n; ++i) nearest[i] = all[i].object;
   return nearest;
-}
-
-template <class T>
-void MakeUnique(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 bool Contains(const Neighbours& neighbours, int object) {
@@ -73,13 +75,26 @@ ObjectTriangle MakeTriangle(const std::vector<LayoutPoint>& points, int a, int b
   return triangle;
 }
 
+// The triangle of vertices in their order.
+ObjectTriangle Restore(const std::vector<LayoutPoint>& points, const std::array<int, 3>& vertex) {
+  ObjectTriangle triangle;
+  triangle.vertex = vertex;
+  for (int i = 0; i < 3; ++i) {
+    const LayoutPoint &a = points[vertex[(i + 1) % 3]], &b = points[vertex[(i + 2) % 3]];
+    triangle.side[i] = std::sqrt(SquaredDistance(a, b));
+    triangle.label[i] = points[vertex[i]].label;
+  }
+  return triangle;
+}
+
 bool FixesYaw(const ObjectTriangle& triangle) {
   return *std::max_element(triangle.side.begin(), triangle.side.end()) >= kShortest;
 }
 
-std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points,
-                                      const std::vector<Neighbours>& near) {
-  std::vector<ObjectTriangle> triangles;
+// Calls visit(triangle) for every triangle.
+template <class Visitor>
+void VisitTriangles(const std::vector<LayoutPoint>& points, const std::vector<Neighbours>& near,
+                    Visitor&& visit) {
   for (int a = 0; a < static_cast<int>(points.size()); ++a) {
     for (int i = 0; i < kNeighbours && near[a][i] >= 0; ++i) {
       for (int j = i + 1; j < kNeighbours && near[a][j] >= 0; ++j) {
@@ -88,28 +103,43 @@ std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points,
         if (b < a && Contains(near[b], a) && Contains(near[b], c)) continue;
         if (c < a && Contains(near[c], a) && Contains(near[c], b)) continue;
         const ObjectTriangle triangle = MakeTriangle(points, a, b, c);
-        if (FixesYaw(triangle)) triangles.push_back(triangle);
+        if (FixesYaw(triangle)) visit(triangle);
       }
     }
   }
+}
+
+std::vector<ObjectTriangle> Triangles(const std::vector<LayoutPoint>& points,
+                                      const std::vector<Neighbours>& near) {
+  std::vector<ObjectTriangle> triangles;
+  VisitTriangles(points, near, [&](const ObjectTriangle& t) { triangles.push_back(t); });
   return triangles;
 }
 
-using Vertices = std::array<int, 3>;  // ascending
-
-void Propose(int a, const Neighbours& near, std::vector<Vertices>& proposed) {
-  for (int i = 0; i < kNeighbours && near[i] >= 0; ++i) {
-    for (int j = i + 1; j < kNeighbours && near[j] >= 0; ++j) {
-      proposed.push_back({a, near[i], near[j]});
-      std::sort(proposed.back().begin(), proposed.back().end());
+// Neighbours of points[i] with one more, without the farthest one.
+Neighbours WithNeighbour(const std::vector<LayoutPoint>& points, int i, Neighbours near, int more) {
+  Near next{SquaredDistance(points[i], points[more]), more};
+  for (int& j : near) {
+    if (j < 0) {
+      j = next.object;
+      break;
     }
+    const Near other{SquaredDistance(points[i], points[j]), j};
+    if (other < next) continue;
+    j = next.object;
+    next = other;
   }
+  return near;
+}
+
+// Radius with about twice the number of neighbours. [m]
+double UsualRadius(const LayoutIndex& index) {
+  return std::sqrt(kNeighbours / (3. * index.density()));
 }
 
 Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) {
   const std::vector<LayoutPoint>& points = index.points();
-  const double start =
-      std::sqrt(kNeighbours / (3. * index.density()));  // radius with about twice the number
+  const double start = UsualRadius(index);
   for (double radius = std::min(start, index.max_pair());;
        radius = std::min(2 * radius, index.max_pair())) {
     found.clear();
@@ -124,21 +154,21 @@ Neighbours NearestOf(const LayoutIndex& index, int i, std::vector<Near>& found) 
 
 std::vector<Neighbours> NearestOfAll(const LayoutIndex& index) {
   std::vector<Neighbours> near;
+  near.reserve(index.points().size());
   std::vector<Near> found;
   for (int i = 0; i < static_cast<int>(index.points().size()); ++i)
     near.push_back(NearestOf(index, i, found));
   return near;
 }
 
-/// Finds the points within a radius, up to a limit.
-struct Within {
-  float squared_radius;
-  std::size_t limit;
-  std::vector<const ObjectTriangle*> triangles;
+int CellOf(float side) { return static_cast<int>(std::clamp(side / kCell, 0.f, kCells - 1.f)); }
 
-  float Reach2() const { return triangles.size() > limit ? -1.f : squared_radius; }
-  void Visit(float, const ObjectTriangle& triangle, std::size_t) { triangles.push_back(&triangle); }
-};
+// The first part of the search order. Different labels may share a number.
+std::uint32_t ColumnOf(const std::array<int, 3>& label, int cell0, int cell1) {
+  std::uint32_t hash = 0;
+  for (const int l : label) hash = (hash + static_cast<std::uint32_t>(l)) * 0x9E3779B1u;
+  return (hash >> 17) << 16 | static_cast<std::uint32_t>(cell0 * kCells + cell1);
+}
 
 }  // namespace
 
@@ -158,112 +188,146 @@ std::vector<ObjectTriangle> NeighbourTriangles(const std::vector<LayoutPoint>& p
   return Triangles(points, near);
 }
 
-struct TriangleIndex::State {
-  using Forest = KdForest<float, ObjectTriangle>;
-  std::vector<LayoutPoint> points;               // points of the last update
-  std::vector<Neighbours> near;                  // neighbours that define the triangles
-  std::map<std::array<int, 3>, Forest> forests;  // by labels
+TriangleIndex::TriangleIndex(const LayoutIndex& index)
+    : near_(NearestOfAll(index)),
+      usual_m_(kUsual * UsualRadius(index)),
+      lonely_(kMargin * index.max_pair()) {
+  const std::vector<LayoutPoint>& points = index.points();
+  for (int i = 0; i < static_cast<int>(points.size()); ++i)
+    if (IsLonely(points, i)) lonely_.Add(lonely_.Cell(points[i].x), lonely_.Cell(points[i].y), i);
+  std::size_t count = 0;  // so that the list has no unused memory
+  VisitTriangles(points, near_, [&](const ObjectTriangle&) { ++count; });
+  std::vector<Entry> entries;
+  entries.reserve(count);
+  VisitTriangles(points, near_, [&](const ObjectTriangle& triangle) {
+    entries.push_back(EntryOf(triangle, false));
+  });
+  std::sort(entries.begin(), entries.end());
+  triangles_ = SortedRuns<Entry>(std::move(entries));
+}
 
-  // Points whose neighbours may have changed: those near the old or new positions of changed
-  // points.
-  template <class Visitor>
-  void VisitAffected(const LayoutIndex& index, int changed, const LayoutPoint& place,
-                     Visitor&& visit) const {
-    const Vec2 centre(place.x, place.y), reach(index.max_pair(), index.max_pair());
-    index.VisitBox(centre - reach, centre + reach, [&](int i) {
-      if (i >= static_cast<int>(near.size())) return;
-      const int last = near[i].back();
-      if (last < 0 || Contains(near[i], changed) ||
-          SquaredDistance(points[i], place) <= SquaredDistance(points[i], points[last]))
-        visit(i);
-    });
-  }
+TriangleIndex::Entry TriangleIndex::EntryOf(const ObjectTriangle& t, bool removed) {
+  return {ColumnOf(t.label, CellOf(t.side[0]), CellOf(t.side[1])), removed, t.side[2], t.vertex};
+}
 
-  // The proposed triangles that exist.
-  std::vector<ObjectTriangle> Existing(const std::vector<Vertices>& proposed) const {
-    std::vector<ObjectTriangle> triangles;
-    for (const Vertices& v : proposed) {
-      if (v[2] >= static_cast<int>(near.size())) continue;
-      const auto proposes = [&](int a, int b, int c) {
-        return Contains(near[a], b) && Contains(near[a], c);
-      };
-      if (!proposes(v[0], v[1], v[2]) && !proposes(v[1], v[0], v[2]) && !proposes(v[2], v[0], v[1]))
-        continue;
-      const ObjectTriangle triangle = MakeTriangle(points, v[0], v[1], v[2]);
-      if (FixesYaw(triangle)) triangles.push_back(triangle);
+// Ranges with all entries whose sides differ by up to `radius`.
+std::vector<SortedRuns<TriangleIndex::Entry>::Range> TriangleIndex::Ranges(
+    const ObjectTriangle& triangle, float radius) {
+  const std::array<float, 3>& side = triangle.side;
+  const auto gap = [&](int i, int cell) {  // from side[i] to a cell
+    const float low = static_cast<float>(cell) * kCell, high = low + kCell;
+    if (side[i] < low) return low - side[i];
+    return cell < kCells - 1 && side[i] > high ? side[i] - high : 0.f;
+  };
+  std::vector<SortedRuns<Entry>::Range> ranges;
+  const int last0 = CellOf(side[0] + radius), last1 = CellOf(side[1] + radius);
+  for (int cell0 = CellOf(side[0] - radius); cell0 <= last0; ++cell0) {
+    for (int cell1 = CellOf(side[1] - radius); cell1 <= last1; ++cell1) {
+      const float reach2 =
+          radius * radius - gap(0, cell0) * gap(0, cell0) - gap(1, cell1) * gap(1, cell1);
+      if (reach2 < 0) continue;
+      const float reach = std::sqrt(reach2) + kRoundingOfSides;
+      const std::uint32_t column = ColumnOf(triangle.label, cell0, cell1);
+      ranges.push_back(
+          {{column, false, side[2] - reach, {}}, {column, false, side[2] + reach, {}}});
     }
-    std::sort(triangles.begin(), triangles.end());
-    return triangles;
   }
-};
-
-TriangleIndex::TriangleIndex(const LayoutIndex& index) : state_(std::make_unique<State>()) {
-  state_->points = index.points();
-  state_->near = NearestOfAll(index);
-  std::map<std::array<int, 3>, std::vector<std::pair<State::Forest::Point, ObjectTriangle>>> groups;
-  for (const ObjectTriangle& triangle : Triangles(state_->points, state_->near))
-    groups[triangle.label].push_back({triangle.side, triangle});
-  for (const auto& [labels, triangles] : groups) state_->forests[labels].Build(triangles);
+  return ranges;
 }
 
-TriangleIndex::TriangleIndex(const TriangleIndex& other)
-    : state_(std::make_unique<State>(*other.state_)) {}
+bool TriangleIndex::Proposes(int a, int b, int c) const {
+  return Contains(near_[a], b) && Contains(near_[a], c);
+}
 
-TriangleIndex::TriangleIndex(TriangleIndex&&) noexcept = default;
-TriangleIndex& TriangleIndex::operator=(TriangleIndex&&) noexcept = default;
-TriangleIndex::~TriangleIndex() = default;
+bool TriangleIndex::IsLonely(const std::vector<LayoutPoint>& points, int a) const {
+  const int last = near_[a].back();
+  return last < 0 || SquaredDistance(points[a], points[last]) > usual_m_ * usual_m_;
+}
 
-void TriangleIndex::Update(const LayoutIndex& index, std::vector<int> changed) {
-  State& s = *state_;
-  std::vector<int> affected = changed;
-  const auto add = [&](int i) { affected.push_back(i); };
-  for (const int i : changed) {
-    if (i < static_cast<int>(s.points.size())) s.VisitAffected(index, i, s.points[i], add);
-    if (i < static_cast<int>(index.points().size()))
-      s.VisitAffected(index, i, index.points()[i], add);
-  }
-  MakeUnique(affected);
+// Objects that have points[place] among their neighbours or as near as these.
+std::vector<int> TriangleIndex::Around(const LayoutIndex& index, int place) const {
+  const std::vector<LayoutPoint>& points = index.points();
+  const LayoutPoint& centre = points[place];
+  const double most2 = index.max_pair() * index.max_pair();
+  std::vector<int> around;
+  const auto add = [&](int i) {
+    const int last = near_[i].back();
+    const double reach2 = last < 0 ? most2 : SquaredDistance(points[i], points[last]);
+    if (SquaredDistance(points[i], centre) <= reach2) around.push_back(i);
+  };
+  const Vec2 middle(centre.x, centre.y);
+  const double reach = kMargin * usual_m_ + kRoundingOfCoordinates * middle.norm();
+  index.VisitBox(middle - Vec2::Constant(reach), middle + Vec2::Constant(reach), [&](int i) {
+    if (i != place && !IsLonely(points, i)) add(i);
+  });
+  const int column = lonely_.Cell(centre.x), row = lonely_.Cell(centre.y);
+  for (int k = 0; k < 9; ++k)
+    for (const int i : lonely_.At(column + k / 3 - 1, row + k % 3 - 1))
+      if (i != place) add(i);
+  return around;
+}
 
-  const std::size_t size = index.points().size();
-  std::vector<std::pair<int, Neighbours>> now;
-  std::vector<Vertices> proposed;
+// Changes the neighbours of `a`, and the triangles that no other corner proposes.
+void TriangleIndex::SetNeighbours(const std::vector<LayoutPoint>& points, int a,
+                                  const Neighbours& now) {
+  const Neighbours before = near_[a];
+  const bool was_lonely = IsLonely(points, a);
+  near_[a] = now;
+  const int column = lonely_.Cell(points[a].x), row = lonely_.Cell(points[a].y);
+  if (was_lonely && !IsLonely(points, a)) lonely_.Remove(column, row, a);
+  if (!was_lonely && IsLonely(points, a)) lonely_.Add(column, row, a);
+  // The triangles of the pairs of `in` that are not in `not_in`.
+  const auto change = [&](const Neighbours& in, const Neighbours& not_in, bool removed) {
+    for (int i = 0; i < kNeighbours && in[i] >= 0; ++i) {
+      const bool kept = Contains(not_in, in[i]);
+      for (int j = i + 1; j < kNeighbours && in[j] >= 0; ++j) {
+        if (kept && Contains(not_in, in[j])) continue;
+        if (Proposes(in[i], a, in[j]) || Proposes(in[j], a, in[i])) continue;
+        const ObjectTriangle triangle = MakeTriangle(points, a, in[i], in[j]);
+        if (FixesYaw(triangle)) triangles_.Change(EntryOf(triangle, removed));
+      }
+    }
+  };
+  change(before, now, true);
+  change(now, before, false);
+}
+
+void TriangleIndex::Add(const LayoutIndex& index, int added) {
+  const std::vector<LayoutPoint>& points = index.points();
+  while (near_.size() < points.size()) Append(near_) = kNone;
+  lonely_.Add(lonely_.Cell(points[added].x), lonely_.Cell(points[added].y), added);
   std::vector<Near> found;
-  for (const int i : affected) {
-    if (i < static_cast<int>(s.near.size())) Propose(i, s.near[i], proposed);
-    if (i >= static_cast<int>(size)) continue;
-    now.push_back({i, NearestOf(index, i, found)});
-    Propose(i, now.back().second, proposed);
-  }
-  MakeUnique(proposed);
-
-  const std::vector<ObjectTriangle> before = s.Existing(proposed);
-  s.points.resize(size);
-  s.near.resize(size);
-  for (const int i : affected)
-    if (i < static_cast<int>(size)) s.points[i] = index.points()[i];
-  for (const auto& [i, neighbours] : now) s.near[i] = neighbours;
-  const std::vector<ObjectTriangle> after = s.Existing(proposed);
-
-  std::vector<ObjectTriangle> gone, come;
-  std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
-                      std::back_inserter(gone));
-  std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
-                      std::back_inserter(come));
-  for (const ObjectTriangle& triangle : gone)
-    s.forests[triangle.label].Remove(triangle.side, triangle);
-  for (const ObjectTriangle& triangle : come)
-    s.forests[triangle.label].Add(triangle.side, triangle);
+  SetNeighbours(points, added, NearestOf(index, added, found));
+  for (const int i : Around(index, added))
+    SetNeighbours(points, i, WithNeighbour(points, i, near_[i], added));
 }
 
-void TriangleIndex::Find(const ObjectTriangle& triangle, double radius_m, std::size_t limit,
-                         std::vector<const ObjectTriangle*>& found) const {
-  const auto forest = state_->forests.find(triangle.label);
-  if (forest == state_->forests.end()) return;
-  const float radius = static_cast<float>(radius_m);
-  Within within{radius * radius, limit, {}};
-  forest->second.Search(triangle.side, within);
-  if (within.triangles.size() > limit) return;
-  found.insert(found.end(), within.triangles.begin(), within.triangles.end());
+void TriangleIndex::Remove(const LayoutIndex& index, int removed) {
+  const std::vector<LayoutPoint>& points = index.points();
+  std::vector<Near> found;
+  for (const int i : Around(index, removed))
+    if (Contains(near_[i], removed)) SetNeighbours(points, i, NearestOf(index, i, found));
+  SetNeighbours(points, removed, kNone);
+  lonely_.Remove(lonely_.Cell(points[removed].x), lonely_.Cell(points[removed].y), removed);
+}
+
+void TriangleIndex::Find(const LayoutIndex& index, const ObjectTriangle& triangle, double radius_m,
+                         std::size_t limit, std::vector<ObjectTriangle>& found) const {
+  const float radius = static_cast<float>(radius_m), radius2 = radius * radius;
+  const auto restored = [&](const Entry& entry) { return Restore(index.points(), entry.vertex); };
+  const std::optional<std::vector<Entry>> entries =
+      triangles_.Find(Ranges(triangle, radius), limit, [&](const Entry& entry) {
+        const int size = static_cast<int>(index.points().size());
+        for (const int v : entry.vertex)
+          if (v >= size) return false;  // removed
+        const ObjectTriangle other = restored(entry);
+        float d2 = 0;
+        for (int i = 0; i < 3; ++i)
+          d2 += (other.side[i] - triangle.side[i]) * (other.side[i] - triangle.side[i]);
+        return other.label == triangle.label && d2 < radius2;
+      });
+  if (!entries) return;
+  for (const Entry& entry : *entries) found.push_back(restored(entry));
 }
 
 }  // namespace sslcd

@@ -123,33 +123,19 @@ std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
       1, static_cast<std::size_t>(kGoldenSection * static_cast<double>(triangles.size())));
   while (std::gcd(step, triangles.size()) > 1) ++step;
   std::vector<CoarsePose> poses;
-  std::vector<const ObjectTriangle*> found;
+  std::vector<ObjectTriangle> found;
   for (std::size_t k = 0; k < used && (k < kMinTriangles || poses.size() < kEnoughPoses); ++k) {
     const ObjectTriangle& triangle = triangles[k * step % triangles.size()];
     found.clear();
-    index.triangles()->Find(triangle, kPairNoiseM, kMaxFound, found);
-    for (const ObjectTriangle* other : found)
-      Lay(triangle, points, *other, index.points(), tolerance, poses);
+    index.triangles()->Find(index, triangle, kPairNoiseM, kMaxFound, found);
+    for (const ObjectTriangle& other : found)
+      Lay(triangle, points, other, index.points(), tolerance, poses);
   }
   Votes votes(poses.size());
   for (const CoarsePose& pose : poses) votes.Add(pose);
   for (CoarsePose& pose : poses) pose.score = static_cast<float>(votes.CountNear(pose));
-  KeepMostVoted(kMaxPoses, poses);
+  KeepBest(kMaxPoses, poses);
   return poses;
-}
-
-void KeepMostVoted(std::size_t most, std::vector<CoarsePose>& poses) {
-  if (poses.size() <= most) return;
-  std::vector<float> sorted;
-  for (const CoarsePose& pose : poses) sorted.push_back(pose.score);
-  const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(most);
-  std::nth_element(sorted.begin(), last, sorted.end(), std::greater<>());
-  std::vector<CoarsePose> kept;
-  for (const CoarsePose& pose : poses)
-    if (pose.score > *last) kept.push_back(pose);
-  for (std::size_t i = 0; i < poses.size() && kept.size() < most; ++i)
-    if (poses[i].score == *last) kept.push_back(poses[i]);
-  poses = std::move(kept);
 }
 
 }  // namespace sslcd

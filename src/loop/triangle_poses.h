@@ -15,7 +15,4 @@ namespace sslcd {
 std::vector<CoarsePose> TrianglePoses(const std::vector<LayoutPoint>& points,
                                       const LayoutIndex& index);
 
-/// Keeps the poses with the highest scores, of equal ones the first.
-void KeepMostVoted(std::size_t most, std::vector<CoarsePose>& poses);
-
 }  // namespace sslcd

@@ -69,16 +69,17 @@ TEST(TriangleIndex, FindsAllOfTheSameSides) {
     for (const ObjectTriangle& other : all)
       if (other.label == triangle.label && Difference(triangle, other) < 1.5)
         expected.insert(other.vertex);
-    std::vector<const ObjectTriangle*> found, again;
-    index.Find(triangle, 1.5, 1000, found);
-    index.Find(triangle, 1.5, 1000, again);
+    std::vector<ObjectTriangle> found, again;
+    index.Find(map, triangle, 1.5, 1000, found);
+    index.Find(map, triangle, 1.5, expected.size(), again);
     EXPECT_EQ(found, again);
-    for (const ObjectTriangle* other : found) got.insert(other->vertex);
+    for (const ObjectTriangle& other : found) got.insert(other.vertex);
+    EXPECT_EQ(found.size(), got.size());
     EXPECT_EQ(got, expected);
     total += expected.size();
     if (expected.size() < 2) continue;
     found.clear();
-    index.Find(triangle, 1.5, expected.size() - 1, found);
+    index.Find(map, triangle, 1.5, expected.size() - 1, found);
     EXPECT_TRUE(found.empty()) << "over the limit";
   }
   EXPECT_GT(total, wanted.size());
@@ -88,8 +89,8 @@ TEST(TriangleIndex, KnowsNoOtherLabels) {
   const LayoutIndex map(Strewn(100, 100, 5), 50, 2);
   ObjectTriangle triangle = NeighbourTriangles(map)[0];
   triangle.label = {7, 8, 9};
-  std::vector<const ObjectTriangle*> found;
-  TriangleIndex(map).Find(triangle, 1e3, 1000, found);
+  std::vector<ObjectTriangle> found;
+  TriangleIndex(map).Find(map, triangle, 1e3, 1000, found);
   EXPECT_TRUE(found.empty());
 }
 

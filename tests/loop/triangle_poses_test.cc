@@ -74,7 +74,7 @@ TEST(TrianglePoses, AreBoundedAndRepeatable) {
     EXPECT_EQ(a[i].sine, b[i].sine);
   }
   std::vector<CoarsePose> kept = a;
-  KeepMostVoted(50, kept);
+  KeepBest(50, kept);
   EXPECT_EQ(kept.size(), 50u);
   float least = 1e9f;
   for (const CoarsePose& pose : kept) least = std::min(least, pose.score);
