@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <random>
 #include <set>
 
 #include "layout_cases.h"
@@ -92,6 +94,67 @@ TEST(TriangleIndex, KnowsNoOtherLabels) {
   std::vector<ObjectTriangle> found;
   TriangleIndex(map).Find(map, triangle, 1e3, 1000, found);
   EXPECT_TRUE(found.empty());
+}
+
+// Objects by place, since indices may differ.
+using Corners = std::set<std::array<double, 3>>;
+
+// All triangles of a map as its index has them, by many searches.
+std::multiset<Corners> AllTriangles(const LayoutIndex& index) {
+  std::multiset<Corners> all;
+  for (const ObjectTriangle& triangle : NeighbourTriangles(index)) {
+    std::vector<ObjectTriangle> found;
+    index.triangles()->Find(index, triangle, 1e-3, 1000, found);
+    for (const ObjectTriangle& other : found) {
+      Corners corners;
+      for (const int i : other.vertex) {
+        const Vec3& p = index.objects()[i].position;
+        corners.insert({p.x(), p.y(), p.z()});
+      }
+      all.insert(corners);
+    }
+  }
+  return all;
+}
+
+// Crowds and lonely objects: the distances of the neighbours differ by a factor of 100.
+TEST(TriangleIndex, UpdatedTrianglesAreThoseOfABuiltIndex) {
+  std::mt19937 random(3);
+  const auto somewhere = [&](int id) {
+    const double spread = id % 5 == 0 ? 2000 : id % 5 == 1 ? 400 : 60;
+    LayoutObject object = ObjectAt(
+        {spread * (random() % 1000000 * 1e-6 - 0.5), spread * (random() % 1000000 * 1e-6 - 0.5), 0},
+        id % 7 == 0 ? -3 : 2);
+    object.id = id;
+    return object;
+  };
+  std::map<int, LayoutObject> map;
+  for (int id = 0; id < 1000; ++id) map[id] = somewhere(id);
+  const auto all = [&] {
+    std::vector<LayoutObject> objects;
+    for (const auto& [id, object] : map) objects.push_back(object);
+    return objects;
+  };
+  LayoutIndex kept(all(), 50, 2);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<LayoutObject> changed;
+    for (int i = 0; i < 2; ++i) changed.push_back(somewhere(1000 + 2 * round + i));
+    const auto moved = std::next(map.begin(), static_cast<std::ptrdiff_t>(random() % map.size()));
+    changed.push_back(somewhere(moved->first));
+    for (const LayoutObject& object : changed) map[object.id] = object;
+    std::vector<int> removed;
+    for (int i = 0; i < 2; ++i) {
+      const auto gone = std::next(map.begin(), static_cast<std::ptrdiff_t>(random() % map.size()));
+      if (gone->first == moved->first || gone->first >= 1000 + 2 * round) continue;
+      removed.push_back(gone->first);
+      map.erase(gone);
+    }
+    kept.Update(changed, removed);
+    if (round % 60 != 59) continue;
+    const LayoutIndex fresh(all(), 50, 2);
+    ASSERT_NE(fresh.triangles(), nullptr);
+    EXPECT_EQ(AllTriangles(kept), AllTriangles(fresh));
+  }
 }
 
 }  // namespace
