@@ -155,6 +155,7 @@ AsyncReport AsyncMapper::TakeReport() {
   AsyncReport report = std::exchange(impl_->report, {});
   impl_->report.failure = report.failure;
   impl_->report.changes.T_world_odom = report.changes.T_world_odom;
+  impl_->report.changes.scale = report.changes.scale;
   return report;
 }
 

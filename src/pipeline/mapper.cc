@@ -176,7 +176,10 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
 
 MapChanges Mapper::TakeChanges() {
   Impl& m = *impl_;
-  return m.reporter.Take(m.best(), m.final_trajectory.state.has_value(), m.loops.ledger());
+  MapChanges changes =
+      m.reporter.Take(m.best(), m.final_trajectory.state.has_value(), m.loops.ledger());
+  changes.scale = scale();
+  return changes;
 }
 
 LoopSearchSummary Mapper::SummariseLoopSearch() const {

@@ -10,6 +10,7 @@ namespace sslcd {
 void MergeChanges(MapChanges newer, MapChanges& changes) {
   if (!newer.poses.empty()) {
     changes.T_world_odom = newer.T_world_odom;
+    changes.scale = newer.scale;
     const auto first =
         std::lower_bound(changes.poses.begin(), changes.poses.end(), newer.poses.front().frame,
                          [](const FramePose& pose, int frame) { return pose.frame < frame; });

@@ -184,6 +184,7 @@ TEST(MergeChanges, NewerPosesAndDecisionsReplaceOlderOnes) {
   changes.loops.resize(2);
   changes.loops[1].id = 1;
   newer.T_world_odom = Pose::Trans(1, 0, 0);
+  newer.scale = 1.02;
   newer.poses = {{2, 0.2, Pose::Trans(0, 1, 0)}, {3, 0.3, Pose()}, {4, 0.4, Pose()}};
   newer.loops.resize(2);
   newer.loops[0].id = 1;
@@ -198,6 +199,7 @@ TEST(MergeChanges, NewerPosesAndDecisionsReplaceOlderOnes) {
   EXPECT_EQ(changes.T_world_odom.translation(), Vec3(1, 0, 0));
   MergeChanges({}, changes);
   EXPECT_EQ(changes.T_world_odom.translation(), Vec3(1, 0, 0)) << "nothing has changed";
+  EXPECT_EQ(changes.scale, 1.02);
   EXPECT_EQ(changes.poses.size(), 4u);
 }
 

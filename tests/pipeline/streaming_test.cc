@@ -60,7 +60,9 @@ TEST(Streaming, ChangesAloneKeepAHostsCopyUpToDate) {
                   .Log()
                   .norm(),
               1e-9);
+    EXPECT_EQ(report.changes.scale, mapper.scale());
   }
+  EXPECT_NE(mapper.scale(), 1);
   copy.ExpectIsOf(mapper);
   EXPECT_GT(Accepted(copy.loops), 0);
   EXPECT_LT(told, drives.frames.size() * drives.frames.size() / 10) << "only what has changed";

@@ -48,6 +48,7 @@ struct MapChanges {
   /// T_world_cam T_odom_cam^-1 of the newest frame (ROS: map to odom). Corrects the odometry until
   /// the next frame.
   Pose T_world_odom;
+  double scale = 1;  ///< Mapper::scale(): for hosts that stay in the odometry's unit
   /// the first frame whose pose has changed, and all frames after it
   std::vector<FramePose> poses;
   /// the attempts that are new, or whose decision or measurement has changed, by
