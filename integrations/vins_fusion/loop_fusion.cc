@@ -125,6 +125,8 @@ void LoopFusion::Apply(const EdgeChanges& changes) {
   for (const int index : changes.cleared) Clear(index);
   for (const LoopEdge& edge : changes.set) Set(edge);
   graph_.optimize_buf.push(graph_.keyframelist.back()->index);
+  Say(std::to_string(costs_.size()) + " of " + std::to_string(book_.accepted()) +
+      " accepted loops in the pose graph");
 }
 
 void LoopFusion::Clear(int index) {
@@ -151,9 +153,9 @@ void LoopFusion::Set(const LoopEdge& edge) {
   const Eigen::Matrix3d tilt = lie::SO3<double>::RotZ(-yaw).matrix() * old->vio_R_w_i;
   const bool is_new = costs_.count(edge.cur) == 0;
   costs_[edge.cur] = {{T_old_cur.translation(), cur->loop_info[7], tilt,
-                       WeightOf(FourDofCovariance(edge.measured, old->vio_R_w_i))},
+                       WeightOf(FourDofCovariance(edge.measured, old->vio_R_w_i), kFourDofWeight)},
                       {T_old_cur.translation(), Eigen::Quaterniond(T_old_cur.so3().matrix()),
-                       WeightOf(SixDofCovariance(edge.measured))}};
+                       WeightOf(SixDofCovariance(edge.measured), kSixDofWeight)}};
   if (!is_new) return;
   char text[120];
   std::snprintf(text, sizeof text, "loop %d -> %d, %.0f degrees, %.1f m", edge.cur, edge.old,

@@ -46,12 +46,12 @@ Eigen::Matrix<double, 6, 6> SixDofCovariance(const RelativePose& T_old_cur) {
   return J * T_old_cur.covariance * J.transpose();
 }
 
-Eigen::MatrixXd WeightOf(const Eigen::MatrixXd& covariance) {
-  // With covariance = L L^T: W = kWeight L^-1.
+Eigen::MatrixXd WeightOf(const Eigen::MatrixXd& covariance, double weight) {
+  // With covariance = L L^T: W = weight L^-1.
   const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
-  return kWeight * Eigen::MatrixXd(llt.matrixL())
-                       .triangularView<Eigen::Lower>()
-                       .solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
+  return weight * Eigen::MatrixXd(llt.matrixL())
+                      .triangularView<Eigen::Lower>()
+                      .solve(Eigen::MatrixXd::Identity(covariance.rows(), covariance.cols()));
 }
 
 }  // namespace sslcd::vins

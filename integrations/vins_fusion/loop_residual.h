@@ -30,12 +30,14 @@ Eigen::Matrix4d FourDofCovariance(const RelativePose& T_old_cur,
 /// current body's axes (3), rad].
 Eigen::Matrix<double, 6, 6> SixDofCovariance(const RelativePose& T_old_cur);
 
-/// VINS's Huber loss of loops bends at 0.1. Whitened residuals times this bend at one standard
-/// deviation. It is about the factor, too, by which VINS takes its odometry for less exact than it
-/// is (1 m and 1 degree, or 0.1 m and 0.01 rad, from keyframe to keyframe).
-constexpr double kWeight = 0.1;
+/// VINS takes each of its loops for as exact as a step of its odometry: 1 m (4 DoF) or 0.1 m (6
+/// DoF). What sslcd's standard deviations are multiplied with on that scale: a loop with kLikeVinss
+/// counts as much as one of VINS's, others by their covariance.
+constexpr double kLikeVinss = 0.3;  // [m], typical of object loops
+constexpr double kFourDofWeight = kLikeVinss / 1.;
+constexpr double kSixDofWeight = kLikeVinss / 0.1;
 
-/// W with W^T W = kWeight^2 covariance^-1: W times a residual is whitened and weighted.
-Eigen::MatrixXd WeightOf(const Eigen::MatrixXd& covariance);
+/// W with W^T W = weight^2 covariance^-1: W times a residual is whitened and weighted.
+Eigen::MatrixXd WeightOf(const Eigen::MatrixXd& covariance, double weight);
 
 }  // namespace sslcd::vins

@@ -125,8 +125,8 @@ TEST(LoopCovariance, OfTheFourDofResidualIsThatOfSamples) {
         FourDofCovariance(meeting.loop, meeting.old.T_world_body().so3().matrix());
     EXPECT_LT((covariance - expected).norm(), 0.03 * expected.norm());
     const Eigen::Matrix4d white =
-        WeightOf(covariance) * expected * WeightOf(covariance).transpose();
-    EXPECT_LT((white / (kWeight * kWeight) - Eigen::Matrix4d::Identity()).norm(), 0.1);
+        WeightOf(covariance, 0.3) * expected * WeightOf(covariance, 0.3).transpose();
+    EXPECT_LT((white / (0.3 * 0.3) - Eigen::Matrix4d::Identity()).norm(), 0.1);
   }
 }
 
@@ -136,8 +136,9 @@ TEST(LoopCovariance, OfTheSixDofResidualIsThatOfSamples) {
       Sampled<6>(meeting.loop, [&](const Pose& T) { return meeting.SixDof(T); });
   const Pose::Matrix6 covariance = SixDofCovariance(meeting.loop);
   EXPECT_LT((covariance - expected).norm(), 0.03 * expected.norm());
-  const Pose::Matrix6 white = WeightOf(covariance) * expected * WeightOf(covariance).transpose();
-  EXPECT_LT((white / (kWeight * kWeight) - Pose::Matrix6::Identity()).norm(), 0.1);
+  const Pose::Matrix6 white =
+      WeightOf(covariance, 0.3) * expected * WeightOf(covariance, 0.3).transpose();
+  EXPECT_LT((white / (0.3 * 0.3) - Pose::Matrix6::Identity()).norm(), 0.1);
 }
 
 TEST(LoopCost, FourDofIsTheWeightedResidual) {
@@ -149,7 +150,7 @@ TEST(LoopCost, FourDofIsTheWeightedResidual) {
     const LoopInfo info = LoopInfoOf(measured, meeting.old.T_world_body().so3().matrix(),
                                      meeting.cur.T_world_body().so3().matrix());
     const Eigen::Matrix4d weight =
-        WeightOf(FourDofCovariance(meeting.loop, meeting.old.T_world_body().so3().matrix()));
+        WeightOf(FourDofCovariance(meeting.loop, meeting.old.T_world_body().so3().matrix()), 0.3);
     const std::unique_ptr<ceres::CostFunction> cost(
         FourDofLoopCost::Create({measured.translation(), info[7], meeting.old.tilt, weight}));
     // a full turn of VINS's yaw changes nothing
@@ -169,7 +170,7 @@ TEST(LoopCost, SixDofIsTheWeightedResidual) {
   Vec6 d;
   d << 0.3, -0.2, 0.1, 0.001, -0.002, 0.003;
   const Pose measured = meeting.loop.T_a_b * Pose::Exp(d);
-  const Pose::Matrix6 weight = WeightOf(SixDofCovariance(meeting.loop));
+  const Pose::Matrix6 weight = WeightOf(SixDofCovariance(meeting.loop), 3);
   const std::unique_ptr<ceres::CostFunction> cost(SixDofLoopCost::Create(
       {measured.translation(), Eigen::Quaterniond(measured.so3().matrix()), weight}));
   const Eigen::Quaterniond old(meeting.old.T_world_body().so3().matrix());

@@ -70,6 +70,13 @@ struct State {
   array<double, 3> t;
 };
 
+// So that nothing leaks where no loop is left.
+ceres::Problem::Options BorrowLoss() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
 void Optimise(ceres::Problem& problem) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -133,8 +140,9 @@ void PoseGraph::optimize4DoF() {
     m_keyframelist.lock();
     KeyFrame* cur_kf = getKeyFrame(cur_index);
     map<int, State> states;
-    ceres::Problem problem;
-    ceres::LossFunction* loss_function = new ceres::HuberLoss(0.1);
+    ceres::Problem problem(BorrowLoss());
+    ceres::HuberLoss huber(0.1);
+    ceres::LossFunction* loss_function = &huber;
     for (auto it = keyframelist.begin(); it != keyframelist.end(); ++it) {
       if ((*it)->index < first_looped_index) continue;
       const Vector3d ypr = YawPitchRoll((*it)->vio_R_w_i);
@@ -183,8 +191,9 @@ void PoseGraph::optimize6DoF() {
     m_keyframelist.lock();
     KeyFrame* cur_kf = getKeyFrame(cur_index);
     map<int, State> states;
-    ceres::Problem problem;
-    ceres::LossFunction* loss_function = new ceres::HuberLoss(0.1);
+    ceres::Problem problem(BorrowLoss());
+    ceres::HuberLoss huber(0.1);
+    ceres::LossFunction* loss_function = &huber;
     for (auto it = keyframelist.begin(); it != keyframelist.end(); ++it) {
       if ((*it)->index < first_looped_index) continue;
       const Quaterniond q((*it)->vio_R_w_i);
