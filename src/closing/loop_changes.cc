@@ -10,6 +10,7 @@ std::vector<LoopClosure> LoopChanges::Take(const LoopLedger& ledger) {
   if (ledger.revision() == revision_) return changed;
   revision_ = ledger.revision();
   for (const LoopAttempt& attempt : ledger.attempts()) {
+    if (!attempt.counts()) continue;
     LoopClosure row = attempt.Measured();
     const auto [known, is_new] = known_.try_emplace(row.id, Known{row.decision, row.T_match_query});
     const bool is_same = known->second.decision == row.decision &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_closer.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "closing/loop_corrector.h"
@@ -35,15 +36,19 @@ LoopCloser::LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_
     : options_(options),
       whole_map_(whole_map),
       passes_(whole_map.noise, options.layout.split_m, galleries),
-      finder_(MakeFinder(options, matcher)) {}
+      first_{MakeFinder(options, matcher)},
+      second_{first_.finder->Clone()} {}
 
 LoopCloser::LoopCloser(const LoopCloser& other)
     : options_(other.options_),
       whole_map_(other.whole_map_),
       passes_(other.passes_),
-      finder_(other.finder_->Clone()),
+      first_{other.first_.finder->Clone(), other.first_.end_m},
+      second_{other.second_.finder->Clone(), other.second_.end_m},
       ledger_(other.ledger_),
       without_candidate_(other.without_candidate_),
+      look_back_(other.look_back_),
+      last_place_(other.last_place_),
       last_attempt_m_(other.last_attempt_m_),
       odometry_factors_(other.odometry_factors_),
       learnt_at_m_(other.learnt_at_m_) {}
@@ -53,6 +58,7 @@ void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing)
   if (end_m - last_attempt_m_ < options_.layout.every_m) return;
   last_attempt_m_ = end_m;
   SearchAndCorrect(state, {end_m, options_.lag_m, options_.layout.local_m, 0.}, scale, timing);
+  LookBack(state, scale, timing);
 }
 
 void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
@@ -62,25 +68,71 @@ void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
   for (double lag_m = options_.lag_m - o.every_m; lag_m > 0; lag_m -= o.every_m)
     if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
       SearchAndCorrect(state, {end_m, lag_m, o.local_m, options_.lag_m}, scale, timing);
-  if (ledger_.AnyAccepted() && finder_->SupportsSecondSearch() && o.hindsight_m > 0)
-    SearchAgain(state, scale, timing);
+  if (ledger_.AnyAccepted() && SearchesTwice()) SearchAgain(state, scale, timing);
+}
+
+bool LoopCloser::SearchesTwice() const {
+  return second_.finder->SupportsSecondSearch() && options_.layout.hindsight_m > 0;
+}
+
+// The second search from the camera at `place` times the path between attempts.
+SearchWindow LoopCloser::SecondWindow(int place) const {
+  const LoopLayoutOptions& o = options_.layout;
+  const double lag_m = options_.lag_m;
+  return {lag_m + place * o.every_m, lag_m, o.hindsight_m, lag_m, true};
 }
 
 void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing) {
-  finder_->Reset();
-  const std::size_t first_search = ledger_.attempts().size();
+  second_.finder->Reset();
   const int without_candidate = without_candidate_;
-  const LoopLayoutOptions& o = options_.layout;
-  const double lag_m = options_.lag_m;
-  for (double end_m = lag_m; end_m < state.frames.back().travelled; end_m += o.every_m)
-    if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
-      SearchAndCorrect(state, {end_m, lag_m, o.hindsight_m, lag_m}, scale, timing);
-  ledger_.DropUnaccepted(first_search);
+  for (int place = 0;; ++place) {
+    const SearchWindow window = SecondWindow(place);
+    if (window.end_m >= state.frames.back().travelled) break;
+    if (!ledger_.AcceptedNear(state.frames, window.end_m - window.lag_m,
+                              0.5 * options_.layout.every_m))
+      SearchAndCorrect(state, window, scale, timing);
+  }
+  ledger_.DropUnacceptedOfSecond();
   without_candidate_ = without_candidate;
+  look_back_.clear();
+}
+
+// Some second searches, along the path as far as places follow each other.
+void LoopCloser::LookBack(MapState& state, double scale, TimingTable& timing) {
+  const int without_candidate = without_candidate_;
+  for (int left = options_.layout.look_back; left > 0 && !look_back_.empty();) {
+    auto next = look_back_.find(last_place_ + 1);
+    if (next == look_back_.end()) {
+      next = look_back_.begin();
+      second_.finder->Reset();
+      ledger_.DropUnacceptedOfSecond();
+    }
+    last_place_ = *next;
+    look_back_.erase(next);
+    const SearchWindow window = SecondWindow(last_place_);
+    if (ledger_.AcceptedNear(state.frames, window.end_m - window.lag_m,
+                             0.5 * options_.layout.every_m))
+      continue;
+    SearchAndCorrect(state, window, scale, timing);
+    --left;
+  }
+  without_candidate_ = without_candidate;
+}
+
+// Plans second searches near a camera whose loop was accepted: the prior is narrow there now.
+void LoopCloser::LookBackNear(const FrameStore& frames, double path_m) {
+  constexpr double kNear = 100;  // set by hand [m]
+  if (!SearchesTwice()) return;
+  const double every_m = options_.layout.every_m;
+  const int last = static_cast<int>((path_m + kNear) / every_m);
+  for (int place = std::max(0, static_cast<int>((path_m - kNear) / every_m));
+       place <= last && SecondWindow(place).end_m < frames.back().travelled; ++place)
+    look_back_.insert(place);
 }
 
 void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                                   TimingTable& timing) {
+  (window.second ? second_ : first_).end_m = window.end_m;
   {
     const ScopedTimer timer(timing, "loop detection");
     LearnOdometry(state, scale);
@@ -88,13 +140,26 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   }
   const ScopedTimer timer(timing, "drift correction");
   const bool moves = !AgreesWithNewLoops(state, ledger_);
-  if (moves) Correct(state, window.end_m, scale);
+  std::vector<Pose> before = EndsOfLooks(state.frames);
+  if (moves &&
+      CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise, odometry_factors_))
+    MoveLooks(before, state);
   FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);
   if (!moves) return;
-  const int here = state.frames.AtPath(window.end_m);
-  const Pose before = state.frames[here].T_world_cam;
+  before = EndsOfLooks(state.frames);
   AdjustAfterLoop(state, scale, options_, whole_map_, odometry_factors_);
-  finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
+  MoveLooks(before, state);
+}
+
+std::vector<Pose> LoopCloser::EndsOfLooks(const FrameStore& frames) const {
+  return {frames[frames.AtPath(first_.end_m)].T_world_cam,
+          frames[frames.AtPath(second_.end_m)].T_world_cam};
+}
+
+void LoopCloser::MoveLooks(const std::vector<Pose>& before, const MapState& state) {
+  const std::vector<Pose> now = EndsOfLooks(state.frames);
+  first_.finder->MoveLocalMap(LayoutChange(before[0], now[0], state.gravity()));
+  second_.finder->MoveLocalMap(LayoutChange(before[1], now[1], state.gravity()));
 }
 
 // Learns again whenever the path has grown by a tenth.
@@ -110,26 +175,22 @@ void LoopCloser::LearnOdometry(const MapState& state, double scale) {
 bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   const std::vector<LoopEdge> loops = ledger_.AcceptedEdges();
   const std::optional<FoundLoop> found =
-      finder_->Find({state, passes_, loops, odometry_factors_, window});
+      (window.second ? second_ : first_)
+          .finder->Find({state, passes_, loops, odometry_factors_, window});
   without_candidate_ += !found;
   if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
   ledger_.attempts().back().pairs = SightingsOf(state.frames, passes_, found->loop);
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;
   ledger_.AcceptNewest();
+  LookBackNear(state.frames, state.frames[found->loop.query].travelled);
   return true;
-}
-
-void LoopCloser::Correct(MapState& state, double end_m, double scale) {
-  const int here = state.frames.AtPath(end_m);
-  const Pose before = state.frames[here].T_world_cam;
-  if (!CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise, odometry_factors_))
-    return;
-  finder_->MoveLocalMap(LayoutChange(before, state.frames[here].T_world_cam, state.gravity()));
 }
 
 bool LoopCloser::Review(MapState& state) {
   passes_.Rebuild(state);
-  finder_->Reset();  // its poses are invalid after the correction
+  // poses of tracks are invalid after the correction
+  first_.finder->Reset();
+  second_.finder->Reset();
   ReviewLoops(state, passes_, ledger_, options_, odometry_factors_);
   if (!ledger_.FusedByRefused()) return false;
   FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);

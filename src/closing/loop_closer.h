@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "closing/loop_ledger.h"
@@ -31,7 +32,8 @@ class LoopCloser {
 
   /// Searches after the last frame: from the latest cameras, whose local maps are complete now, and
   /// then a second time along the whole run. The first loops have corrected the trajectory, so the
-  /// prior is narrow and few objects suffice.
+  /// prior is narrow and few objects suffice. AddKeyframe makes such
+  /// searches, too, near the loops that it finds (LoopLayoutOptions::look_back).
   void Finish(MapState& state, double scale, TimingTable& timing);
 
   /// Reviews the loops after the refinement, see ReviewLoops. True: a loop that has fused landmarks
@@ -48,19 +50,31 @@ class LoopCloser {
   const LoopLedger& ledger() const { return ledger_; }
 
  private:
+  // A finder with the end of its last local map.
+  struct Look {
+    std::unique_ptr<LoopFinder> finder;
+    double end_m = 0;
+  };
   void SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                         TimingTable& timing);
   void LearnOdometry(const MapState& state, double scale);
   bool Search(const MapState& state, const SearchWindow& window);
-  void Correct(MapState& state, double end_m, double scale);
+  bool SearchesTwice() const;
   void SearchAgain(MapState& state, double scale, TimingTable& timing);
+  void LookBack(MapState& state, double scale, TimingTable& timing);
+  void LookBackNear(const FrameStore& frames, double path_m);
+  SearchWindow SecondWindow(int place) const;
+  std::vector<Pose> EndsOfLooks(const FrameStore& frames) const;
+  void MoveLooks(const std::vector<Pose>& before, const MapState& state);
 
   LoopOptions options_;
   WholeMapOptions whole_map_;
   PassMap passes_;
-  std::unique_ptr<LoopFinder> finder_;
+  Look first_, second_;
   LoopLedger ledger_;
   int without_candidate_ = 0;
+  std::set<int> look_back_;  // places of second searches to be made, see SecondWindow
+  int last_place_ = -1;      // of the last second search
   double last_attempt_m_ = 0;
   OdometryFactors odometry_factors_;
   double learnt_at_m_ = 0;  // path at which they were learnt

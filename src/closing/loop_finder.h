@@ -19,6 +19,7 @@ struct SearchWindow {
   double local_m = 0;  ///< length of the local map
   /// largest path from the query camera to the first or last matched object
   double beyond_m = 0;
+  bool second = false;  ///< of the second search
 
   /// The passes of the global map must have ended before this path length.
   double GlobalMapEnd(double gap_m) const { return end_m - local_m - gap_m; }

@@ -48,6 +48,7 @@ void LoopLedger::AcceptNewest() {
   for (LoopAttempt& earlier : attempts_) {
     const FoundLoop& found = earlier.found;
     if (&earlier == &newest || found.track < 0 || found.track != newest.found.track) continue;
+    if (earlier.window.second != newest.window.second) continue;  // tracks of another finder
     if (!found.confirmed || earlier.in_graph) continue;
     earlier.row().reason = settled;
     AddToGraph(earlier);
@@ -55,12 +56,11 @@ void LoopLedger::AcceptNewest() {
   AddToGraph(newest);
 }
 
-void LoopLedger::DropUnaccepted(std::size_t first) {
+void LoopLedger::DropUnacceptedOfSecond() {
   ++revision_;
-  attempts_.erase(
-      std::remove_if(attempts_.begin() + static_cast<std::ptrdiff_t>(first), attempts_.end(),
-                     [](const LoopAttempt& attempt) { return !attempt.in_graph; }),
-      attempts_.end());
+  attempts_.erase(std::remove_if(attempts_.begin(), attempts_.end(),
+                                 [](const LoopAttempt& attempt) { return !attempt.counts(); }),
+                  attempts_.end());
 }
 
 bool LoopLedger::FusedByRefused() const {
@@ -102,7 +102,8 @@ PathGraph LoopLedger::AcceptedPath(const FrameStore& frames) const {
 
 std::vector<LoopClosure> LoopLedger::Rows() const {
   std::vector<LoopClosure> rows;
-  for (const LoopAttempt& attempt : attempts_) rows.push_back(attempt.Measured());
+  for (const LoopAttempt& attempt : attempts_)
+    if (attempt.counts()) rows.push_back(attempt.Measured());
   return rows;
 }
 

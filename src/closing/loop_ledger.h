@@ -33,6 +33,8 @@ struct LoopAttempt {
   LoopClosure& row() { return found.loop.row; }
   const LoopClosure& row() const { return found.loop.row; }
   bool accepted() const { return row().decision == LoopDecision::kAccepted; }
+  /// False: of a second search, and never accepted.
+  bool counts() const { return in_graph || !window.second; }
   /// The row with its last measurement.
   LoopClosure Measured() const;
 };
@@ -48,8 +50,8 @@ class LoopLedger {
   /// confirmed attempts of its track.
   void AcceptNewest();
 
-  /// Removes attempts from index `first` on that were never accepted.
-  void DropUnaccepted(std::size_t first);
+  /// Removes the attempts of the second search that were never accepted.
+  void DropUnacceptedOfSecond();
 
   /// Whether objects were fused by a loop that is no longer accepted.
   bool FusedByRefused() const;
@@ -72,7 +74,8 @@ class LoopLedger {
   std::vector<LoopEdge> AcceptedEdges() const;
   /// The path with the accepted loops as shortcuts.
   PathGraph AcceptedPath(const FrameStore& frames) const;
-  /// LoopAttempt::Measured of all attempts in order.
+  /// LoopAttempt::Measured of all attempts in order, but for those of a second search that were
+  /// never accepted.
   std::vector<LoopClosure> Rows() const;
 
  private:

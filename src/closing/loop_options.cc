@@ -24,6 +24,10 @@ void DescribeFields(FieldVisitor& visitor, LoopLayoutOptions& options) {
       .Real(
           "hindsight_m", options.hindsight_m, 0, 10000,
           "length of the local map in the second search at the end of a run; 0: no second search");
+  visitor.Everyday("2: a host has most loops before the end, for twice the time of loop detection")
+      .Integer("look_back", options.look_back, 0, 1000,
+               "second searches per search while frames come, near the loops just found; 0: at the "
+               "end only");
   visitor.Everyday("larger: loops between nearby parts of the path are not searched for")
       .Real("gap_m", options.gap_m, 0, 10000,
             "the global map holds the objects of passes that ended this length of path before the "

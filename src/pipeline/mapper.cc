@@ -186,9 +186,10 @@ LoopSearchSummary Mapper::SummariseLoopSearch() const {
   const Impl& m = *impl_;
   const std::vector<LoopAttempt>& attempts = m.loops.ledger().attempts();
   LoopSearchSummary summary;
-  summary.without_candidate = m.loops.without_candidate();
-  summary.searches = summary.without_candidate + static_cast<int>(attempts.size());
+  summary.without_candidate = summary.searches = m.loops.without_candidate();
   for (const LoopAttempt& attempt : attempts) {
+    if (!attempt.counts()) continue;
+    ++summary.searches;
     if (attempt.accepted())
       ++summary.accepted;
     else

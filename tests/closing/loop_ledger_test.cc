@@ -91,14 +91,28 @@ TEST(LoopLedger, WhatTheGraphRefusesStaysInItButIsNoShortcut) {
   EXPECT_EQ(ledger.AcceptedPath(frames).From(90).To(12), 78);
 }
 
+TEST(LoopLedger, TracksOfTheTwoSearchesAreDifferent) {
+  LoopLedger ledger;
+  SearchWindow second;
+  second.second = true;
+  ledger.Add(Loop(1, 50, kOpen, 7, true), {}, 50);
+  ledger.Add(Loop(2, 60, kOpen, 7, true), second, 99);
+  ledger.Add(Loop(3, 70, kAccepted, 7, true), second, 99);
+  ledger.AcceptNewest();
+  EXPECT_FALSE(ledger.attempts()[0].accepted());
+  EXPECT_TRUE(ledger.attempts()[1].accepted());
+}
+
 TEST(LoopLedger, DropsWhatTheSecondSearchHasNotAccepted) {
   LoopLedger ledger;
   ledger.Add(Loop(1, 50, kOpen), {}, 50);  // of the first search
-  const std::size_t first = ledger.attempts().size();
-  ledger.Add(Loop(2, 60, kOpen), {}, 99);
-  ledger.Add(Loop(3, 70, kAccepted), {}, 99);
+  SearchWindow second;
+  second.second = true;
+  ledger.Add(Loop(2, 60, kOpen, 7, true), second, 99);
+  ledger.Add(Loop(3, 70, kAccepted), second, 99);
   ledger.AcceptNewest();
-  ledger.DropUnaccepted(first);
+  EXPECT_EQ(ledger.Rows().size(), 2u) << "the refused one is no attempt of the run";
+  ledger.DropUnacceptedOfSecond();
   ASSERT_EQ(ledger.attempts().size(), 2u);
   EXPECT_EQ(ledger.attempts()[0].found.loop.query, 50);
   EXPECT_EQ(ledger.attempts()[1].found.loop.query, 70);

@@ -16,6 +16,8 @@ struct LoopLayoutOptions {
   /// the same in the second search at the end of a run, where the narrow prior needs fewer objects;
   /// 0: no second search
   double hindsight_m = 60.;
+  /// second searches per attempt while frames come, near the loops just found; 0: at the end only
+  int look_back = 2;
   /// path between the end of the global map and the start of the local map
   double gap_m = 10.;
   /// an object that was out of sight for this length of path starts a new pass
