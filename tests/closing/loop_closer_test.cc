@@ -73,8 +73,36 @@ TEST_F(LoopCloserTest, TheTrackOfALoopContinuesAfterTheCorrection) {
   std::size_t first = 0;
   while (first < attempts().size() && !attempts()[first].accepted()) ++first;
   ASSERT_LT(first + 2, attempts().size());
-  for (std::size_t i = first; i < attempts().size(); ++i)
+  for (std::size_t i = first; i < attempts().size(); ++i) {
+    if (attempts()[i].window.second) continue;
     EXPECT_EQ(attempts()[i].found.track, attempts()[first].found.track) << i - first;
+  }
+}
+
+TEST_F(LoopCloserTest, LooksBackNearALoopWhileFramesCome) {
+  LoopOptions options = WithoutAdjustment();
+  for (const int look_back : {0, 4}) {
+    options.layout.look_back = look_back;
+    Start(SmallDrift(), options, {});
+    Drive();
+    int found = 0;
+    for (const LoopAttempt& attempt : attempts()) {
+      if (!attempt.window.second || !attempt.in_graph) continue;
+      ++found;
+      EXPECT_EQ(attempt.window.local_m, options.layout.hindsight_m);
+      const LoopMeasurement& loop = attempt.found.loop;
+      EXPECT_LT(Apart(loop.row.T_match_query, world_.TrueLoop(loop.match, loop.query)), 0.2);
+    }
+    EXPECT_EQ(found > 0, look_back > 0) << look_back;
+  }
+}
+
+TEST_F(LoopCloserTest, DoesNotLookBackWithoutASecondSearch) {
+  LoopOptions options = WithoutAdjustment();
+  options.layout.hindsight_m = 0;
+  Start(SmallDrift(), options, {});
+  Drive();
+  for (const LoopAttempt& attempt : attempts()) EXPECT_FALSE(attempt.window.second);
 }
 
 // Without drift the first loop is where the trajectory has it; only its objects are fused.
