@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math.h"
 #include "core/median.h"
 
 namespace sslcd {
@@ -18,7 +19,7 @@ constexpr double kOutlier = 3;  // in standard deviations
 
 // Log density of the standard Student-t distribution at the squared distance m2 from its centre.
 double LogStudent(double m2, int dimensions) {
-  return std::lgamma(0.5 * (kFreedom + dimensions)) - std::lgamma(0.5 * kFreedom) -
+  return LogGamma(0.5 * (kFreedom + dimensions)) - LogGamma(0.5 * kFreedom) -
          0.5 * dimensions * std::log(kFreedom * M_PI) -
          0.5 * (kFreedom + dimensions) * std::log1p(m2 / kFreedom);
 }

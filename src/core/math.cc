@@ -16,9 +16,14 @@ double LogSumExp(const std::vector<double>& values) {
   return top + std::log(sum);
 }
 
+double LogGamma(double x) {
+  int sign = 0;
+  return lgamma_r(x, &sign);
+}
+
 double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no) {
   const auto log_beta = [](double a, double b) {
-    return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b);
+    return LogGamma(a) + LogGamma(b) - LogGamma(a + b);
   };
   return log_beta(yes + prior_yes, no + prior_no) - log_beta(prior_yes, prior_no);
 }

@@ -8,6 +8,9 @@ namespace sslcd {
 /// log(sum(exp(values))) without overflow; minus infinity for no values.
 double LogSumExp(const std::vector<double>& values);
 
+/// log |Gamma(x)|. Unlike std::lgamma it writes no global sign, so threads may call it.
+double LogGamma(double x);
+
 /// Log probability of a sequence of `yes` and `no` outcomes of unknown rate: the Beta-binomial.
 double LogBetaBinomial(double yes, double no, double prior_yes, double prior_no);
 

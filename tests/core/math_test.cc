@@ -35,5 +35,16 @@ TEST(Chi2Quantile, MatchesTables) {
   EXPECT_NEAR(Chi2Quantile(0.95, 6), 12.592, 0.06);
 }
 
+TEST(LogGamma, IsTheLogOfTheFactorialBefore) {
+  EXPECT_NEAR(LogGamma(5), std::log(24.), 1e-14);
+  EXPECT_NEAR(LogGamma(0.5), 0.5 * std::log(M_PI), 1e-14);
+}
+
+TEST(LogBetaBinomial, IsTheChanceOfASequenceOfUnknownRate) {
+  EXPECT_NEAR(LogBetaBinomial(0, 0, 2, 3), 0, 1e-14);
+  EXPECT_NEAR(LogBetaBinomial(1, 0, 2, 3), std::log(2. / 5), 1e-14);
+  EXPECT_NEAR(LogBetaBinomial(1, 1, 2, 3), std::log(2. / 5 * 3 / 6), 1e-14);
+}
+
 }  // namespace
 }  // namespace sslcd
