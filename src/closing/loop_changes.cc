@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_changes.h"
 
-#include <utility>
-
 namespace sslcd {
 
 std::vector<LoopClosure> LoopChanges::Take(const LoopLedger& ledger) {
@@ -11,13 +9,13 @@ std::vector<LoopClosure> LoopChanges::Take(const LoopLedger& ledger) {
   revision_ = ledger.revision();
   for (const LoopAttempt& attempt : ledger.attempts()) {
     if (!attempt.counts()) continue;
-    LoopClosure row = attempt.Measured();
-    const auto [known, is_new] = known_.try_emplace(row.id, Known{row.decision, row.T_match_query});
-    const bool is_same = known->second.decision == row.decision &&
-                         known->second.T_match_query.matrix() == row.T_match_query.matrix();
+    const Known now{attempt.row().decision, attempt.T_match_query()};
+    const auto [known, is_new] = known_.try_emplace(attempt.row().id, now);
+    const bool is_same = known->second.decision == now.decision &&
+                         known->second.T_match_query.matrix() == now.T_match_query.matrix();
     if (!is_new && is_same) continue;
-    known->second = {row.decision, row.T_match_query};
-    changed.push_back(std::move(row));
+    known->second = now;
+    changed.push_back(attempt.Measured());
   }
   return changed;
 }

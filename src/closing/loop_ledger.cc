@@ -14,6 +14,10 @@ void AddToGraph(LoopAttempt& attempt) {
 
 }  // namespace
 
+const Pose& LoopAttempt::T_match_query() const {
+  return remeasured && accepted() ? remeasured->T_match_query : row().T_match_query;
+}
+
 LoopClosure LoopAttempt::Measured() const {
   LoopClosure measured = row();
   if (!remeasured || !accepted()) return measured;

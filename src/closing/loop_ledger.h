@@ -35,6 +35,8 @@ struct LoopAttempt {
   bool accepted() const { return row().decision == LoopDecision::kAccepted; }
   /// False: of a second search, and never accepted.
   bool counts() const { return in_graph || !window.second; }
+  /// The last measurement.
+  const Pose& T_match_query() const;
   /// The row with its last measurement.
   LoopClosure Measured() const;
 };

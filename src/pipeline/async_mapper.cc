@@ -90,10 +90,17 @@ void AsyncMapper::Impl::Do(const Job& job) {
   try {
     job(mapper, done);
   } catch (const Error& error) {
-    done.refused = 1;
-    done.refusal = error.what();
+    // of a bad frame alone the mapper is as it was
+    if (error.kind() == ErrorKind::kBadInput) {
+      done.refused = 1;
+      done.refusal = error.what();
+    } else {
+      done.failure = error.what();
+    }
   } catch (const std::exception& error) {
     done.failure = error.what();
+  } catch (...) {
+    done.failure = "an exception of the host's that is no std::exception";
   }
   const std::lock_guard lock(mutex);
   MergeChanges(std::move(done.changes), report.changes);

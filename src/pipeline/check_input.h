@@ -13,7 +13,7 @@ void CheckContext(const MapperContext& context);
 
 /// The pose or stamp of the next frame is not finite or farther away than the Earth is round, its
 /// number or its stamp is not above that of the frame before, or the uncertainty of its step is
-/// none. The stamp of the first frame of a sequence may be any.
+/// negative or not finite. The stamp of the first frame of a sequence may be any.
 void CheckFrame(const Frame& frame, const FrameStore& frames, bool starts_sequence);
 
 }  // namespace sslcd

@@ -143,6 +143,25 @@ TEST(AsyncMapper, ABadFrameIsCountedWithItsReason) {
   EXPECT_TRUE(report.failure.empty());
 }
 
+// A mapper whose host's matcher has thrown is no longer as it was.
+TEST(AsyncMapper, AnExceptionOfTheHostEndsItAndIsTold) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  for (const bool standard : {true, false}) {
+    MapperContext context = drives.Context();
+    context.place_matcher = [standard](const PlaceQuery&) -> std::optional<PlaceAnswer> {
+      if (standard) throw Error(ErrorKind::kUsage, "the matcher gives up");
+      throw 1;
+    };
+    AsyncMapper async({}, context, 1 << 20);
+    for (const Frame& frame : drives.frames) async.AddFrame(frame);
+    async.Wait();
+    const AsyncReport report = async.TakeReport();
+    EXPECT_EQ(report.refused, 0);
+    EXPECT_NE(report.failure.find(standard ? "gives up" : "exception"), std::string::npos);
+    EXPECT_FALSE(async.AddFrame(drives.frames.back()));
+  }
+}
+
 TEST(AsyncMapper, EndsWithFramesInTheQueue) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
   std::future<Mapper> never;

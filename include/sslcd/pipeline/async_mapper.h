@@ -17,7 +17,8 @@ struct AsyncReport {
   int dropped = 0;      ///< frames that found the queue full
   int refused = 0;      ///< frames that Mapper::AddFrame threw at
   std::string refusal;  ///< the message of the last of these
-  /// what ended the thread, e.g. want of memory; empty: it runs. The results so far stay.
+  /// what ended the thread, e.g. want of memory or an exception of a host's function; empty: it
+  /// runs. The results so far stay.
   std::string failure;
 };
 

@@ -68,7 +68,7 @@ struct LoopSearchSummary {
   /// and nothing is found
   bool up_axis_is_plausible = true;
 
-  /// In a line, e.g. "38 searches, 0 loops; 20 another pose fits nearly as well; 18 no candidate".
+  /// In a line, e.g. "38 searches, 0 loops accepted; 38: another pose fits nearly as well".
   std::string Text() const;
 };
 
