@@ -10,6 +10,7 @@ import sys
 import numpy as np
 
 STREET, LOT = "street", "lot"
+CELLS = [(noise, detected) for noise in (0.1, 0.3, 0.5) for detected in (0.9, 0.6)]
 HALF_SIDE = {STREET: 21.0, LOT: 12.3}  # of the square that the local map covers [m]
 
 
@@ -45,47 +46,73 @@ def clutter(rng, scene, detected, centre):
         yield x, rng.uniform(-10, 10) if scene == STREET else y, rng.normal(0, 0.1), rng.integers(3)
 
 
+def random_pose(rng):
+    """Yaw and shift from a local map to the global one."""
+    return rng.uniform(-np.pi, np.pi), np.array([*rng.uniform(-40, 40, 2), rng.normal(0, 0.28)])
+
+
+def to_local(point, pose):
+    c, s = np.cos(pose[0]), np.sin(pose[0])
+    return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) @ (np.asarray(point) - pose[1])
+
+
+def mapped(rng, cars):
+    """Rows of the global map: identity, label, x, y, z."""
+    return [(k, seen_label(rng, car[3]), *(np.array(car[:3]) + rng.normal(0, [0.1, 0.1, 0.05])))
+            for k, car in enumerate(cars) if rng.random() < 0.95]
+
+
+def random_centre(rng, scene):
+    return np.array([rng.uniform(-35, 35), 0] if scene == STREET else [rng.uniform(-22, 22), rng.uniform(-16, 16)])
+
+
+def seen(rng, scene, cars, noise, detected, centre, pose):
+    """Rows of the local map."""
+    return [(k, seen_label(rng, car[3]), *to_local(car[:3] + rng.normal(0, [noise, noise, noise / 2]), pose))
+            for k, car in enumerate(cars)
+            if max(abs(car[0] - centre[0]), abs(car[1] - centre[1])) < HALF_SIDE[scene] and rng.random() < detected]
+
+
+def add_clutter(rng, here, scene, detected, centre, pose):
+    return here + [(-1, car[3], *to_local(car[:3], pose)) for car in clutter(rng, scene, detected, centre)]
+
+
+def shuffled(rng, rows):
+    return [rows[k] for k in rng.permutation(len(rows))]
+
+
 def make_pair(rng, scene, noise, detected):
-    """Rows (identity, label, x, y, z) of the local and of the global map, yaw and shift from local to global."""
+    """Rows of the local and of the global map, and the pose of the local one."""
     while True:
         cars = street(rng) if scene == STREET else lot(rng)
-        there = [(k, seen_label(rng, car[3]), *(np.array(car[:3]) + rng.normal(0, [0.1, 0.1, 0.05])))
-                 for k, car in enumerate(cars) if rng.random() < 0.95]
-        centre = np.array([rng.uniform(-35, 35), 0] if scene == STREET else
-                          [rng.uniform(-22, 22), rng.uniform(-16, 16)])
-        yaw, shift = rng.uniform(-np.pi, np.pi), np.array([*rng.uniform(-40, 40, 2), rng.normal(0, 0.28)])
-        c, s = np.cos(yaw), np.sin(yaw)
-
-        def to_local(p):
-            return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]) @ (np.asarray(p) - shift)
-
-        here = [(k, seen_label(rng, car[3]), *to_local(car[:3] + rng.normal(0, [noise, noise, noise / 2])))
-                for k, car in enumerate(cars)
-                if max(abs(car[0] - centre[0]), abs(car[1] - centre[1])) < HALF_SIDE[scene] and rng.random() < detected]
+        there, centre, pose = mapped(rng, cars), random_centre(rng, scene), random_pose(rng)
+        here = seen(rng, scene, cars, noise, detected, centre, pose)
         common = {row[0] for row in there} & {row[0] for row in here}
-        enough = len(here) >= 5 and len(common) >= 4
-        here += [(-1, car[3], *to_local(car[:3])) for car in clutter(rng, scene, detected, centre)]
-        if enough:
-            return [here[k] for k in rng.permutation(len(here))], there, yaw, shift
+        local = add_clutter(rng, here, scene, detected, centre, pose)
+        if len(here) >= 5 and len(common) >= 4:
+            return shuffled(rng, local), there, pose
+
+
+def write_rows(out, letter, rows):
+    for row in rows:
+        out.write("%s %d %d %.4f %.4f %.4f\n" % (letter, *row))
+
+
+def write_pair(out, number, scene, here, there, pose):
+    out.write("PAIR %d %s %d %d %.9f %.6f %.6f %.6f\n" % (number, scene, len(here), len(there), pose[0], *pose[1]))
+    write_rows(out, "L", here)
+    write_rows(out, "G", there)
 
 
 def main():
     rng = np.random.default_rng(int(sys.argv[1]))
     per_cell = int(sys.argv[3]) if len(sys.argv) > 3 else 30
-    number = 0
     with open(sys.argv[2], "w") as out:
         out.write("# PAIR id scene nl ng yaw tx ty tz, then the rows of the local (L) and of the global map (G):"
                   " identity label x y z\n")
-        cells = [(scene, noise, detected) for scene in (STREET, LOT) for noise in (0.1, 0.3, 0.5)
-                 for detected in (0.9, 0.6) for _ in range(per_cell)]
-        for scene, noise, detected in cells:
-            here, there, yaw, shift = make_pair(rng, scene, noise, detected)
-            out.write("PAIR %d %s/n%g/p%g %d %d %.9f %.6f %.6f %.6f\n" %
-                      (number, scene, noise, detected, len(here), len(there), yaw, *shift))
-            for letter, rows in (("L", here), ("G", there)):
-                for row in rows:
-                    out.write("%s %d %d %.4f %.4f %.4f\n" % (letter, *row))
-            number += 1
+        cells = [(scene, *cell) for scene in (STREET, LOT) for cell in CELLS for _ in range(per_cell)]
+        for number, (scene, noise, detected) in enumerate(cells):
+            write_pair(out, number, "%s/n%g/p%g" % (scene, noise, detected), *make_pair(rng, scene, noise, detected))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The part `pairs`: `sslcd_run match` on pairs of layouts with known transform. Counts answers that
-are right, wrong or refused."""
+"""The parts `pairs` and `city`: `sslcd_run match` on pairs of layouts with known transform, and on
+large maps. Counts answers that are right, wrong or refused."""
 import csv
 import io
 import math
@@ -15,6 +15,10 @@ from store import fingerprint
 RIGHT_M, RIGHT_RAD = 1., math.radians(5)  # of an answer, at the centre of the local map
 MAKER = 'bench/make_object_pairs.py'
 HELD_OUT_SEEDS = [101, 102]  # no threshold was chosen on them
+CITY_MAKER = 'bench/make_city.py'
+CITY_OBJECTS = [10000, 100000, 1000000]
+CITY_QUERIES, CITY_SEED = 60, 201
+SURE = 5.  # the score that a place needs that may be absent (SingleLookOptions)
 
 
 def read_truth(path):
@@ -52,11 +56,17 @@ def is_right(pair, yaw, x, y):
     return off_m < RIGHT_M and off_rad < RIGHT_RAD
 
 
+def quantile(values, share):
+    return sorted(values)[int(share * len(values))]
+
+
 def count_answers(pairs, answers):
-    """{scene: {pairs, right, wrong, refused, ms_p50}} of the rows that `match` prints."""
+    """{scene: {pairs, right, wrong, refused, right_sure, wrong_sure, ms_p50, ms_p95}} of the rows
+    that `match` prints."""
     counts, times = {}, {}
     for pair in pairs.values():
-        scene = counts.setdefault(pair['scene'], {'pairs': 0, 'right': 0, 'wrong': 0, 'refused': 0})
+        scene = counts.setdefault(pair['scene'], dict.fromkeys(
+            ('pairs', 'right', 'wrong', 'refused', 'right_sure', 'wrong_sure'), 0))
         scene['pairs'] += 1
     for row in csv.DictReader(io.StringIO(answers)):
         pair = pairs[int(row['pair'])]
@@ -65,40 +75,60 @@ def count_answers(pairs, answers):
         if row['decision'] == 'accepted':
             pose = [float(row[name]) for name in ('yaw_rad', 'tx', 'ty')]
             verdict = 'right' if is_right(pair, *pose) else 'wrong'
+            counts[pair['scene']][verdict + '_sure'] += float(row['score']) >= SURE
         counts[pair['scene']][verdict] += 1
     for scene, values in times.items():
-        counts[scene]['ms_p50'] = rounded(sorted(values)[len(values) // 2])
+        counts[scene]['ms_p50'] = rounded(quantile(values, 0.5))
+        counts[scene]['ms_p95'] = rounded(quantile(values, 0.95))
     return counts
 
 
-class Pairs:
-    """A file of pairs, or a seed to make one from."""
+def has_numpy():
+    return subprocess.run([sys.executable, '-c', 'import numpy'], capture_output=True,
+                          check=False).returncode == 0
 
-    def __init__(self, name, role, path=None, seed=None):
-        self.name, self.role, self.path, self.seed = name, role, path, seed
-        self.arguments = [path or f'pairs of {MAKER} {seed}']
-        self.missing = path if path and not os.path.exists(path) else None
-        if seed is not None and not self._numpy():
-            self.missing = f'NumPy, which {MAKER} needs'
 
-    @staticmethod
-    def _numpy():
-        return subprocess.run([sys.executable, '-c', 'import numpy'], capture_output=True,
-                              check=False).returncode == 0
+def judge(program, path):
+    answers, cost = program.run(['match', path, '--quiet'])
+    return {**count_answers(read_truth(path), answers), **cost}
+
+
+class FileOfPairs:
+    def __init__(self, name, role, path):
+        self.name, self.role, self.path = name, role, path
+        self.arguments = [path]
+        self.missing = None if os.path.exists(path) else path
 
     def fingerprint(self):
-        return fingerprint([self.path or MAKER], self.seed)
+        return fingerprint([self.path])
+
+    def measure(self, program):
+        return judge(program, self.path)
+
+
+class MadePairs:
+    """Made by a program of bench/ from some words."""
+
+    def __init__(self, name, maker, *words):
+        self.name, self.role, self.maker, self.words = name, 'held-out', maker, words
+        self.arguments = [f'pairs of {maker} {" ".join(words)}']
+        self.missing = None if has_numpy() else f'NumPy, which {maker} needs'
+
+    def fingerprint(self):
+        return fingerprint([MAKER, self.maker], *self.words)
 
     def measure(self, program):
         with tempfile.TemporaryDirectory() as folder:
-            path = self.path
-            if path is None:
-                path = os.path.join(folder, 'pairs.txt')
-                subprocess.run([sys.executable, '-B', MAKER, str(self.seed), path], check=True)
-            answers, cost = program.run(['match', path, '--quiet'])
-            return {**count_answers(read_truth(path), answers), **cost}
+            path = os.path.join(folder, 'pairs.txt')
+            subprocess.run([sys.executable, '-B', self.maker, *self.words, path], check=True)
+            return judge(program, path)
 
 
 def pair_sets(data):
-    return [Pairs('pairs/pairs_seed7', 'development', f'{data}/object-pairs/pairs_seed7.txt')] + [
-        Pairs(f'pairs/seed {seed}', 'held-out', seed=seed) for seed in HELD_OUT_SEEDS]
+    known = FileOfPairs('pairs/pairs_seed7', 'development', f'{data}/object-pairs/pairs_seed7.txt')
+    return [known] + [MadePairs(f'pairs/seed {seed}', MAKER, str(seed)) for seed in HELD_OUT_SEEDS]
+
+
+def city_sets(_):
+    return [MadePairs(f'city/{scene} {count}', CITY_MAKER, str(count), scene, str(CITY_QUERIES),
+                      str(CITY_SEED)) for scene in ('street', 'lot') for count in CITY_OBJECTS]

@@ -3,6 +3,8 @@
 import functools
 import math
 
+from pairs import CITY_OBJECTS
+
 LOOPS = {'loops/victoria-park': 'Victoria Park', 'loops/kitti-odometry-poles/00': 'poles 00',
          'loops/kitti-odometry-poles/02': 'poles 02', 'loops/kitti-odometry-poles/05': 'poles 05',
          'loops/forest-evo-fwd': 'forest Evo', 'loops/forest-venman3-fwd': 'forest Venman'}
@@ -145,6 +147,23 @@ def pairs(sets):
     return table(header, rows) + note(entry for _, entry in entries)
 
 
+def city(sets):
+    entries = [entry for name, entry in sets.items() if name.startswith('city/')]
+    rows = []
+    for name in [f'city/{scene} {n}' for scene in SCENES for n in CITY_OBJECTS]:
+        scene, count = name.removeprefix('city/').split()
+        there, absent = (sets[name]['figures'][s] for s in (scene, scene + '-absent'))
+        rows.append([f'{scene}s', count,
+                     f'{there["right"]} / {there["wrong"]} of {there["pairs"]}',
+                     f'{there["right_sure"]} / {there["wrong_sure"]}',
+                     f'{absent["wrong"]} / {absent["wrong_sure"]} of {absent["pairs"]}',
+                     f'{number(there["ms_p50"], 1)} / {number(there["ms_p95"], 1)}',
+                     round(sets[name]['figures']['memory_mib'])])
+    header = ['map', 'objects', 'right / wrong', 'at a score of 5: right / wrong',
+              'absent places accepted / at 5', 'time p50 / p95 [ms]', 'peak memory [MiB]']
+    return table(header, rows) + note(entries, 'scripts/measure.sh --only city')
+
+
 def halv_ate(sets):
     rows = []
     for name, title in ((KNOWN, 'seeds 1-10'), (FRESH, 'seeds 11-20, held out')):
@@ -239,7 +258,7 @@ def bench(set_name, key, sets):
     return text + note([entry], BENCH[set_name])
 
 
-TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs,
+TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
                                   halv_ate, halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):

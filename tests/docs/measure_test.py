@@ -64,6 +64,12 @@ class AnswersToPairs(unittest.TestCase):
     def test_an_answer_to_an_absent_place_is_wrong(self):
         self.assertEqual(verdict('1,accepted,0,0,0,0,9,1,4,0.1\n', 'lot'), ['wrong'])
 
+    def test_answers_with_a_score_of_five_are_sure(self):
+        there = count('0,accepted,0.5,10,20,0,5,1,4,0.1\n')['street']
+        self.assertEqual((there['right_sure'], there['wrong_sure']), (1, 0))
+        self.assertEqual(count('0,accepted,0.5,10,20,0,4.9,1,4,0.1\n')['street']['right_sure'], 0)
+        self.assertEqual(count('1,accepted,0,0,0,0,5,1,4,0.1\n')['lot']['wrong_sure'], 1)
+
     def test_what_is_not_accepted_is_refused(self):
         self.assertEqual(verdict('0,ambiguous,0.5,10,20,0,9,1,4,0.1\n'), ['refused'])
         self.assertEqual(verdict('0,none,0,0,0,0,0,0,0,0.1\n'), ['refused'])
