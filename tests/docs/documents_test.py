@@ -78,7 +78,7 @@ class Documents(unittest.TestCase):
         self.assertEqual([name for name in files if f'| `{name}` |' not in formats], [])
 
     def test_links_lead_somewhere(self):
-        pages = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md']
+        pages = ['README.md', 'CONTRIBUTING.md', 'CHANGELOG.md', 'examples/README.md']
         pages += [os.path.relpath(p, ROOT)
                   for p in glob.glob(os.path.join(ROOT, 'docs/**/*.md'), recursive=True)]
         self.assertGreater(len(pages), 10)
@@ -132,6 +132,14 @@ class Documents(unittest.TestCase):
         self.assertLessEqual(len(lines), 121)
         self.assertLess(lines.index('## Quick start'), 25)
         self.assertLessEqual(read('docs/results.md').count('\n'), 400)
+
+    def test_examples_are_short_and_listed(self):
+        programs = sorted(glob.glob(os.path.join(ROOT, 'examples/*.cc')))
+        self.assertGreater(len(programs), 5)
+        listed = read('examples/README.md')
+        for program in programs:
+            self.assertLessEqual(read(program).count('\n'), 60, program)
+            self.assertIn(f'| `{os.path.basename(program)[:-3]}', listed)
 
 
 if __name__ == '__main__':

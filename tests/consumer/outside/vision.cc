@@ -74,7 +74,7 @@ bool Refuses(const char* text, const Load& load) {
   return false;
 }
 
-// As docs/vins_fusion.md has it.
+// For cuboids from images with poses of VINS-Fusion.
 sslcd::Mapper MakeMapper(const sslcd::StereoCamera& camera, double camera_height_m) {
   sslcd::ImageSource source;
   source.lifted_boxes = true;      // the cuboids of Detect()
