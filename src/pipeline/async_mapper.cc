@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/pipeline/async_mapper.h"
 
+#include <chrono>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -46,6 +47,7 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
 
   // All below need the lock.
   bool HasFailed() const { return !report.failure.empty(); }
+  bool IsIdle() const { return jobs.empty() && !works; }
   void Push(Job job) {
     if (HasFailed()) return;
     jobs.push_back(std::move(job));
@@ -167,9 +169,14 @@ AsyncReport AsyncMapper::TakeReport() {
 }
 
 void AsyncMapper::Wait() {
-  Impl& m = *impl_;
-  std::unique_lock lock(m.mutex);
-  m.changed.wait(lock, [&m] { return m.jobs.empty() && !m.works; });
+  std::unique_lock lock(impl_->mutex);
+  impl_->changed.wait(lock, [this] { return impl_->IsIdle(); });
+}
+
+bool AsyncMapper::WaitFor(double seconds) {
+  std::unique_lock lock(impl_->mutex);
+  return impl_->changed.wait_for(lock, std::chrono::duration<double>(seconds),
+                                 [this] { return impl_->IsIdle(); });
 }
 
 }  // namespace sslcd

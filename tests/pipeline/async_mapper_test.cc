@@ -108,8 +108,9 @@ TEST(AsyncMapper, NeverWaitsAndDropsWhatIsTooMuch) {
   lost.step = StepUncertainty{true};
   EXPECT_FALSE(async.AddFrame(lost));
   EXPECT_FALSE(async.AddFrame(drives.frames[next++]));
+  EXPECT_FALSE(async.WaitFor(0.001));
   gate.Open();
-  async.Wait();
+  EXPECT_TRUE(async.WaitFor(60));
   const std::size_t after = next++;  // the step to it spans the dropped ones
   EXPECT_TRUE(async.AddFrame(drives.frames[after]));
   EXPECT_TRUE(async.AddFrame(drives.frames[next++]));

@@ -23,9 +23,9 @@ struct AsyncReport {
 };
 
 /// A Mapper on a thread of its own, for hosts that must not wait: a frame that closes a loop takes
-/// a tenth of a second, a refinement of a long run seconds. Calls return at once but for Wait().
-/// All of them are thread-safe; frames and sequences are in the order of the calls. If no one takes
-/// the report, it grows no larger than the results.
+/// a tenth of a second, a refinement of a long run seconds. Calls return at once but for Wait() and
+/// WaitFor(). All of them are thread-safe; frames and sequences are in the order of the calls. If
+/// no one takes the report, it grows no larger than the results.
 class AsyncMapper {
  public:
   /// At most `most_waiting` frames wait. Throws what Mapper's constructor throws.
@@ -50,6 +50,8 @@ class AsyncMapper {
   AsyncReport TakeReport();
   /// Waits until all that was handed in is done, or the thread has failed.
   void Wait();
+  /// The same, but at most for `seconds`. False: something is left to do.
+  bool WaitFor(double seconds);
 
  private:
   struct Impl;
