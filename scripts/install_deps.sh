@@ -6,8 +6,9 @@
 #     build   the library and the tools; enough for scripts/demo.sh
 #     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
 #             cannot be had
-#     test    and what the tests need, with clang-format, and Embree for sslcd_sim --render (default)
-#     dev     and clang-tidy, Doxygen, Google Benchmark, NumPy and Shapely
+#     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, and pybind11
+#             and NumPy for the Python package (default)
+#     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libflann-dev liblz4-dev
@@ -15,8 +16,8 @@ build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libfl
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
        libopencv-features2d-dev libopencv-calib3d-dev)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
-      libembree-dev)
-dev=(clang-tidy-14 doxygen libbenchmark-dev python3-numpy python3-shapely git)
+      libembree-dev python3-dev python3-numpy python3-pytest pybind11-dev)
+dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 
 what=${1:-test}
 case "$what" in

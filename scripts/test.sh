@@ -10,7 +10,9 @@ build=${SSLCD_BUILD_DIR:-build/release}
 jobs=$(nproc)
 
 scripts/install_deps.sh test
-cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=ON ${SSLCD_DATA_DIR:+-DSSLCD_DATA_DIR="$SSLCD_DATA_DIR"} \
+# apt's packages are for apt's Python
+cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=ON -DSSLCD_BUILD_PYTHON=ON \
+  -DPython_EXECUTABLE=/usr/bin/python3 ${SSLCD_DATA_DIR:+-DSSLCD_DATA_DIR="$SSLCD_DATA_DIR"} \
   ${SSLCD_CMAKE_ARGS:-}
 cmake --build "$build" -j "$jobs"
 status=0

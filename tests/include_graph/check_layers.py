@@ -23,7 +23,7 @@ OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}}
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
            "pugixml.hpp": "pugixml", "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}
 UMBRELLA = "include/sslcd/sslcd.h"  # includes all modules of the library
-PROGRAMS = ("apps", "bench", "tests")
+PROGRAMS = ("apps", "bench", "python", "tests")
 NOT_OURS = {"benchmark/benchmark.h"}  # named as one of ours
 # links: as listed; reachable: these and what they link; outside: first parts of the includes of outside libraries
 Module = namedtuple("Module", "file links reachable outside is_library")

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/pipeline/async_mapper.h"
+
+#include <pybind11/stl.h>
+
+#include <future>
+#include <memory>
+
+#include "bindings.h"
+#include "configuration.h"
+#include "frames.h"
+#include "mapper.h"
+#include "results.h"
+#include "sslcd/core/error.h"
+
+namespace sslcd::python {
+namespace {
+
+constexpr double kLook_s = 0.1;  // how often a wait looks for signals, e.g. ctrl-C
+
+// Repeats `wait(seconds)`, without the GIL, until it is true.
+template <class Wait>
+void WaitFor(const Wait& wait) {
+  while (true) {
+    {
+      const py::gil_scoped_release release;
+      if (wait(kLook_s)) return;
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+// An AsyncMapper that can be closed. Other threads may still be in a call then, so each call keeps
+// it alive.
+class ClosableMapper {
+ public:
+  ClosableMapper(const Options& options, const MapperContext& context, int most_waiting)
+      : mapper_(std::make_shared<AsyncMapper>(options, context, most_waiting)),
+        filter_(options.filter) {}
+  ~ClosableMapper() { Close(); }
+
+  void Close() {
+    std::shared_ptr<AsyncMapper> last = std::exchange(mapper_, nullptr);
+    const py::gil_scoped_release release;  // it waits for the frame in work
+    last.reset();
+  }
+  bool closed() const { return mapper_ == nullptr; }
+  std::shared_ptr<AsyncMapper> get() const {
+    if (!mapper_) throw Error(ErrorKind::kUsage, "the AsyncMapper is closed");
+    return mapper_;
+  }
+  const DetectionFilterOptions& filter() const { return filter_; }
+
+ private:
+  std::shared_ptr<AsyncMapper> mapper_;
+  DetectionFilterOptions filter_;
+};
+
+std::unique_ptr<MapperInTurn> Snapshot(const ClosableMapper& self) {
+  const std::shared_ptr<AsyncMapper> mapper = self.get();
+  std::future<Mapper> future = mapper->Snapshot();
+  WaitFor([&](double seconds) {
+    return future.wait_for(std::chrono::duration<double>(seconds)) == std::future_status::ready;
+  });
+  const py::gil_scoped_release release;
+  try {
+    Mapper copy = future.get();
+    std::vector<int> frames;
+    for (const PoseGraph::Vertex& vertex : copy.Graph().vertices) frames.push_back(vertex.id);
+    return std::make_unique<MapperInTurn>(std::move(copy), std::move(frames), self.filter());
+  } catch (const std::future_error&) {
+    throw Error(ErrorKind::kNoSolution,
+                "the mapper's thread has ended: take_report().failure says why");
+  }
+}
+
+}  // namespace
+
+void BindAsyncMapper(py::module_& module) {
+  py::class_<ClosableMapper>(module, "AsyncMapper")
+      .def(py::init([](const std::vector<std::string>& settings, const py::dict& labels,
+                       const py::object& up, const py::object& camera, int most_waiting) {
+             if (most_waiting < 1)
+               throw Error(ErrorKind::kUsage,
+                           "most_waiting is " + std::to_string(most_waiting) + ", must be above 0");
+             return std::make_unique<ClosableMapper>(OptionsFrom(settings),
+                                                     ContextFrom(labels, up, camera), most_waiting);
+           }),
+           py::arg("settings"), py::arg("labels"), py::arg("up"), py::arg("camera"),
+           py::arg("most_waiting"))
+      .def(
+          "add_frame",
+          [](const ClosableMapper& self, const py::object& frame) {
+            return self.get()->AddFrame(FrameFrom(frame));
+          },
+          py::arg("frame"))
+      .def("start_sequence", [](const ClosableMapper& self) { self.get()->StartSequence(); })
+      .def("refine", [](const ClosableMapper& self) { self.get()->Refine(); })
+      .def("snapshot", &Snapshot)
+      .def("take_report",
+           [](const ClosableMapper& self) { return ToPython(self.get()->TakeReport()); })
+      .def("wait",
+           [](const ClosableMapper& self) {
+             const std::shared_ptr<AsyncMapper> mapper = self.get();
+             WaitFor([&](double seconds) { return mapper->WaitFor(seconds); });
+           })
+      .def("close", &ClosableMapper::Close)
+      .def("closed", &ClosableMapper::closed);
+}
+
+}  // namespace sslcd::python

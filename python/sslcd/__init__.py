@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Object-level mapping and loop closure for visual SLAM.
+
+Transforms are 4x4 matrices named by frames: T_world_cam maps points of the camera to the world.
+Lengths are in metres, angles in radians, times in seconds. docs/python.md has the guide,
+docs/conventions.md the conventions.
+"""
+
+from . import _core
+from .datasets import Dataset, RunResult, load_dataset, run
+from .errors import BadConfigError, BadInputError, Error, NoSolutionError, OutputError, UsageError
+from .evaluation import ate, rpe
+from .graphs import read_g2o, solve_graph
+from .inputs import Camera, Frame
+from .layouts import Layout, match, read_layout_pairs
+from .mapper import AsyncMapper, Mapper
+from .options import complete_options, default_options, read_options
+from .results import (
+    AdjustmentSummary,
+    AsyncReport,
+    AteResult,
+    ErrorStats,
+    FilterReport,
+    FrameReport,
+    GraphSolution,
+    Hypothesis,
+    Improvement,
+    LoopClosure,
+    LoopSearchSummary,
+    MapChanges,
+    MapObject,
+    MapUpdate,
+    MatchResult,
+    NoiseScale,
+    PoseGraph,
+    RpeResult,
+    StageTimes,
+    Trajectory,
+)
+
+__version__: str = _core.__version__
+__all__ = [
+    "AdjustmentSummary",
+    "AsyncMapper",
+    "AsyncReport",
+    "AteResult",
+    "BadConfigError",
+    "BadInputError",
+    "Camera",
+    "Dataset",
+    "Error",
+    "ErrorStats",
+    "FilterReport",
+    "Frame",
+    "FrameReport",
+    "GraphSolution",
+    "Hypothesis",
+    "Improvement",
+    "Layout",
+    "LoopClosure",
+    "LoopSearchSummary",
+    "MapChanges",
+    "MapObject",
+    "MapUpdate",
+    "Mapper",
+    "MatchResult",
+    "NoSolutionError",
+    "NoiseScale",
+    "OutputError",
+    "PoseGraph",
+    "RpeResult",
+    "RunResult",
+    "StageTimes",
+    "Trajectory",
+    "UsageError",
+    "ate",
+    "complete_options",
+    "default_options",
+    "load_dataset",
+    "match",
+    "read_g2o",
+    "read_layout_pairs",
+    "read_options",
+    "rpe",
+    "run",
+    "solve_graph",
+]

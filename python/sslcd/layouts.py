@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Matching of object layouts: where is a local map in a global one, without a prior pose?"""
+
+import os
+from dataclasses import dataclass
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _core
+from .inputs import _NONE, array, label_list, per_detection
+from .options import Options, settings
+from .results import MapObject, MatchResult, _Compact
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Layout(_Compact):
+    """N objects in gravity-aligned axes: x forward, y left, z up, origin anywhere. Arrays are
+    checked when it is made."""
+
+    labels: Tuple[str, ...]  #: N class names
+    positions: np.ndarray  #: [N, 3] centres [m]
+    yaws: np.ndarray = _NONE  #: [N] headings about z; NaN: unknown; None: all unknown [rad]
+    dims: np.ndarray = _NONE  #: [N, 3] length, width, height; zero: unknown; None: all unknown [m]
+    symmetries: Tuple[str, ...] = _NONE  #: N of "none", "pi", "full"; None: all "none"
+
+    def __post_init__(self) -> None:
+        labels = label_list(self.labels)
+        count = len(labels)
+        checked = {
+            "labels": labels,
+            "positions": per_detection("positions", self.positions, count, (3,)),
+            "yaws": (
+                np.full(count, np.nan)
+                if self.yaws is None
+                else per_detection("yaws", self.yaws, count, ())
+            ),
+            "dims": (
+                np.zeros((count, 3))
+                if self.dims is None
+                else per_detection("dims", self.dims, count, (3,))
+            ),
+            "symmetries": (
+                ("none",) * count if self.symmetries is None else label_list(self.symmetries)
+            ),
+        }
+        per_detection("symmetries", np.zeros(len(checked["symmetries"])), count, ())
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+    @staticmethod
+    def of_objects(
+        objects: Sequence[MapObject],
+        labels: Optional[Mapping[str, str]] = None,
+        up: ArrayLike = (0.0, -1.0, 0.0),
+    ) -> "Layout":
+        """The confirmed objects of a map. labels: symmetry by label. up: [3] the map's up
+        direction."""
+        axes = _core.gravity_axes(array("up", up, (3,)))  # columns forward, left, up
+        seen = [each for each in objects if each.state == "confirmed"]
+        T = np.array([each.T_world_object for each in seen]).reshape(-1, 4, 4)
+        heading = T[:, :3, 0] @ axes
+        make: Any = Layout
+        return make(
+            [each.label for each in seen],
+            T[:, :3, 3] @ axes,
+            np.arctan2(heading[:, 1], heading[:, 0]),
+            np.array([each.dims for each in seen]).reshape(-1, 3),
+            [(labels or {}).get(each.label, "none") for each in seen],
+        )
+
+
+def match(local: Layout, global_: Layout, options: Optional[Options] = None) -> MatchResult:
+    """Searches the pose of the local layout in the global one and decides whether to accept it.
+    Objects whose position is not finite are ignored. Deterministic.
+
+    options: nested dict with the keys of `loop.match` of a run and of `decision`, e.g. {"loop":
+    {"match": {"reach_m": 3}}, "decision": {"min_margin": 2}}.
+    """
+    return _core.match(local, global_, settings(options))
+
+
+def read_layout_pairs(path: Union[str, "os.PathLike[str]"]) -> List[Tuple[int, Layout, Layout]]:
+    """Id, local and global layout of each pair in a file for `sslcd_run match`."""
+    return _core.read_pairs(os.fspath(path))
