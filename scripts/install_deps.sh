@@ -16,7 +16,7 @@ build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libfl
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
        libopencv-features2d-dev libopencv-calib3d-dev)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
-      libembree-dev python3-dev python3-numpy python3-pytest pybind11-dev)
+      libembree-dev python3-dev python3-venv python3-numpy python3-pytest pybind11-dev)
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 
 what=${1:-test}

@@ -12,23 +12,10 @@
 #include "mapper.h"
 #include "results.h"
 #include "sslcd/core/error.h"
+#include "waiting.h"
 
 namespace sslcd::python {
 namespace {
-
-constexpr double kLook_s = 0.1;  // how often a wait looks for signals, e.g. ctrl-C
-
-// Repeats `wait(seconds)`, without the GIL, until it is true.
-template <class Wait>
-void WaitFor(const Wait& wait) {
-  while (true) {
-    {
-      const py::gil_scoped_release release;
-      if (wait(kLook_s)) return;
-    }
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  }
-}
 
 // An AsyncMapper that can be closed. Other threads may still be in a call then, so each call keeps
 // it alive.

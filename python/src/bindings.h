@@ -16,5 +16,6 @@ void BindFormats(py::module_& module);
 void BindGraph(py::module_& module);
 void BindMapper(py::module_& module);
 void BindMatch(py::module_& module);
+void BindRosBridge(py::module_& module);
 
 }  // namespace sslcd::python

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 #include "bindings.h"
 #include "sslcd/core/error.h"
 #include "sslcd/version.h"
@@ -28,11 +30,23 @@ void Translate(std::exception_ptr pointer) {
   }
 }
 
+// NumPy 2 has another layout of its types, which older headers of pybind11 read wrong, silently.
+void CheckNumpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+  const auto version = py::module_::import("numpy").attr("__version__").cast<std::string>();
+  if (std::stoi(version) >= 2)
+    throw py::import_error("this build of sslcd needs NumPy below 2, but there is NumPy " +
+                           version +
+                           ": build it with pybind11 2.12 or newer, as `pip install .` does");
+#endif
+}
+
 }  // namespace
 }  // namespace sslcd::python
 
 PYBIND11_MODULE(_core, module) {
   using namespace sslcd::python;
+  CheckNumpy();
   pybind11::register_exception_translator(Translate);
   module.attr("__version__") = SSLCD_VERSION;
   BindAsyncMapper(module);
@@ -43,4 +57,5 @@ PYBIND11_MODULE(_core, module) {
   BindGraph(module);
   BindMapper(module);
   BindMatch(module);
+  BindRosBridge(module);
 }

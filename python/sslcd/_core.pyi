@@ -28,6 +28,7 @@ from .results import (
 )
 
 __version__: str
+_RawPose = Tuple[Tuple[float, ...], Tuple[float, ...]]  # position, orientation (x y z w)
 
 class Frame: ...
 
@@ -81,6 +82,27 @@ class Dataset:
     def up(self) -> np.ndarray: ...
     def camera(self) -> Optional[Camera]: ...
     def groundtruth(self) -> Optional[Trajectory]: ...
+
+class RosBridge:
+    def __init__(
+        self,
+        frames: Dict[str, str],
+        body_axes: bool,
+        settings: List[str],
+        labels: Dict[str, str],
+        up: np.ndarray,
+    ) -> None: ...
+    def add_transform(self, parent: str, child: str, pose: _RawPose) -> None: ...
+    def add_odometry(
+        self, stamp: int, frames: Dict[str, str], pose: _RawPose, covariance: List[float]
+    ) -> None: ...
+    def add_detections(
+        self,
+        stamp: int,
+        frame: str,
+        detections: List[Tuple[List[Tuple[str, float]], _RawPose, Tuple[float, float, float]]],
+    ) -> None: ...
+    def finish(self) -> Dict[str, Any]: ...
 
 class RunResult:
     def trajectory(self) -> Trajectory: ...

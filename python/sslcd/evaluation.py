@@ -20,7 +20,7 @@ def ate(
     alignment: str = "se3",
     *,
     up: ArrayLike = (0.0, -1.0, 0.0),
-    max_difference: float = 0.01
+    max_difference: float = 0.01,
 ) -> AteResult:
     """Absolute trajectory error.
 
@@ -39,7 +39,7 @@ def rpe(
     unit: str = "frames",
     *,
     all_pairs: bool = False,
-    max_difference: float = 0.01
+    max_difference: float = 0.01,
 ) -> RpeResult:
     """Relative pose error of steps of `delta` frames, or metres of the estimated path. The
     trajectories are those of ate(). all_pairs: overlapping steps from every pose."""

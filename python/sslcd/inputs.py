@@ -19,16 +19,17 @@ def array(
     """`value` as a C-contiguous array of this shape (None: any length), or UsageError."""
     if value is None:
         raise UsageError(f"{name} is None, expected numbers")
+    whole = issubclass(dtype, np.integer)
     try:
         if np.iscomplexobj(value):
             raise TypeError("complex numbers")
-        made: np.ndarray = (
-            np.ascontiguousarray(value, dtype=dtype) if shape else np.asarray(value, dtype=dtype)
-        )
-    except (TypeError, ValueError) as problem:
+        made: np.ndarray = np.asarray(value, dtype=np.float64 if whole else dtype, order="C")
+    except (TypeError, ValueError, OverflowError) as problem:
         raise UsageError(f"{name} cannot be read as numbers: {problem}") from None
-    if np.issubdtype(made.dtype, np.integer) and not np.array_equal(made, value):
-        raise UsageError(f"{name} has numbers that are not whole, or too large")
+    if whole:
+        if not (np.abs(made) < 2**31).all() or not (made == np.round(made)).all():
+            raise UsageError(f"{name} has numbers that are not whole, or too large")
+        made = made.astype(dtype)
     if np.ndim(value) != len(shape) or any(
         want not in (None, have) for want, have in zip(shape, made.shape)
     ):

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """run.py [arguments of pytest]: runs the tests of this folder, or those named; exit code 77 where
-something that they need is missing."""
+something that they need is missing.
+run.py --extras VENV: runs those of the extras."""
 
 import importlib
 import os
+import subprocess
 import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 
 
 def main():
+    if sys.argv[1:2] == ["--extras"]:
+        return run_with_extras(sys.argv[2])
     for needed in ("numpy", "pytest"):
         try:
             importlib.import_module(needed)
@@ -21,6 +25,21 @@ def main():
     import pytest
 
     return pytest.main(["-q", "-rs", "-p", "no:cacheprovider", *(sys.argv[1:] or [FOLDER])])
+
+
+def run_with_extras(venv):
+    """The tests of the extras, in a virtual environment with what they need from PyPI."""
+    python = os.path.join(venv, "bin", "python")
+    make = [sys.executable, "-m", "venv", "--system-site-packages", venv]
+    # the module may be built with Debian 12's pybind11, which knows no NumPy 2
+    install = [python, "-m", "pip", "install", "--quiet", "numpy<2", "rosbags", "matplotlib"]
+    for command in (make, install):
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode != 0:
+            print(f"SKIPPED: {' '.join(command)}: {(done.stdout + done.stderr).strip()[-500:]}")
+            return 77
+    tests = [os.path.join(FOLDER, name) for name in ("test_bags.py", "test_plot.py")]
+    return subprocess.run([python, "-B", __file__, *tests]).returncode
 
 
 if __name__ == "__main__":

@@ -75,6 +75,7 @@ def test_the_run_helps(drive, offline):
     after = sslcd.ate(offline.trajectory, drive.groundtruth, "sim3").error
     before = sslcd.ate(offline.odometry, drive.groundtruth, "sim3").error
     assert after.count == len(drive) and after.rmse < 0.5 * before.rmse
+    assert offline.trajectory.frames.tolist() == list(range(len(drive)))
     assert offline.refinement.usable and offline.improvement.horizontal > 0.99
     assert 0.9 < offline.scale < 1.1 and offline.filter.kept > 0 and offline.noise_scale.radial > 0
     assert offline.images_failed == 0 and "loop detection" in offline.timing

@@ -59,7 +59,7 @@ def test_results_of_a_frame(mapper, pair):
         report = mapper.add_frame(
             0.1 * i,
             translation(0, 0, i),
-            **{**pair, "poses": pair["poses"] - translation(0, 0, i) + np.eye(4)}
+            **{**pair, "poses": pair["poses"] - translation(0, 0, i) + np.eye(4)},
         )
     assert report.filter.kept == 2 and report.filter.dropped == 0
     assert report.map.matched.tolist() == [each.id for each in mapper.objects]

@@ -93,7 +93,7 @@ def test_a_pose_graph_with_false_loops(tmp_path, sslcd_run):
         **{
             name: getattr(robust.graph, name)[robust.kept]
             for name in ("edges", "measurements", "information", "loops")
-        }
+        },
     )
     assert kept.g2o() == (tmp_path / "out.g2o").read_text()
 
