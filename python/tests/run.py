@@ -38,7 +38,9 @@ def run_with_extras(venv):
         if done.returncode != 0:
             print(f"SKIPPED: {' '.join(command)}: {(done.stdout + done.stderr).strip()[-500:]}")
             return 77
-    tests = [os.path.join(FOLDER, name) for name in ("test_bags.py", "test_plot.py")]
+    tests = [
+        os.path.join(FOLDER, name) for name in ("test_bags.py", "test_docs.py", "test_plot.py")
+    ]
     return subprocess.run([python, "-B", __file__, *tests]).returncode
 
 
