@@ -12,6 +12,7 @@ from .errors import BadConfigError, BadInputError, Error, NoSolutionError, Outpu
 from .evaluation import ate, rpe
 from .graphs import read_g2o, solve_graph
 from .inputs import Camera, Frame
+from .kitti import kitti_cuboids
 from .layouts import Layout, match, read_layout_pairs
 from .mapper import AsyncMapper, Mapper
 from .options import complete_options, default_options, read_options
@@ -76,6 +77,7 @@ __all__ = [
     "ate",
     "complete_options",
     "default_options",
+    "kitti_cuboids",
     "load_dataset",
     "match",
     "read_g2o",

@@ -46,7 +46,7 @@ def per_detection(
         return np.zeros((0,) + tuple(length or 0 for length in width), dtype)
     made = array(name, value, (None,) + width, dtype)
     if len(made) != count:
-        raise UsageError(f"{name} has {len(made)} rows, but there are {count} labels")
+        raise UsageError(f"{name} has {len(made)} rows, but there are {count} detections")
     return made
 
 

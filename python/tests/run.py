@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
+EXTRAS = ("test_bags.py", "test_docs.py", "test_notebooks.py", "test_plot.py")
 
 
 def main():
@@ -33,14 +34,17 @@ def run_with_extras(venv):
     make = [sys.executable, "-m", "venv", "--system-site-packages", venv]
     # the module may be built with Debian 12's pybind11, which knows no NumPy 2
     install = [python, "-m", "pip", "install", "--quiet", "numpy<2", "rosbags", "matplotlib"]
+    install += ["--retries", "1", "--timeout", "15"]  # without a network: soon
     for command in (make, install):
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode != 0:
-            print(f"SKIPPED: {' '.join(command)}: {(done.stdout + done.stderr).strip()[-500:]}")
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=150)
+            problem = (done.stdout + done.stderr).strip()[-500:] if done.returncode else ""
+        except subprocess.TimeoutExpired:
+            problem = "takes too long"
+        if problem:
+            print(f"SKIPPED: {' '.join(command)}: {problem}")
             return 77
-    tests = [
-        os.path.join(FOLDER, name) for name in ("test_bags.py", "test_docs.py", "test_plot.py")
-    ]
+    tests = [os.path.join(FOLDER, name) for name in EXTRAS]
     return subprocess.run([python, "-B", __file__, *tests]).returncode
 
 

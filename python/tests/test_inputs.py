@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import sslcd
+from conftest import DATA
 
 
 def test_the_layout_of_arrays_does_not_matter(drive):
@@ -55,7 +56,7 @@ def test_integers_and_float32_are_numbers(mapper):
     [
         ({"poses": np.eye(4)}, r"poses has the shape \(4, 4\), expected \(N, 4, 4\)"),
         ({"poses": np.zeros((2, 3, 4))}, r"poses has the shape \(2, 3, 4\), expected \(N, 4, 4\)"),
-        ({"poses": np.zeros((3, 4, 4))}, "poses has 3 rows, but there are 2 labels"),
+        ({"poses": np.zeros((3, 4, 4))}, "poses has 3 rows, but there are 2 detections"),
         ({"poses": []}, r"poses has the shape \(0,\), expected"),
         ({"poses": None}, "poses"),
         ({"poses": "many"}, "poses cannot be read as numbers"),
@@ -67,7 +68,7 @@ def test_integers_and_float32_are_numbers(mapper):
         ({"dims": np.ones((3, 2))}, r"dims has the shape \(3, 2\), expected \(N, 3\)"),
         ({"dims": np.ones(3)}, "dims has the shape"),
         ({"scores": 0.5}, r"scores has the shape \(\), expected \(N\)"),
-        ({"scores": [0.5]}, "scores has 1 rows, but there are 2 labels"),
+        ({"scores": [0.5]}, "scores has 1 rows, but there are 2 detections"),
         ({"scores": np.ones((2, 1))}, "scores has the shape"),
         ({"embeddings": np.ones((1, 8))}, "embeddings has 1 rows"),
         ({"embeddings": np.ones(2)}, r"embeddings has the shape \(2,\), expected \(N, N\)"),
@@ -138,3 +139,15 @@ def test_arrays_of_the_host_are_not_touched(mapper, pair):
         assert np.array_equal(value, before[name])
     pair["poses"][0, 0, 3] = 50  # still writeable, and not seen by the mapper
     assert mapper.objects[0].T_world_object[0, 3] != 50
+
+
+def test_cuboids_of_kitti_are_those_of_the_reader(drive):
+    rows = [line.split() for line in (DATA / "sim_out_and_back" / "detections.txt").open()]
+    for frame in list(drive)[::10]:
+        mine = np.array([row[10:17] for row in rows if int(row[0]) == frame.index], float)
+        mine = mine.reshape(-1, 7)
+        poses, dims = sslcd.kitti_cuboids(mine[:, 3:6], mine[:, 6], mine[:, :3])
+        assert np.allclose(poses, frame.poses, atol=1e-12) and np.allclose(dims, frame.dims)
+    assert sslcd.kitti_cuboids([], [], [])[0].shape == (0, 4, 4)
+    with pytest.raises(sslcd.UsageError, match="rotations_y has 2 rows"):
+        sslcd.kitti_cuboids([[0, 0, 1]], [0, 0], [[1, 1, 1]])
