@@ -26,7 +26,10 @@ void Translate(std::exception_ptr pointer) {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const Error& error) {
     const py::object type = py::module_::import("sslcd.errors").attr(ClassOf(error.kind()));
-    PyErr_SetString(type.ptr(), error.what());
+    const std::string text = error.what();  // paths in it may be no UTF-8
+    const auto message = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+        text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+    PyErr_SetObject(type.ptr(), message.ptr());
   }
 }
 

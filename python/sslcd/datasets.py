@@ -8,7 +8,8 @@ from typing import Any, Callable, Dict, Iterator, List, Optional, Union
 import numpy as np
 
 from . import _core
-from .inputs import Camera, Frame
+from .errors import UsageError
+from .inputs import Camera, Frame, checked
 from .options import Options, settings
 from .results import (
     AdjustmentSummary,
@@ -101,6 +102,8 @@ def load_dataset(
     Odometry and detections must exist: this package makes none from images (`sslcd_run detect`
     does). Raises BadInputError with file and line, or UsageError if there is a choice to make.
     """
+    if max_frames < 0:
+        raise UsageError(f"max_frames is {max_frames}, must be at least 0")
     parts = {
         "format": format,
         "sequence": sequence,
@@ -197,4 +200,5 @@ def run(
     path as uint8 [H, W, 3] in the order blue, green, red, e.g. cv2.imread, or None; it is called
     for frames with boxes whose dataset has images but no colours. None: no colours are measured.
     """
-    return RunResult(_core.run(dataset._core, settings(options), progress, load_image))
+    core = checked("dataset", dataset, Dataset)._core
+    return RunResult(_core.run(core, settings(options), progress, load_image))

@@ -9,7 +9,7 @@ from typing import Optional, Union
 from numpy.typing import ArrayLike
 
 from . import _core
-from .inputs import array
+from .inputs import array, checked
 from .results import GraphSolution, PoseGraph
 
 
@@ -44,6 +44,7 @@ def solve_graph(
     graph is planar, else 6. start: "given", "chordal", or "auto": the better one. robust: refuse
     loops that contradict the others. Raises NoSolutionError for a malformed graph.
     """
+    checked("graph", graph, PoseGraph)
     freedom = dof if dof is not None else 3 if graph.planar else 6
     solution = _core.solve_graph(graph, freedom, array("up", up, (3,)), start, robust)
     return replace(solution, graph=replace(solution.graph, planar=graph.planar))

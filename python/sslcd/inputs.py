@@ -38,6 +38,13 @@ def array(
     return made
 
 
+def checked(name: str, value: Any, kind: type) -> Any:
+    """`value`, or UsageError if it is of another class."""
+    if not isinstance(value, kind):
+        raise UsageError(f"{name} is {value!r}, expected a sslcd.{kind.__name__}")
+    return value
+
+
 def per_detection(
     name: str, value: Any, count: int, width: Tuple[Optional[int], ...], dtype: type = np.float64
 ) -> np.ndarray:
@@ -78,6 +85,13 @@ class Camera:
     height: int = 0
     #: the reference camera's origin in this camera [m]
     offset: Tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for name in ("fx", "fy", "cx", "cy"):
+            array(f"Camera.{name}", getattr(self, name), ())
+        for name in ("width", "height"):
+            array(f"Camera.{name}", getattr(self, name), (), np.int32)
+        array("Camera.offset", self.offset, (3,))
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +137,7 @@ class Frame:
             self.index, (int, np.integer)
         ):
             raise UsageError(f"index is {self.index!r}, expected a whole number")
-        checked = {
+        made: Dict[str, Any] = {
             "index": int(array("index", self.index, (), np.int32)),
             "stamp": float(array("stamp", self.stamp, ())),
             "T_odom_cam": array("T_odom_cam", self.T_odom_cam, (4, 4)),
@@ -143,11 +157,11 @@ class Frame:
             "step": _checked_step(self.step),
         }
         if self.boxes is not None:
-            checked["boxes"] = per_detection("boxes", self.boxes, count, (4,))
+            made["boxes"] = per_detection("boxes", self.boxes, count, (4,))
         for cue in ("embeddings", "colours"):
             if getattr(self, cue) is not None:
-                checked[cue] = per_detection(cue, getattr(self, cue), count, (None,), np.float32)
-        for name, value in checked.items():
+                made[cue] = per_detection(cue, getattr(self, cue), count, (None,), np.float32)
+        for name, value in made.items():
             object.__setattr__(self, name, value)
 
     def __len__(self) -> int:

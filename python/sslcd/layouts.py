@@ -3,13 +3,13 @@
 
 import os
 from dataclasses import dataclass
-from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
-from .inputs import _NONE, array, label_list, per_detection
+from .inputs import _NONE, array, checked, label_list, per_detection
 from .options import Options, settings
 from .results import MapObject, MatchResult, _Compact
 
@@ -28,7 +28,7 @@ class Layout(_Compact):
     def __post_init__(self) -> None:
         labels = label_list(self.labels)
         count = len(labels)
-        checked = {
+        made: Dict[str, Any] = {
             "labels": labels,
             "positions": per_detection("positions", self.positions, count, (3,)),
             "yaws": (
@@ -45,8 +45,8 @@ class Layout(_Compact):
                 ("none",) * count if self.symmetries is None else label_list(self.symmetries)
             ),
         }
-        per_detection("symmetries", np.zeros(len(checked["symmetries"])), count, ())
-        for name, value in checked.items():
+        per_detection("symmetries", np.zeros(len(made["symmetries"])), count, ())
+        for name, value in made.items():
             object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
@@ -81,7 +81,8 @@ def match(local: Layout, global_: Layout, options: Optional[Options] = None) -> 
     options: nested dict with the keys of `loop.match` of a run and of `decision`, e.g. {"loop":
     {"match": {"reach_m": 3}}, "decision": {"min_margin": 2}}.
     """
-    return _core.match(local, global_, settings(options))
+    maps = checked("local", local, Layout), checked("global_", global_, Layout)
+    return _core.match(*maps, settings(options))
 
 
 def read_layout_pairs(path: Union[str, "os.PathLike[str]"]) -> List[Tuple[int, Layout, Layout]]:

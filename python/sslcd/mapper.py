@@ -3,11 +3,12 @@
 
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import UsageError
-from .inputs import Camera, Frame, Step, array
+from .inputs import Camera, Frame, Step, array, checked
 from .options import Options, settings
 from .results import (
     AdjustmentSummary,
@@ -39,8 +40,11 @@ def _context(
         raise UsageError(
             f"labels is {labels!r}, expected a dict of symmetries such as {{'Tree': 'full'}}"
         )
-    if camera is not None and not isinstance(camera, Camera):
-        raise UsageError(f"camera is {camera!r}, expected a sslcd.Camera")
+    for label, symmetry in (labels or {}).items():
+        if not isinstance(label, str) or not isinstance(symmetry, str):
+            raise UsageError(f"labels has {label!r}: {symmetry!r}, expected texts")
+    if camera is not None:
+        checked("camera", camera, Camera)
     return {
         "settings": settings(options),
         "labels": dict(labels or {}),
@@ -119,7 +123,7 @@ class Mapper:
 
     def add(self, frame: Frame) -> FrameReport:
         """add_frame for a Frame, e.g. of a Dataset."""
-        report = self._core.add_frame(frame)
+        report = self._core.add_frame(checked("frame", frame, Frame))
         self._next_index = frame.index + 1
         return report
 
@@ -146,6 +150,11 @@ class Mapper:
     def copy(self) -> "Mapper":
         """A mapper with its own state."""
         return _wrap(self._core.copy(), self._next_index)
+
+    __copy__ = copy
+
+    def __deepcopy__(self, memo: Any) -> "Mapper":
+        return self.copy()
 
     @property
     def trajectory(self) -> Trajectory:
@@ -218,7 +227,8 @@ class AsyncMapper:
         most_waiting: int = 64,
     ) -> None:
         self._core = _core.AsyncMapper(
-            **_context(options, labels, up, camera), most_waiting=most_waiting
+            **_context(options, labels, up, camera),
+            most_waiting=int(array("most_waiting", most_waiting, (), np.int32)),
         )
         self._next_index = 0
 
@@ -259,8 +269,9 @@ class AsyncMapper:
 
     def add(self, frame: Frame) -> bool:
         """add_frame for a Frame."""
+        taken = self._core.add_frame(checked("frame", frame, Frame))
         self._next_index = frame.index + 1
-        return self._core.add_frame(frame)
+        return taken
 
     def start_sequence(self) -> None:
         """Mapper.start_sequence for the next frame."""

@@ -93,6 +93,31 @@ def test_wrong_arrays_raise_and_keep_the_state(mapper, pair, change, message):
     assert mapper.trajectory.frames.tolist() == [0]
 
 
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda mapper: mapper.add(None), "frame is None, expected a sslcd.Frame"),
+        (lambda mapper: sslcd.AsyncMapper().add("x"), "frame is 'x'"),
+        (lambda mapper: sslcd.AsyncMapper(most_waiting="many"), "most_waiting"),
+        (lambda mapper: sslcd.run("folder"), "dataset is 'folder', expected a sslcd.Dataset"),
+        (lambda mapper: sslcd.match(None, None), "local is None, expected a sslcd.Layout"),
+        (lambda mapper: sslcd.solve_graph([]), r"graph is \[\], expected a sslcd.PoseGraph"),
+        (lambda mapper: sslcd.Camera("wide", 1, 1, 1), "Camera.fx"),
+        (lambda mapper: sslcd.Camera(1, 1, 1, 1, 640.5), "Camera.width"),
+        (lambda mapper: sslcd.Mapper(labels={"Car": 2}), "labels has 'Car': 2"),
+        (lambda mapper: sslcd.load_dataset(DATA, max_frames=-1), "max_frames is -1"),
+    ],
+)
+def test_things_of_other_kinds_raise(mapper, call, message):
+    with pytest.raises(sslcd.UsageError, match=message):
+        call(mapper)
+
+
+def test_a_path_that_is_no_text():
+    with pytest.raises(sslcd.BadInputError, match=r"\\xff"):
+        sslcd.load_dataset(b"\xff")
+
+
 def test_an_index_beyond_32_bits_is_refused(mapper):
     with pytest.raises(sslcd.UsageError, match="index"):
         mapper.add_frame(0, np.eye(4), index=2**40)

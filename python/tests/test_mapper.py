@@ -166,6 +166,9 @@ def test_copies_go_their_own_way(drive, offline):
     other = mapper.copy()
     other.refine()
     assert other.trajectory.tum() == offline.trajectory.tum() != mapper.trajectory.tum()
+    for another in (copy.copy(other), copy.deepcopy(other)):
+        another.add_frame(drive[-1].stamp + 1, drive[-1].T_odom_cam)
+        assert len(another.trajectory) == len(other.trajectory) + 1
     assert len(copy.deepcopy(other.loops)) == len(pickle.loads(pickle.dumps(other.loops))) > 0
 
 
