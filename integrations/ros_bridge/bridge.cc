@@ -8,7 +8,7 @@
 #include "ros_bridge/convert.h"
 #include "sslcd/core/error.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 // Axes of a camera (right, down, forward) in those of a body (forward, left, up).
@@ -201,4 +201,4 @@ std::vector<PathPose> Bridge::path() const {
   return path;
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -17,7 +17,7 @@
 #include "sslcd/pipeline/async_mapper.h"
 #include "sslcd/pipeline/options.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 struct BridgeOptions {
   /// empty: those of the first odometry message
@@ -121,4 +121,4 @@ class Bridge {
   AsyncMapper mapper_;  // the last member: it ends first
 };
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 bool IsVariance(double value) { return std::isfinite(value) && value >= 0; }
@@ -53,4 +53,4 @@ RelativePose BetweenBases(const LoopClosure& loop, const Pose& T_base_cam) {
   return {T_match_query, adjoint * loop.covariance * adjoint.transpose()};
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -8,7 +8,7 @@
 #include "sslcd/core/detection.h"
 #include "sslcd/core/loop_closure.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 /// None if a value is not finite or the quaternion's length is off 1 by more than
 /// kRotationTolerance, e.g. 0 because nobody has set it.
@@ -30,4 +30,4 @@ std::optional<Detection> ToDetection(const DetectionMessage& message, const Pose
 /// The loop as measured between two poses of the base instead of the camera.
 RelativePose BetweenBases(const LoopClosure& loop, const Pose& T_base_cam);
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros_bridge/drops.h"
 
-namespace sslcd::ros {
+#include <numeric>
+
+namespace sslcd::ros_bridge {
 
 const char* ToString(Drop reason) {
   switch (reason) {
@@ -26,6 +28,10 @@ const char* ToString(Drop reason) {
   return "";
 }
 
+int Drops::defects() const {
+  return std::accumulate(counts_.begin(), counts_.end(), 0) - (*this)[Drop::kDetectionsTooSoon];
+}
+
 std::string Drops::Text() const {
   std::string text;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
@@ -36,4 +42,4 @@ std::string Drops::Text() const {
   return text;
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

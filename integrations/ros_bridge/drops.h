@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 enum class Drop {
   kOdometryUnusable,      ///< a pose that is not finite, or a quaternion without unit length
@@ -34,6 +34,8 @@ class Drops {
  public:
   void Count(Drop reason, int count = 1) { counts_[Index(reason)] += count; }
   int operator[](Drop reason) const { return counts_[Index(reason)]; }
+  /// All that was not wanted, so without kDetectionsTooSoon.
+  int defects() const;
   /// All reasons that have occurred, e.g. "3 odometry: duplicate stamp; 1 object unusable"; empty:
   /// none.
   std::string Text() const;
@@ -45,4 +47,4 @@ class Drops {
   std::array<int, static_cast<std::size_t>(Drop::kCount)> counts_{};
 };
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

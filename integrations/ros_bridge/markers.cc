@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 // Colours that differ well (Okabe and Ito, 2008), without black.
@@ -56,4 +56,4 @@ Marker LoopMarker(const std::vector<PathPose>& path, const std::map<int, LoopEdg
   return marker;
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -9,7 +9,7 @@
 
 #include "ros_bridge/bridge.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 struct Marker {
   enum class Type { kCube, kLines };
@@ -28,4 +28,4 @@ std::vector<Marker> ObjectMarkers(const std::vector<MapObject>& objects);
 /// One marker with a line from pose to pose for each accepted loop.
 Marker LoopMarker(const std::vector<PathPose>& path, const std::map<int, LoopEdge>& loops);
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 /// Time since any epoch [ns]; all topics have the same one.
 using Stamp = std::int64_t;
@@ -56,4 +56,4 @@ struct TransformMessage {
   RawPose pose;
 };
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

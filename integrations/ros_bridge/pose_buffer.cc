@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 PoseBuffer::Added PoseBuffer::Add(Stamp stamp, const Pose& T_odom_base) {
   if (newest_ && stamp == *newest_) return Added::kDuplicate;
@@ -35,4 +35,4 @@ void PoseBuffer::Clear() {
   newest_.reset();
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -9,7 +9,7 @@
 #include "ros_bridge/messages.h"
 #include "sslcd/core/pose.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 /// The latest poses T_odom_base. Between two of them it interpolates with constant velocity.
 class PoseBuffer {
@@ -51,4 +51,4 @@ class PoseBuffer {
   std::deque<std::pair<Stamp, Pose>> poses_;  // by stamp
 };
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros_bridge/static_transforms.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 std::string FrameName(const std::string& name) {
   return !name.empty() && name.front() == '/' ? name.substr(1) : name;
@@ -34,4 +34,4 @@ std::optional<Pose> StaticTransforms::Find(const std::string& a, const std::stri
   return {};
 }
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -10,7 +10,7 @@
 
 #include "sslcd/core/pose.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 
 /// The tree of /tf_static. Names lose a leading slash, as in tf2.
 class StaticTransforms {
@@ -30,4 +30,4 @@ class StaticTransforms {
 /// Without the leading slash that names had before tf2.
 std::string FrameName(const std::string& name);
 
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

@@ -27,28 +27,28 @@ using RawValues = std::pair<std::array<double, 3>, std::array<double, 4>>;
 using RawDetection =
     std::tuple<std::vector<std::pair<std::string, double>>, RawValues, std::array<double, 3>>;
 
-ros::RawPose PoseOf(const RawValues& values) { return {values.first, values.second}; }
+ros_bridge::RawPose PoseOf(const RawValues& values) { return {values.first, values.second}; }
 
 // A Bridge for recordings: no frame is dropped, since no one waits for it.
 class RecordedBridge {
  public:
-  RecordedBridge(const ros::BridgeOptions& options, const Options& mapper,
+  RecordedBridge(const ros_bridge::BridgeOptions& options, const Options& mapper,
                  const MapperContext& context)
       : bridge_(options, mapper, context), filter_(mapper.filter) {}
 
   void AddTransform(const std::string& parent, const std::string& child, const RawValues& pose) {
-    bridge_.Add(ros::TransformMessage{parent, child, PoseOf(pose)});
+    bridge_.Add(ros_bridge::TransformMessage{parent, child, PoseOf(pose)});
   }
   void AddOdometry(std::int64_t stamp, const Values& frames, const RawValues& pose,
                    const std::array<double, 36>& covariance) {
-    bridge_.Add(ros::OdometryMessage{stamp, frames.at("frame"), frames.at("child_frame"),
-                                     PoseOf(pose), covariance});
+    bridge_.Add(ros_bridge::OdometryMessage{stamp, frames.at("frame"), frames.at("child_frame"),
+                                            PoseOf(pose), covariance});
   }
   void AddDetections(std::int64_t stamp, const std::string& frame,
                      const std::vector<RawDetection>& detections) {
-    ros::DetectionsMessage message{stamp, frame, {}};
+    ros_bridge::DetectionsMessage message{stamp, frame, {}};
     for (const auto& [hypotheses, pose, size] : detections) {
-      ros::DetectionMessage detection;
+      ros_bridge::DetectionMessage detection;
       for (const auto& [label, score] : hypotheses) detection.hypotheses.push_back({label, score});
       detection.pose = PoseOf(pose);
       detection.size = size;
@@ -59,11 +59,11 @@ class RecordedBridge {
   py::dict Finish();
 
  private:
-  ros::Bridge bridge_;
+  ros_bridge::Bridge bridge_;
   DetectionFilterOptions filter_;
 };
 
-py::list EdgesOf(const std::map<int, ros::LoopEdge>& loops) {
+py::list EdgesOf(const std::map<int, ros_bridge::LoopEdge>& loops) {
   py::list edges;
   for (const auto& [id, loop] : loops)
     edges.append(py::dict("id"_a = id, "match_frame"_a = loop.match_frame,
@@ -75,14 +75,14 @@ py::list EdgesOf(const std::map<int, ros::LoopEdge>& loops) {
 }
 
 // Fields of visualization_msgs/Marker.
-py::dict MarkerToPython(const ros::Marker& marker) {
+py::dict MarkerToPython(const ros_bridge::Marker& marker) {
   const Eigen::Quaterniond q = marker.pose.unit_quaternion();
   const Vec3& t = marker.pose.translation();
   py::list points;
   for (const Vec3& point : marker.points)
     points.append(py::make_tuple(point.x(), point.y(), point.z()));
   return py::dict("ns"_a = marker.name_space, "id"_a = marker.id,
-                  "lines"_a = marker.type == ros::Marker::Type::kLines,
+                  "lines"_a = marker.type == ros_bridge::Marker::Type::kLines,
                   "position"_a = py::make_tuple(t.x(), t.y(), t.z()),
                   "orientation"_a = py::make_tuple(q.x(), q.y(), q.z(), q.w()),
                   "scale"_a = py::make_tuple(marker.scale.x(), marker.scale.y(), marker.scale.z()),
@@ -95,16 +95,16 @@ py::dict RecordedBridge::Finish() {
   WaitFor([&](double seconds) {
     return future.wait_for(std::chrono::duration<double>(seconds)) == std::future_status::ready;
   });
-  const ros::BridgeReport report = bridge_.Take();
+  const ros_bridge::BridgeReport report = bridge_.Take();
   if (!report.failure.empty()) throw Error(ErrorKind::kNoSolution, report.failure);
   Mapper mapper = future.get();
-  const std::vector<ros::PathPose> path = bridge_.path();
+  const std::vector<ros_bridge::PathPose> path = bridge_.path();
   py::list markers;
-  for (const ros::Marker& marker : ros::ObjectMarkers(mapper.Objects()))
+  for (const ros_bridge::Marker& marker : ros_bridge::ObjectMarkers(mapper.Objects()))
     markers.append(MarkerToPython(marker));
-  markers.append(MarkerToPython(ros::LoopMarker(path, bridge_.loops())));
+  markers.append(MarkerToPython(ros_bridge::LoopMarker(path, bridge_.loops())));
   std::vector<int> frames;
-  for (const ros::PathPose& pose : path) frames.push_back(pose.frame);
+  for (const ros_bridge::PathPose& pose : path) frames.push_back(pose.frame);
   py::dict made(
       "frames"_a = Column<int>(frames, [](int frame) { return frame; }),
       "stamps"_a = Column<std::int64_t>(path, [](const auto& pose) { return pose.stamp; }),
@@ -120,7 +120,7 @@ py::dict RecordedBridge::Finish() {
 std::unique_ptr<RecordedBridge> MakeBridge(const Values& frames, bool body_axes,
                                            const std::vector<std::string>& settings,
                                            const py::dict& labels, const py::object& up) {
-  ros::BridgeOptions options;
+  ros_bridge::BridgeOptions options;
   options.odom_frame = frames.at("odom_frame");
   options.base_frame = frames.at("base_frame");
   options.camera_frame = frames.at("camera_frame");

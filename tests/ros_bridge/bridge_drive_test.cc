@@ -12,7 +12,7 @@
 #include "sslcd/core/error.h"
 #include "sslcd/eval/trajectory_error.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 RawPose RawOf(const Pose& pose) {
@@ -192,4 +192,4 @@ TEST(BridgeDrive, AFailureOfTheMapperIsTold) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

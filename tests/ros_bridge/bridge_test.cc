@@ -8,7 +8,7 @@
 
 #include "sslcd/core/error.h"
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 constexpr Stamp kTick = 100000000;  // 0.1 s
@@ -248,4 +248,4 @@ TEST(Bridge, AllProblemsOfTheOptionsAreListed) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

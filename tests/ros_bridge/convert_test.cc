@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -106,4 +106,4 @@ TEST(BetweenBases, MovesPoseAndCovariance) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

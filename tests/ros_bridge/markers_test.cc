@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 TEST(ObjectMarkers, AreConfirmedObjectsOnly) {
@@ -50,6 +50,7 @@ TEST(Drops, EachReasonHasItsWords) {
     EXPECT_EQ(drops.Text(), "");
     drops.Count(static_cast<Drop>(i), 3);
     EXPECT_EQ(drops[static_cast<Drop>(i)], 3);
+    EXPECT_EQ(drops.defects(), static_cast<Drop>(i) == Drop::kDetectionsTooSoon ? 0 : 3);
     words.insert(drops.Text());
   }
   EXPECT_EQ(words.size(), static_cast<std::size_t>(Drop::kCount));
@@ -61,4 +62,4 @@ TEST(Drops, EachReasonHasItsWords) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

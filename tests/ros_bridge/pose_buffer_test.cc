@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 using Added = PoseBuffer::Added;
@@ -64,4 +64,4 @@ TEST(PoseBuffer, ABreakIsNotBridged) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge

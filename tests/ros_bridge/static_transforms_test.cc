@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sslcd::ros {
+namespace sslcd::ros_bridge {
 namespace {
 
 TEST(StaticTransforms, ComposesUpAndDown) {
@@ -52,4 +52,4 @@ TEST(StaticTransforms, TheLatestCounts) {
 }
 
 }  // namespace
-}  // namespace sslcd::ros
+}  // namespace sslcd::ros_bridge
