@@ -89,7 +89,6 @@ void Bridge::Add(const OdometryMessage& odometry) {
 }
 
 void Bridge::Add(const DetectionsMessage& detections) {
-  if (camera_frame_.empty()) camera_frame_ = FrameName(detections.frame);
   if ((last_frame_ && detections.stamp <= *last_frame_) ||
       !waiting_.emplace(detections.stamp, detections).second)
     return drops_.Count(Drop::kDetectionsOutOfOrder);
@@ -124,8 +123,10 @@ void Bridge::MakeFrames() {
   }
 }
 
-std::optional<Pose> Bridge::BaseToCamera() const {
-  const std::optional<Pose> T_base_cam = transforms_.Find(base_frame_, camera_frame_);
+std::optional<Pose> Bridge::BaseToCamera(const std::string& frame) {
+  const std::string& camera = camera_frame_.empty() ? frame : camera_frame_;
+  const std::optional<Pose> T_base_cam = transforms_.Find(base_frame_, camera);
+  if (T_base_cam) camera_frame_ = FrameName(camera);  // not before: the first frame may be wrong
   if (!T_base_cam || !options_.body_axes) return T_base_cam;
   return *T_base_cam * BodyToCamera();
 }
@@ -133,7 +134,7 @@ std::optional<Pose> Bridge::BaseToCamera() const {
 void Bridge::MakeFrame(const DetectionsMessage& detections, const Pose& T_odom_base) {
   if (last_frame_ && Seconds(detections.stamp - *last_frame_) < options_.min_interval_s)
     return drops_.Count(Drop::kDetectionsTooSoon);
-  const std::optional<Pose> T_base_cam = BaseToCamera();
+  const std::optional<Pose> T_base_cam = BaseToCamera(detections.frame);
   const std::optional<Pose> T_base_frame = transforms_.Find(base_frame_, detections.frame);
   if (!T_base_cam || !T_base_frame) return drops_.Count(Drop::kDetectionsOtherFrame);
   T_base_cam_ = *T_base_cam;

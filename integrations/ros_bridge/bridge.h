@@ -23,7 +23,7 @@ struct BridgeOptions {
   /// empty: those of the first odometry message
   std::string odom_frame, base_frame;
   /// the frame whose axes are those of a camera: x right, y down, z forward. Empty: that of the
-  /// first detections
+  /// first detections whose frame a transform joins with the base
   std::string camera_frame;
   /// camera_frame has the axes of a body (x forward, y left, z up), e.g. a LiDAR's
   bool body_axes = false;
@@ -101,7 +101,7 @@ class Bridge {
   bool IsOfThisOdometry(const OdometryMessage& odometry);
   void MakeFrames();
   void MakeFrame(const DetectionsMessage& detections, const Pose& T_odom_base);
-  std::optional<Pose> BaseToCamera() const;
+  std::optional<Pose> BaseToCamera(const std::string& frame);
   LoopEdge EdgeOf(const LoopClosure& loop) const;
 
   const BridgeOptions options_;

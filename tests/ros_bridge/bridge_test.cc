@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "sslcd/core/error.h"
 
@@ -135,6 +136,17 @@ TEST_F(BridgeTest, DetectionsOfAnUnknownFrameAreNotUsed) {
   EXPECT_EQ(Frames(), 3) << "known now";
 }
 
+TEST_F(BridgeTest, AnUnknownFrameAtTheStartIsNotTheCamera) {
+  bridge_.Add(OdometryAt(1 * kTick));
+  DetectionsMessage other = DetectionsAt(1 * kTick);
+  other.frame = "radar";
+  bridge_.Add(other);
+  EXPECT_EQ(bridge_.camera_frame(), "");
+  Drive(2, 4);
+  EXPECT_EQ(bridge_.camera_frame(), "camera");
+  EXPECT_EQ(Frames(), 3);
+}
+
 TEST_F(BridgeTest, BadOdometryIsCounted) {
   OdometryMessage bad = OdometryAt(1 * kTick);
   bad.pose.orientation = {0, 0, 0, 0};
@@ -232,6 +244,54 @@ TEST(Bridge, FramesThatFindTheQueueFullAreCounted) {
   const BridgeReport report = bridge.Take();
   EXPECT_EQ(report.frames + bridge.drops()[Drop::kFrameQueueFull], 39);
   EXPECT_EQ(static_cast<int>(bridge.path().size()), report.frames);
+}
+
+// Messages in any order, with stamps and values of any kind.
+TEST(Bridge, EachDetectionsIsAFrameOrIsCounted) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    const auto one_in = [&](unsigned n) { return random() % n == 0; };
+    BridgeOptions options;
+    options.most_waiting = 5;
+    const bool small_queue = seed % 2 == 1;
+    options.most_frames = small_queue ? 3 : 1000;
+    Bridge bridge(options, {}, {GravityFrame::FromUp({0, 0, 1}), {}, {}});
+    int added = 0, mapped = 0;
+    Stamp now = 1000 * kTick;
+    for (int i = 0; i < 500; ++i) {
+      now += kTick / 4;
+      if (one_in(100)) now -= static_cast<Stamp>(random() % 100) * kTick;
+      Stamp stamp = now + static_cast<Stamp>(random() % 5) * kTick / 2 - kTick;
+      if (one_in(50)) stamp = one_in(2) ? 0 : std::numeric_limits<Stamp>::max() / 4;
+      if (one_in(3)) {
+        DetectionsMessage detections = DetectionsAt(stamp);
+        if (one_in(10)) detections.frame = "radar";
+        if (one_in(10)) detections.detections[0].size[0] = kNan;
+        bridge.Add(detections);
+        ++added;
+      } else {
+        OdometryMessage odometry = OdometryAt(stamp, one_in(50) ? kNan : 0.1 * i);
+        if (one_in(50)) odometry.child_frame = "gps";
+        if (one_in(50)) odometry.covariance[0] = odometry.covariance[7] = one_in(2) ? kNan : 1e5;
+        bridge.Add(odometry);
+      }
+      if (i == 50) bridge.Add(TransformMessage{"base_link", "camera", {}});
+      if (one_in(20)) mapped += bridge.Take().frames;
+    }
+    bridge.StartSequence();
+    bridge.Wait();
+    mapped += bridge.Take().frames;
+    int counted = 0;
+    for (const Drop reason :
+         {Drop::kDetectionsOtherFrame, Drop::kDetectionsOutOfOrder,
+          Drop::kDetectionsWithoutOdometry, Drop::kDetectionsWaited, Drop::kDetectionsTooSoon,
+          Drop::kDetectionsAtRestart, Drop::kFrameQueueFull})
+      counted += bridge.drops()[reason];
+    EXPECT_EQ(mapped + counted, added) << bridge.drops().Text();
+    EXPECT_GT(mapped, small_queue ? 0 : 20) << bridge.drops().Text();
+    EXPECT_EQ(bridge.drops()[Drop::kFrameRefused], 0);
+    EXPECT_EQ(static_cast<int>(bridge.path().size()), mapped);
+  }
 }
 
 TEST(Bridge, AllProblemsOfTheOptionsAreListed) {
