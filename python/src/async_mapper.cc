@@ -65,16 +65,15 @@ std::unique_ptr<MapperInTurn> Snapshot(const ClosableMapper& self) {
 
 void BindAsyncMapper(py::module_& module) {
   py::class_<ClosableMapper>(module, "AsyncMapper")
-      .def(py::init([](const std::vector<std::string>& settings, const py::dict& labels,
-                       const py::object& up, const py::object& camera, int most_waiting) {
+      .def(py::init([](const std::vector<std::string>& settings, const py::dict& context,
+                       int most_waiting) {
              if (most_waiting < 1)
                throw Error(ErrorKind::kUsage,
                            "most_waiting is " + std::to_string(most_waiting) + ", must be above 0");
-             return std::make_unique<ClosableMapper>(OptionsFrom(settings),
-                                                     ContextFrom(labels, up, camera), most_waiting);
+             return std::make_unique<ClosableMapper>(OptionsFrom(settings), ContextFrom(context),
+                                                     most_waiting);
            }),
-           py::arg("settings"), py::arg("labels"), py::arg("up"), py::arg("camera"),
-           py::arg("most_waiting"))
+           py::arg("settings"), py::arg("context"), py::arg("most_waiting"))
       .def(
           "add_frame",
           [](const ClosableMapper& self, const py::object& frame) {

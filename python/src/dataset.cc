@@ -8,6 +8,7 @@
 #include "configuration.h"
 #include "datasets/run_folder.h"
 #include "frames.h"
+#include "place_matcher.h"
 #include "results.h"
 #include "sslcd/core/error.h"
 #include "sslcd/pipeline/run.h"
@@ -131,10 +132,14 @@ RunHooks HooksOf(const py::object& progress, const py::object& load_image) {
 }
 
 Run RunDataset(const Dataset& dataset, const std::vector<std::string>& settings,
-               const py::object& progress, const py::object& load_image) {
+               const py::object& progress, const py::object& load_image,
+               const py::object& place_matcher) {
   const Options options = OptionsFrom(settings);
-  const MapperContext context{
-      GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, {}};
+  const MapperContext context{GravityFrame::FromUp(dataset.up_axis),
+                              dataset.labels,
+                              dataset.camera,
+                              PlaceMatcherFrom(place_matcher),
+                              {}};
   const RunHooks hooks = HooksOf(progress, load_image);
   const py::gil_scoped_release release;
   return {RunSequence(dataset.frames, context, options, hooks), dataset.up_axis,
@@ -143,7 +148,7 @@ Run RunDataset(const Dataset& dataset, const std::vector<std::string>& settings,
 
 void BindRun(py::module_& module) {
   module.def("run", &RunDataset, py::arg("dataset"), py::arg("settings"), py::arg("progress"),
-             py::arg("load_image"));
+             py::arg("load_image"), py::arg("place_matcher"));
   py::class_<Run>(module, "RunResult")
       .def("trajectory",
            [](const Run& run) { return ToPython(run.result.trajectory, run.result.frames); })

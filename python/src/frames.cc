@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "arrays.h"
+#include "place_matcher.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd::python {
@@ -163,10 +164,11 @@ std::vector<int> KeptOf(const Frame& frame, const DetectionFilterOptions& option
   return kept;
 }
 
-MapperContext ContextFrom(const py::dict& labels, const py::handle& up, const py::handle& camera) {
+MapperContext ContextFrom(const py::dict& given) {
   MapperContext context;
-  context.gravity = GravityFrame::FromUp(VectorFrom(py::cast<Array>(up)));
-  for (const auto& [label, symmetry] : labels) {
+  context.gravity = GravityFrame::FromUp(VectorFrom(given["up"].cast<Array>()));
+  context.place_matcher = PlaceMatcherFrom(given["place_matcher"]);
+  for (const auto& [label, symmetry] : given["labels"].cast<py::dict>()) {
     const auto name = symmetry.cast<std::string>();
     const std::optional<Symmetry> parsed = ParseSymmetry(name);
     if (!parsed)
@@ -175,6 +177,7 @@ MapperContext ContextFrom(const py::dict& labels, const py::handle& up, const py
                                          "', must be one of none, pi, full");
     context.labels.Set(label.cast<std::string>(), {*parsed});
   }
+  const py::object camera = given["camera"];
   if (camera.is_none()) return context;
   Camera c;
   c.fx = camera.attr("fx").cast<double>();

@@ -23,8 +23,9 @@ py::object ToPython(const Frame& frame);
 /// Places in the frame of the detections that the mapper's filter keeps.
 std::vector<int> KeptOf(const Frame& frame, const DetectionFilterOptions& options);
 
-/// Labels: symmetry ("none", "pi", "full") by label. Up: [3]. Camera: sslcd.inputs.Camera or None.
-MapperContext ContextFrom(const py::dict& labels, const py::handle& up, const py::handle& camera);
+/// `given` has labels: symmetry ("none", "pi", "full") by label; up: [3]; camera:
+/// sslcd.inputs.Camera or None; place_matcher: a function or None.
+MapperContext ContextFrom(const py::dict& given);
 /// The Camera or None.
 py::object ToPython(const std::optional<Camera>& camera);
 

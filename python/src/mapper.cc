@@ -49,12 +49,10 @@ std::optional<int> Current(MapperInTurn& self, int id) {
 
 void BindMapper(py::module_& module) {
   py::class_<MapperInTurn>(module, "Mapper")
-      .def(py::init([](const std::vector<std::string>& settings, const py::dict& labels,
-                       const py::object& up, const py::object& camera) {
-             return std::make_unique<MapperInTurn>(OptionsFrom(settings),
-                                                   ContextFrom(labels, up, camera));
+      .def(py::init([](const std::vector<std::string>& settings, const py::dict& context) {
+             return std::make_unique<MapperInTurn>(OptionsFrom(settings), ContextFrom(context));
            }),
-           py::arg("settings"), py::arg("labels"), py::arg("up"), py::arg("camera"))
+           py::arg("settings"), py::arg("context"))
       .def("add_frame", &AddFrame, py::arg("frame"))
       .def("start_sequence",
            [](MapperInTurn& self) { self.Do([](Mapper& mapper) { mapper.StartSequence(); }); })

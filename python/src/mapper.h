@@ -3,11 +3,14 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/error.h"
 #include "sslcd/pipeline/mapper.h"
 #include "sslcd/pipeline/options.h"
 
@@ -25,8 +28,11 @@ class MapperInTurn {
   /// `call(mapper)`.
   template <class Call>
   auto Do(const Call& call) {
+    if (owner_ == std::this_thread::get_id())
+      throw Error(ErrorKind::kUsage, "a place matcher must not call its own mapper");
     const pybind11::gil_scoped_release release;  // before the lock: its owner may need the GIL
     const std::lock_guard lock(mutex_);
+    const Owner owner(owner_);
     return call(mapper_);
   }
 
@@ -48,10 +54,19 @@ class MapperInTurn {
   const DetectionFilterOptions& filter() const { return filter_; }
 
  private:
+  using Id = std::thread::id;
+  // Names this thread as the owner of the lock.
+  struct Owner {
+    explicit Owner(std::atomic<Id>& id) : owner(id) { owner = std::this_thread::get_id(); }
+    ~Owner() { owner = Id(); }
+    std::atomic<Id>& owner;
+  };
+
   Mapper mapper_;
   std::vector<int> frames_;
   DetectionFilterOptions filter_;
   std::mutex mutex_;
+  std::atomic<Id> owner_{};
 };
 
 }  // namespace sslcd::python

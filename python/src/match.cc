@@ -2,12 +2,12 @@
 #include <pybind11/stl.h>
 
 #include <Eigen/Geometry>
-#include <map>
 
 #include "arrays.h"
 #include "bindings.h"
 #include "configuration.h"
 #include "formats/pairs.h"
+#include "layouts.h"
 #include "results.h"
 #include "sslcd/core/error.h"
 #include "sslcd/loop/layout_match.h"
@@ -16,33 +16,6 @@ namespace sslcd::python {
 namespace {
 
 using namespace py::literals;
-using Numbers = std::map<std::string, int>;
-
-// Of a sslcd.layouts.Layout, which has checked its arrays. `numbers` are those of the labels.
-std::vector<LayoutObject> ObjectsFrom(const py::handle& layout, Numbers& numbers) {
-  const auto labels = layout.attr("labels").cast<std::vector<std::string>>();
-  const auto symmetries = layout.attr("symmetries").cast<std::vector<std::string>>();
-  const auto positions = layout.attr("positions").cast<Array>();
-  const auto yaws = layout.attr("yaws").cast<Array>();
-  const auto dims = layout.attr("dims").cast<Array>();
-  std::vector<LayoutObject> objects(labels.size());
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    const auto row = static_cast<py::ssize_t>(i);
-    LayoutObject& object = objects[i];
-    object.id = static_cast<int>(i);
-    object.label = numbers.emplace(labels[i], static_cast<int>(numbers.size())).first->second;
-    const std::optional<Symmetry> symmetry = ParseSymmetry(symmetries[i]);
-    if (!symmetry)
-      throw Error(ErrorKind::kUsage,
-                  "symmetry is '" + symmetries[i] + "', must be one of none, pi, full");
-    object.symmetry = *symmetry;
-    object.position = Eigen::Map<const Vec3>(positions.data(row, 0));
-    object.yaw = yaws.at(row);
-    object.dims = Eigen::Map<const Vec3>(dims.data(row, 0));
-  }
-  return objects;
-}
-
 py::object HypothesisToPython(const PoseHypothesis& hypothesis) {
   const YawShift& pose = hypothesis.pose;
   Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
@@ -69,7 +42,7 @@ py::object Match(const py::object& local, const py::object& global,
                     [&](FieldVisitor& loop) { loop.Nested("match", options, "layout matching"); });
     visitor.Nested("decision", decision, "when the best pose is accepted");
   });
-  Numbers numbers;
+  LabelNumbers numbers;
   const std::vector<LayoutObject> some = ObjectsFrom(local, numbers),
                                   all = ObjectsFrom(global, numbers);
   const LayoutAnswer answer = [&] {
@@ -82,15 +55,6 @@ py::object Match(const py::object& local, const py::object& global,
   return Make("MatchResult", "decision"_a = ToString(answer.decision), "reason"_a = answer.reason,
               "score"_a = answer.score, "second_score"_a = answer.second_score,
               "hypotheses"_a = hypotheses);
-}
-
-py::object LayoutOf(const std::vector<LayoutObject>& objects) {
-  py::list labels;
-  for (const LayoutObject& object : objects) labels.append(std::to_string(object.label));
-  Array positions(std::vector<std::size_t>{objects.size(), 3});
-  double* value = positions.mutable_data();
-  for (const LayoutObject& object : objects) value = std::copy_n(object.position.data(), 3, value);
-  return py::module_::import("sslcd.layouts").attr("Layout")(labels, positions);
 }
 
 py::list ReadPairs(const std::string& path) {

@@ -119,15 +119,14 @@ py::dict RecordedBridge::Finish() {
 
 std::unique_ptr<RecordedBridge> MakeBridge(const Values& frames, bool body_axes,
                                            const std::vector<std::string>& settings,
-                                           const py::dict& labels, const py::object& up) {
+                                           const py::dict& context) {
   ros_bridge::BridgeOptions options;
   options.odom_frame = frames.at("odom_frame");
   options.base_frame = frames.at("base_frame");
   options.camera_frame = frames.at("camera_frame");
   options.body_axes = body_axes;
   options.most_frames = options.most_waiting = std::numeric_limits<int>::max();
-  return std::make_unique<RecordedBridge>(options, OptionsFrom(settings),
-                                          ContextFrom(labels, up, py::none()));
+  return std::make_unique<RecordedBridge>(options, OptionsFrom(settings), ContextFrom(context));
 }
 
 }  // namespace
@@ -135,7 +134,7 @@ std::unique_ptr<RecordedBridge> MakeBridge(const Values& frames, bool body_axes,
 void BindRosBridge(py::module_& module) {
   py::class_<RecordedBridge>(module, "RosBridge")
       .def(py::init(&MakeBridge), py::arg("frames"), py::arg("body_axes"), py::arg("settings"),
-           py::arg("labels"), py::arg("up"))
+           py::arg("context"))
       .def("add_transform", &RecordedBridge::AddTransform, py::arg("parent"), py::arg("child"),
            py::arg("pose"))
       .def("add_odometry", &RecordedBridge::AddOdometry, py::arg("stamp"), py::arg("frames"),

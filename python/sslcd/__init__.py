@@ -13,7 +13,7 @@ from .evaluation import ate, rpe
 from .graphs import read_g2o, solve_graph
 from .inputs import Camera, Frame
 from .kitti import kitti_cuboids
-from .layouts import Layout, match, read_layout_pairs
+from .layouts import Layout, PlaceAnswer, PlaceQuery, match, read_layout_pairs
 from .mapper import AsyncMapper, Mapper
 from .options import complete_options, default_options, read_options
 from .results import (
@@ -68,6 +68,8 @@ __all__ = [
     "NoSolutionError",
     "NoiseScale",
     "OutputError",
+    "PlaceAnswer",
+    "PlaceQuery",
     "PoseGraph",
     "RpeResult",
     "RunResult",

@@ -6,7 +6,7 @@ import numpy as np
 
 from .inputs import Camera
 from .inputs import Frame as _Frame
-from .layouts import Layout
+from .layouts import Layout, PlaceMatcher
 from .results import (
     AdjustmentSummary,
     AsyncReport,
@@ -33,9 +33,7 @@ _RawPose = Tuple[Tuple[float, ...], Tuple[float, ...]]  # position, orientation 
 class Frame: ...
 
 class Mapper:
-    def __init__(
-        self, settings: List[str], labels: Dict[str, str], up: np.ndarray, camera: Optional[Camera]
-    ) -> None: ...
+    def __init__(self, settings: List[str], context: Dict[str, Any]) -> None: ...
     def add_frame(self, frame: _Frame) -> FrameReport: ...
     def start_sequence(self) -> None: ...
     def take_changes(self) -> MapChanges: ...
@@ -53,14 +51,7 @@ class Mapper:
     def timing(self) -> Dict[str, StageTimes]: ...
 
 class AsyncMapper:
-    def __init__(
-        self,
-        settings: List[str],
-        labels: Dict[str, str],
-        up: np.ndarray,
-        camera: Optional[Camera],
-        most_waiting: int,
-    ) -> None: ...
+    def __init__(self, settings: List[str], context: Dict[str, Any], most_waiting: int) -> None: ...
     def add_frame(self, frame: _Frame) -> bool: ...
     def start_sequence(self) -> None: ...
     def refine(self) -> None: ...
@@ -85,12 +76,7 @@ class Dataset:
 
 class RosBridge:
     def __init__(
-        self,
-        frames: Dict[str, str],
-        body_axes: bool,
-        settings: List[str],
-        labels: Dict[str, str],
-        up: np.ndarray,
+        self, frames: Dict[str, str], body_axes: bool, settings: List[str], context: Dict[str, Any]
     ) -> None: ...
     def add_transform(self, parent: str, child: str, pose: _RawPose) -> None: ...
     def add_odometry(
@@ -142,6 +128,7 @@ def run(
     settings: List[str],
     progress: Optional[Callable[[int, int], Any]],
     load_image: Optional[Callable[[str], Optional[np.ndarray]]],
+    place_matcher: Optional[PlaceMatcher],
 ) -> RunResult: ...
 def solve_graph(
     graph: PoseGraph, dof: int, up: np.ndarray, start: str, robust: bool

@@ -15,8 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _core
 from .errors import BadInputError
-from .inputs import array
-from .mapper import Mapper, _wrap
+from .mapper import Mapper, _wrap, context
 from .options import Options, settings
 from .results import Trajectory, _Compact
 
@@ -123,8 +122,7 @@ def map_bag(
     types, with stamps that go back, or from which no frame could be made.
     """
     frames = {"odom_frame": odom_frame, "base_frame": base_frame, "camera_frame": camera_frame}
-    given = dict(labels or {})
-    bridge = _core.RosBridge(frames, body_axes, settings(options), given, array("up", up, (3,)))
+    bridge = _core.RosBridge(frames, body_axes, settings(options), context(labels, up))
     feed = _Feed(bridge, odometry, detections, dict(class_names or {}), new_sequences)
     for topic, message in _messages(paths, {odometry: ODOMETRY, detections: DETECTIONS}):
         feed.add(topic, message)

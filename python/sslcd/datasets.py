@@ -10,6 +10,7 @@ import numpy as np
 from . import _core
 from .errors import UsageError
 from .inputs import Camera, Frame, checked
+from .layouts import PlaceMatcher
 from .options import Options, settings
 from .results import (
     AdjustmentSummary,
@@ -192,13 +193,14 @@ def run(
     *,
     progress: Optional[Callable[[int, int], Any]] = None,
     load_image: Optional[Callable[[str], Optional[np.ndarray]]] = None,
+    place_matcher: Optional[PlaceMatcher] = None,
 ) -> RunResult:
     """Maps a whole dataset and refines the map at the end; the same as `sslcd_run run` on given
     odometry and detections. Deterministic. ctrl-C and exceptions of the functions end it.
 
     progress: called with the numbers of frames done and of all. load_image: returns the image of a
     path as uint8 [H, W, 3] in the order blue, green, red, e.g. cv2.imread, or None; it is called
-    for frames with boxes whose dataset has images but no colours. None: no colours are measured.
+    for frames with boxes whose dataset has images but no colours. None: no colours are measured. place_matcher: as of Mapper.
     """
     core = checked("dataset", dataset, Dataset)._core
-    return RunResult(_core.run(core, settings(options), progress, load_image))
+    return RunResult(_core.run(core, settings(options), progress, load_image, place_matcher))

@@ -3,7 +3,7 @@
 
 import os
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,6 +24,8 @@ class Layout(_Compact):
     yaws: np.ndarray = _NONE  #: [N] headings about z; NaN: unknown; None: all unknown [rad]
     dims: np.ndarray = _NONE  #: [N, 3] length, width, height; zero: unknown; None: all unknown [m]
     symmetries: Tuple[str, ...] = _NONE  #: N of "none", "pi", "full"; None: all "none"
+
+    ids: np.ndarray = _NONE  #: [N] of the landmarks, in a place query; None: 0 to N - 1
 
     def __post_init__(self) -> None:
         labels = label_list(self.labels)
@@ -46,6 +48,8 @@ class Layout(_Compact):
             ),
         }
         per_detection("symmetries", np.zeros(len(made["symmetries"])), count, ())
+        made["ids"] = np.arange(count) if self.ids is None else self.ids
+        made["ids"] = per_detection("ids", made["ids"], count, (), np.int32)
         for name, value in made.items():
             object.__setattr__(self, name, value)
 
@@ -72,6 +76,48 @@ class Layout(_Compact):
             np.array([each.dims for each in seen]).reshape(-1, 3),
             [(labels or {}).get(each.label, "none") for each in seen],
         )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlaceQuery(_Compact):
+    """What a place matcher is asked: find the recently seen objects among those of older passes.
+    Both layouts are in the axes of the current world, so they differ by the drift; heights are
+    relative to the camera; labels are numbers as texts, the same in both."""
+
+    local: Layout
+    global_: Layout
+    frame: int  #: number of the newest frame
+    old_frame: int  #: number of the newest frame of the global layout
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PlaceAnswer(_Compact):
+    """The answer of a place matcher: matched objects, or an old frame and the relative pose, e.g.
+    from images. With the latter, switch off what knows only objects: {"refine.enabled": False,
+    "loop.adjust_keyframes": 0}."""
+
+    matches: np.ndarray = _NONE  #: [M, 2] indices into the local and the global layout
+    match_frame: int = -1  #: number of the old frame; -1: the answer has `matches`
+    T_match_query: np.ndarray = _NONE  #: [4, 4] query camera in the match camera's frame [m]
+    score: float = 0.0  #: higher is more certain
+    accepted: bool = False  #: close a loop?
+
+    def __post_init__(self) -> None:
+        pairs = np.zeros((0, 2)) if self.matches is None else self.matches
+        pose = np.eye(4) if self.T_match_query is None else self.T_match_query
+        made: Dict[str, Any] = {
+            "matches": per_detection("matches", pairs, len(np.atleast_1d(pairs)), (2,), np.int32),
+            "match_frame": int(array("match_frame", self.match_frame, (), np.int32)),
+            "T_match_query": array("T_match_query", pose, (4, 4)),
+            "score": float(array("score", self.score, ())),
+            "accepted": bool(self.accepted),
+        }
+        for name, value in made.items():
+            object.__setattr__(self, name, value)
+
+
+#: None: no place was found.
+PlaceMatcher = Callable[[PlaceQuery], Optional[PlaceAnswer]]
 
 
 def match(local: Layout, global_: Layout, options: Optional[Options] = None) -> MatchResult:

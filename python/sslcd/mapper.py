@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from . import _core
 from .errors import UsageError
 from .inputs import Camera, Frame, Step, array, checked
+from .layouts import PlaceMatcher
 from .options import Options, settings
 from .results import (
     AdjustmentSummary,
@@ -29,28 +30,25 @@ KITTI_UP = (0.0, -1.0, 0.0)
 _frame: Any = Frame  # which takes what its fields are made of
 
 
-def _context(
-    options: Optional[Options],
+def context(
     labels: Optional[Mapping[str, str]],
     up: ArrayLike,
-    camera: Optional[Camera],
+    camera: Optional[Camera] = None,
+    place_matcher: Optional[PlaceMatcher] = None,
 ) -> Dict[str, Any]:
-    """The arguments of _core.Mapper."""
+    """The context of _core.Mapper."""
     if labels is not None and not isinstance(labels, Mapping):
-        raise UsageError(
-            f"labels is {labels!r}, expected a dict of symmetries such as {{'Tree': 'full'}}"
-        )
+        raise UsageError(f"labels is {labels!r}, expected a dict such as {{'Tree': 'full'}}")
     for label, symmetry in (labels or {}).items():
         if not isinstance(label, str) or not isinstance(symmetry, str):
             raise UsageError(f"labels has {label!r}: {symmetry!r}, expected texts")
     if camera is not None:
         checked("camera", camera, Camera)
-    return {
-        "settings": settings(options),
-        "labels": dict(labels or {}),
-        "up": array("up", up, (3,)),
-        "camera": camera,
-    }
+    if place_matcher is not None and not callable(place_matcher):
+        raise UsageError(f"place_matcher is {place_matcher!r}, expected a function")
+    up = array("up", up, (3,))
+    labels = dict(labels or {})
+    return {"labels": labels, "up": up, "camera": camera, "place_matcher": place_matcher}
 
 
 class Mapper:
@@ -74,8 +72,10 @@ class Mapper:
         labels: Optional[Mapping[str, str]] = None,
         up: ArrayLike = KITTI_UP,
         camera: Optional[Camera] = None,
+        place_matcher: Optional[PlaceMatcher] = None,
     ) -> None:
-        self._core = _core.Mapper(**_context(options, labels, up, camera))
+        given = context(labels, up, camera, place_matcher)
+        self._core = _core.Mapper(settings(options), given)
         self._next_index = 0
 
     def add_frame(
@@ -213,7 +213,8 @@ class AsyncMapper:
     wait() and snapshot(). All are thread-safe. `with AsyncMapper(...) as mapper:` closes it at the
     end.
 
-    The arguments are those of Mapper. At most `most_waiting` frames wait; a frame that finds the
+    The arguments are those of Mapper; an exception of `place_matcher` ends the thread, and the
+    report says so (`failure`). At most `most_waiting` frames wait; a frame that finds the
     queue full is dropped and counted, and the step to the next frame then spans it.
     """
 
@@ -224,12 +225,12 @@ class AsyncMapper:
         labels: Optional[Mapping[str, str]] = None,
         up: ArrayLike = KITTI_UP,
         camera: Optional[Camera] = None,
+        place_matcher: Optional[PlaceMatcher] = None,
         most_waiting: int = 64,
     ) -> None:
-        self._core = _core.AsyncMapper(
-            **_context(options, labels, up, camera),
-            most_waiting=int(array("most_waiting", most_waiting, (), np.int32)),
-        )
+        given = context(labels, up, camera, place_matcher)
+        most = int(array("most_waiting", most_waiting, (), np.int32))
+        self._core = _core.AsyncMapper(settings(options), given, most)
         self._next_index = 0
 
     def add_frame(
