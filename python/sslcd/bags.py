@@ -110,16 +110,23 @@ def map_bag(
 ) -> MappedBag:
     """Maps a recorded drive.
 
-    paths: a ROS 1 .bag, a ROS 2 bag folder or .mcap; several are one recording. odometry: topic of
-    nav_msgs/Odometry. detections: topic of vision_msgs/Detection3DArray: cuboids in the frame of
-    the message, origin in the centre, x along the length, y to the left, z up; size is length,
-    width, height; the score is a probability. options, labels: as of Mapper. up: [3] in the
-    odometry's frame. class_names: labels by class id. body_axes: camera_frame has x forward, y
-    left, z up, as of a LiDAR. The frame ids default to those of the first messages; extrinsics
-    come from /tf_static. new_sequences: where stamps go back, a new sequence begins.
+    Args:
+        paths: a ROS 1 .bag, a ROS 2 bag folder or .mcap; several are one recording.
+        odometry: topic of nav_msgs/Odometry.
+        detections: topic of vision_msgs/Detection3DArray: cuboids in the frame of the message,
+            origin in the centre, x along the length, y to the left, z up; size is length, width,
+            height [m]; the score is a probability.
+        options, labels: as of Mapper.
+        up: [3] in the odometry's frame.
+        class_names: labels by class id.
+        body_axes: camera_frame has x forward, y left, z up, as of a LiDAR.
+        odom_frame, base_frame, camera_frame: frame ids; default: those of the first messages.
+            Extrinsics come from /tf_static.
+        new_sequences: where stamps go back, a new sequence begins.
 
-    Raises BadInputError, with a way out, for a bag without the topics, with messages of other
-    types, with stamps that go back, or from which no frame could be made.
+    Raises:
+        BadInputError: with a way out, for a bag without the topics, with messages of other types,
+            with stamps that go back, or from which no frame could be made.
     """
     frames = {"odom_frame": odom_frame, "base_frame": base_frame, "camera_frame": camera_frame}
     bridge = _core.RosBridge(frames, body_axes, settings(options), context(labels, up))

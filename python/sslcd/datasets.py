@@ -95,13 +95,19 @@ def load_dataset(
 ) -> Dataset:
     """Loads a dataset folder (docs/formats.md).
 
-    sequence: e.g. "0007"; may be empty if there is only one. detections, odometry, groundtruth:
-    files, relative to `path` or the current folder; empty: the format's standard place. score: what
-    the score column means: "auto", "probability" or "logit". max_frames: load only the first ones;
-    0: all.
+    Args:
+        path: the folder.
+        format: "auto", "sequence", "kitti-tracking", "kitti-odometry" or "kitti-raw".
+        sequence: e.g. "0007"; may be empty if there is only one.
+        detections, odometry, groundtruth: files, relative to `path` or the current folder; empty:
+            the format's standard place. Odometry and detections must exist: this package makes none
+            from images (`sslcd_run detect` does).
+        score: the meaning of the score column: "auto", "probability" or "logit".
+        max_frames: load only the first ones; 0: all.
 
-    Odometry and detections must exist: this package makes none from images (`sslcd_run detect`
-    does). Raises BadInputError with file and line, or UsageError if there is a choice to make.
+    Raises:
+        BadInputError: with file and line.
+        UsageError: if there is a choice to make.
     """
     if max_frames < 0:
         raise UsageError(f"max_frames is {max_frames}, must be at least 0")
@@ -195,12 +201,19 @@ def run(
     load_image: Optional[Callable[[str], Optional[np.ndarray]]] = None,
     place_matcher: Optional[PlaceMatcher] = None,
 ) -> RunResult:
-    """Maps a whole dataset and refines the map at the end; the same as `sslcd_run run` on given
-    odometry and detections. Deterministic. ctrl-C and exceptions of the functions end it.
+    """Maps a whole dataset and refines the map at the end.
 
-    progress: called with the numbers of frames done and of all. load_image: returns the image of a
-    path as uint8 [H, W, 3] in the order blue, green, red, e.g. cv2.imread, or None; it is called
-    for frames with boxes whose dataset has images but no colours. None: no colours are measured. place_matcher: as of Mapper.
+    The same as `sslcd_run run` on given odometry and detections. Deterministic. ctrl-C and
+    exceptions of the functions end it.
+
+    Args:
+        dataset: of load_dataset().
+        options: nested dict with the keys of docs/configuration.md.
+        progress: called with the numbers of frames done and of all.
+        load_image: returns the image of a path as uint8 [H, W, 3] in the order blue, green, red,
+            e.g. cv2.imread, or None. It is called for frames with boxes whose dataset has images
+            but no colours. None: no colours are measured.
+        place_matcher: as of Mapper.
     """
     core = checked("dataset", dataset, Dataset)._core
     return RunResult(_core.run(core, settings(options), progress, load_image, place_matcher))

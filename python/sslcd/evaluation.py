@@ -22,11 +22,16 @@ def ate(
     up: ArrayLike = (0.0, -1.0, 0.0),
     max_difference: float = 0.01,
 ) -> AteResult:
-    """Absolute trajectory error.
+    """Absolute trajectory error: distances of positions after alignment.
 
-    estimate, reference: two Trajectory, matched by stamps that differ by at most `max_difference`
-    [s], or two arrays [N, 4, 4]. alignment: "none", "4dof" (translation and yaw about `up`), "se3"
-    or "sim3" (and one scale). Raises NoSolutionError if no stamps match.
+    Args:
+        estimate, reference: two Trajectory, matched by their stamps, or two arrays [N, 4, 4] [m].
+        alignment: "none", "4dof" (translation and yaw about `up`), "se3" or "sim3" (and one scale).
+        up: [3] the vertical of both worlds, for "4dof".
+        max_difference: of matched stamps [s].
+
+    Raises:
+        NoSolutionError: no stamps match.
     """
     est, ref = _matched(estimate, reference, max_difference)
     return _core.ate(est, ref, alignment, array("up", up, (3,)))
@@ -41,8 +46,14 @@ def rpe(
     all_pairs: bool = False,
     max_difference: float = 0.01,
 ) -> RpeResult:
-    """Relative pose error of steps of `delta` frames, or metres of the estimated path. The
-    trajectories are those of ate(). all_pairs: overlapping steps from every pose."""
+    """Relative pose error.
+
+    Args:
+        estimate, reference, max_difference: as of ate().
+        delta: length of a step, in `unit`.
+        unit: "frames", or "metres" of the estimated path.
+        all_pairs: overlapping steps from every pose.
+    """
     est, ref = _matched(estimate, reference, max_difference)
     return _core.rpe(est, ref, delta, unit, all_pairs)
 

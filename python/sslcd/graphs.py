@@ -40,9 +40,16 @@ def solve_graph(
 ) -> GraphSolution:
     """Moves the vertices to the minimum of chi2.
 
-    dof: of a pose: 6, 4 (translation and yaw about `up`) or 3 (4 with fixed height); None: 3 if the
-    graph is planar, else 6. start: "given", "chordal", or "auto": the better one. robust: refuse
-    loops that contradict the others. Raises NoSolutionError for a malformed graph.
+    Args:
+        graph: is not changed.
+        dof: of a pose: 6, 4 (translation and yaw about `up`) or 3 (4 with fixed height); None: 3 if
+            the graph is planar, else 6.
+        up: [3] the world's vertical.
+        start: "given", "chordal", or "auto": the better one.
+        robust: refuse loops that contradict the others.
+
+    Raises:
+        NoSolutionError: the graph is malformed.
     """
     checked("graph", graph, PoseGraph)
     freedom = dof if dof is not None else 3 if graph.planar else 6

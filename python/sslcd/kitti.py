@@ -14,8 +14,10 @@ def kitti_cuboids(
 ) -> Tuple[np.ndarray, np.ndarray]:
     """Poses [N, 4, 4] and dims [N, 3] for Mapper.add_frame from columns of KITTI's labels.
 
-    locations: [N, 3] centres of the bottom faces in the camera [m]. rotations_y: [N] about the
-    camera's y axis; 0: the length points along x [rad]. dims_hwl: [N, 3] height, width, length [m].
+    Args:
+        locations: [N, 3] centres of the bottom faces in the camera [m].
+        rotations_y: [N] about the camera's y axis; 0: the length points along x [rad].
+        dims_hwl: [N, 3] height, width, length [m].
     """
     bottom = per_detection("locations", locations, len(np.atleast_1d(locations)), (3,))
     turn = per_detection("rotations_y", rotations_y, len(bottom), ())

@@ -122,10 +122,13 @@ PlaceMatcher = Callable[[PlaceQuery], Optional[PlaceAnswer]]
 
 def match(local: Layout, global_: Layout, options: Optional[Options] = None) -> MatchResult:
     """Searches the pose of the local layout in the global one and decides whether to accept it.
-    Objects whose position is not finite are ignored. Deterministic.
 
-    options: nested dict with the keys of `loop.match` of a run and of `decision`, e.g. {"loop":
-    {"match": {"reach_m": 3}}, "decision": {"min_margin": 2}}.
+    Deterministic. Objects whose position is not finite are ignored.
+
+    Args:
+        local, global_: gravity-aligned layouts [m].
+        options: nested dict with the keys of `loop.match` of a run and of `decision`, e.g.
+            {"loop": {"match": {"reach_m": 3}}, "decision": {"min_margin": 2}}.
     """
     maps = checked("local", local, Layout), checked("global_", global_, Layout)
     return _core.match(*maps, settings(options))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The streaming interface: frames in, map of objects and corrected trajectory out."""
 
+import atexit
+import weakref
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
 import numpy as np
@@ -57,12 +59,19 @@ class Mapper:
     The world is the odometry's frame with metric scale; the first camera keeps its odometry pose.
     Long calls run without the GIL. Threads may share a mapper: their calls take turns.
 
-    options: nested dict with the keys of docs/configuration.md. Raises BadConfigError with all
-    problems at once. labels: symmetry of each class about the vertical: "none" (front and back
-    differ, as of a car), "pi" (they are equal, or not told apart) or "full" (no heading, as of a
-    tree). Classes that are not named have "none". up: [3] the up direction in the odometry's world.
-    KITTI cameras: (0, -1, 0); VINS worlds: (0, 0, 1). camera: projects cuboids, to compare them
-    with 2D boxes; None: boxes are not used.
+    Args:
+        options: nested dict with the keys of docs/configuration.md.
+        labels: symmetry of each class about the vertical: "none" (front and back differ, as of a
+            car), "pi" (they are equal, or not told apart) or "full" (no heading, as of a tree).
+            Classes that are not named have "none".
+        up: [3] the up direction in the odometry's world. KITTI cameras: (0, -1, 0); VINS worlds:
+            (0, 0, 1).
+        camera: projects cuboids, to compare them with 2D boxes; None: boxes are not used.
+        place_matcher: a function that replaces sslcd's search for places (PlaceQuery). Its
+            exceptions come out of the call that runs it.
+
+    Raises:
+        BadConfigError: with all problems of the options at once.
     """
 
     def __init__(
@@ -95,14 +104,26 @@ class Mapper:
     ) -> FrameReport:
         """Adds the next frame in order of time, with N detections.
 
-        stamp: [s]. T_odom_cam: [4, 4] pose of the camera by odometry [m]. labels: N texts. poses:
-        [N, 4, 4] T_cam_object of the cuboids' centres [m]. dims: [N, 3] length, width, height [m].
-        scores: [N] in [0, 1]. embeddings, colours: [N, D]. boxes: [N, 4] left, top, right, bottom
-        [px]. index: number of the frame; None: one more than the last. step: see Frame.
+        Args:
+            stamp: [s].
+            T_odom_cam: [4, 4] pose of the camera by odometry [m].
+            labels: N class names.
+            poses: [N, 4, 4] T_cam_object: centre of the cuboid, x along its length, y to its left,
+                z up; axes of the camera: x right, y down, z forward [m].
+            dims: [N, 3] length, width, height [m].
+            scores: [N] probabilities in [0, 1]; None: all 1.
+            embeddings: [N, D] of a re-identification network; a row of zeros: none.
+            colours: [N, D] colour vectors; a row of zeros: none.
+            index: number of the frame; None: one more than the last.
+            step: of the step from the frame before: None, "lost" (tracking failed), or standard
+                deviations of its translation and rotation [m, rad].
+            boxes: [N, 4] left, top, right, bottom [px]; a row without area or with NaN: none.
 
-        Raises BadInputError, and keeps the state, if number or stamp does not increase or a pose is
-        not finite or no rigid transform; UsageError for arrays of other shapes. Detections with
-        values that are not finite are counted in `report.filter.invalid`.
+        Raises:
+            BadInputError: number or stamp does not increase, or a pose is not finite or no rigid
+                transform; the mapper keeps its state. Detections with values that are not finite
+                are no error: `report.filter.invalid` counts them.
+            UsageError: arrays of other shapes.
         """
         number = self._next_index if index is None else index
         return self.add(
@@ -208,6 +229,16 @@ def _wrap(core: Any, next_index: int) -> Mapper:
     return mapper
 
 
+# A thread that is in a place matcher must not outlive the interpreter.
+_running: "weakref.WeakSet[AsyncMapper]" = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all() -> None:
+    for mapper in list(_running):
+        mapper.close()
+
+
 class AsyncMapper:
     """A Mapper on a thread of its own, for hosts that must not wait. Calls return at once but for
     wait() and snapshot(). All are thread-safe. `with AsyncMapper(...) as mapper:` closes it at the
@@ -231,6 +262,7 @@ class AsyncMapper:
         given = context(labels, up, camera, place_matcher)
         most = int(array("most_waiting", most_waiting, (), np.int32))
         self._core = _core.AsyncMapper(settings(options), given, most)
+        _running.add(self)
         self._next_index = 0
 
     def add_frame(

@@ -34,11 +34,14 @@ def draw(
     up: ArrayLike = (0.0, -1.0, 0.0),
     axes: Optional[Axes] = None,
 ) -> Axes:
-    """Draws the path, the confirmed objects and the accepted loops, seen from above.
+    """Draws the path, the confirmed objects and the accepted loops, seen from above. [m]
 
-    up: [3] the up direction in the world of the trajectory. axes: where to draw; None: a new
-    figure. Lengths are in metres. The odometry and the ground truth are drawn as they are:
-    sslcd.ate(...) has the transform that aligns them.
+    Args:
+        trajectory, objects, loops: of a Mapper or a RunResult.
+        odometry, groundtruth: are drawn as they are; sslcd.ate(...) has the transform that aligns
+            them.
+        up: [3] the up direction in the world of the trajectory.
+        axes: where to draw; None: a new figure.
     """
     axes = axes if axes is not None else pyplot.subplots()[1]
     ground = _core.gravity_axes(array("up", up, (3,)))[:, :2]  # columns forward, left

@@ -30,7 +30,11 @@ def write_rrd(
     """Writes a .rrd file: paths, confirmed objects as boxes, accepted loops as lines, and the
     camera at each frame on the timelines `frame` and `stamp`.
 
-    up: [3] the up direction in the world of the trajectory: one of its axes.
+    Args:
+        path: the file.
+        trajectory, objects, loops: of a Mapper or a RunResult.
+        odometry: is drawn as it is.
+        up: [3] the up direction in the world of the trajectory: one of its axes.
     """
     recording = rerun.RecordingStream("sslcd")
     recording.save(os.fspath(path))

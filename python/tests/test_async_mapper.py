@@ -106,16 +106,17 @@ def test_ctrl_c_interrupts_a_wait(drive):
     mapper.close()
 
 
-def test_an_interpreter_may_end_with_a_mapper_at_work():
-    script = (
-        "import sslcd; d = sslcd.load_dataset({!r}); m = sslcd.AsyncMapper(most_waiting=10**6)\n"
-        "for f in d: m.add(f)\n"
-        "m.refine(); print('end')"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script.format(str(DATA / "sim_rectangle"))],
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+@pytest.mark.parametrize("matcher", ["None", "lambda query: time.sleep(.001)"])
+def test_an_interpreter_may_end_with_a_mapper_at_work(matcher):
+    script = f"""
+import sslcd, time
+drive = sslcd.load_dataset({str(DATA / "sim_rectangle")!r})
+mapper = sslcd.AsyncMapper(place_matcher={matcher}, most_waiting=10**6)
+for frame in drive:
+    mapper.add(frame)
+mapper.refine()
+print("end")
+"""
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, "end\n", "")
