@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Does not run apt if
 # nothing is missing.
-#   scripts/install_deps.sh [build|vision|test|dev]
+#   scripts/install_deps.sh [build|python|vision|test|dev]
 #     build   the library and the tools; enough for scripts/demo.sh
+#     python  and what `pip install .` needs
 #     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
 #             cannot be had
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
@@ -18,6 +19,7 @@ build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libfl
 ros=(libroscpp-dev libnav-msgs-dev libstd-srvs-dev libtf2-msgs-dev libvisualization-msgs-dev
      python3-roslaunch rosout python3-rospy python3-nav-msgs python3-tf2-msgs
      python3-visualization-msgs)
+python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
       libembree-dev python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
@@ -25,10 +27,11 @@ dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 what=${1:-test}
 case "$what" in
   build) wanted=("${build[@]}") ;;
+  python) wanted=("${build[@]}" "${python[@]}") ;;
   vision) wanted=("${build[@]}" python3) ;;
   test) wanted=("${build[@]}" "${test[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${dev[@]}") ;;
-  *) echo "usage: scripts/install_deps.sh [build|vision|test|dev]" >&2; exit 2 ;;
+  *) echo "usage: scripts/install_deps.sh [build|python|vision|test|dev]" >&2; exit 2 ;;
 esac
 
 # Debian 13 has no clang 14, and some releases have no ROS 1: the checks that need them are skipped
@@ -46,7 +49,7 @@ for package in "${wanted[@]}"; do
   if in_this_release "$package"; then needed=1; fi
 done
 models=0
-if [[ $what != build ]] && ! "$(dirname "$0")/install_onnxruntime.sh" --is-there; then models=1; fi
+if [[ $what != build && $what != python ]] && ! "$(dirname "$0")/install_onnxruntime.sh" --is-there; then models=1; fi
 if ((!needed && !models)); then
   echo "dependencies: all there"
   exit 0

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the Python wheel in a clean virtual environment, makes it portable with auditwheel, installs
-# that into another one with all extras, and runs its tests. Needs PyPI.
+# Builds the Python wheel in a clean virtual environment, makes it portable with auditwheel,
+# installs that into another one with all extras, and runs its tests. Needs PyPI.
 #   scripts/wheel.sh [OUT]      OUT: folder of the wheels (default build/wheel)
 # SSLCD_RUN: the program sslcd_run, to compare with (default build/release/apps/sslcd_run).
 set -euo pipefail

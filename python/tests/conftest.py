@@ -2,6 +2,7 @@
 """What the tests share: data of tests/data, the program sslcd_run, real data where there is any."""
 
 import os
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -36,6 +37,14 @@ def sslcd_run():
     if not program:
         pytest.skip("SSLCD_RUN does not name the program sslcd_run")
     return program
+
+
+@pytest.fixture
+def ctrl_c():
+    """Lets SIGINT interrupt, also where the tests run in the background and ignore it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture

@@ -92,7 +92,7 @@ def test_bad_queues_and_options():
             sslcd.AsyncMapper(most_waiting=most)
 
 
-def test_ctrl_c_interrupts_a_wait(drive):
+def test_ctrl_c_interrupts_a_wait(drive, ctrl_c):
     mapper = mapper_for(drive, kind=sslcd.AsyncMapper, most_waiting=10**6)
     for frame in drive:
         mapper.add(frame)

@@ -36,6 +36,9 @@ def test_a_bag_is_the_drive(tmp_path, drive, name, plugin):
     classes = record(tmp_path / name, drive, plugin, T_BASE_CAM)
     options = {"labels": drive.labels, "up": drive.up, "class_names": classes}
     mapped = map_bag(tmp_path / name, "/odom", "/detections", **options)
+    if plugin == StoragePlugin.MCAP:
+        alone = map_bag(tmp_path / name / f"{name}.mcap", "/odom", "/detections", **options)
+        assert np.array_equal(alone.path.poses, mapped.path.poses)
     expected = by_arrays(drive)
     assert mapped.drops == "" and (mapped.odom_frame, mapped.base_frame) == ("odom", "base_link")
     assert len(mapped.loops) == sum(each.accepted for each in expected.loops) > 3

@@ -98,7 +98,7 @@ def test_options_and_progress(drive):
         sslcd.run(drive, {"loops": {}})
 
 
-def test_ctrl_c_ends_a_run(drive):
+def test_ctrl_c_ends_a_run(drive, ctrl_c):
     def interrupts(done, total):
         import _thread
 

@@ -65,9 +65,9 @@ def fails(query):
     [
         (fails, ZeroDivisionError, "in the matcher"),
         (lambda query: 5, sslcd.UsageError, "returned 5, expected a sslcd.PlaceAnswer"),
-        (lambda query: sslcd.PlaceAnswer([[0, 10**6]], accepted=True), sslcd.UsageError, ""),
+        (lambda query: sslcd.PlaceAnswer([[0, 10**6]], accepted=True), sslcd.UsageError, None),
         (lambda query: sslcd.PlaceAnswer([1, 2]), sslcd.UsageError, "matches has the shape"),
-        (lambda query: sslcd.PlaceAnswer(match_frame=10**6), sslcd.UsageError, ""),
+        (lambda query: sslcd.PlaceAnswer(match_frame=10**6), sslcd.UsageError, None),
         (
             lambda query: sslcd.PlaceAnswer(T_match_query=np.ones((4, 4))),
             sslcd.BadInputError,
