@@ -177,14 +177,9 @@ BridgeReport Bridge::Take() {
   BridgeReport report;
   report.frames = taken.frames;
   report.failure = taken.failure;
-  for (const LoopClosure& loop : taken.changes.loops) {
-    const LoopEdge edge = EdgeOf(loop);
-    if (edge.accepted || loops_.count(edge.id) > 0) report.loops.push_back(edge);
-    if (edge.accepted)
-      loops_[edge.id] = edge;
-    else
-      loops_.erase(edge.id);
-  }
+  std::vector<LoopEdge> changed;
+  for (const LoopClosure& loop : taken.changes.loops) changed.push_back(EdgeOf(loop));
+  report.loops = Update(changed, loops_);
   const std::vector<FramePose>& poses = taken.changes.poses;
   if (poses.empty()) return report;
   report.path_changed = true;

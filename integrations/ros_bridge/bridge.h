@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ros_bridge/drops.h"
+#include "ros_bridge/loop_edges.h"
 #include "ros_bridge/messages.h"
 #include "ros_bridge/pose_buffer.h"
 #include "ros_bridge/static_transforms.h"
@@ -44,15 +45,6 @@ struct PathPose {
   int frame = 0;  ///< increases, also over sequences
   Stamp stamp = 0;
   Pose T_map_base;
-};
-
-/// A loop between two poses of the path, for a pose graph.
-struct LoopEdge {
-  int id = 0;                            ///< LoopClosure::id
-  bool accepted = false;                 ///< false: it is taken back, or was never accepted
-  int match_frame = 0, query_frame = 0;  ///< PathPose::frame
-  Stamp match = 0, query = 0;            ///< stamps of these
-  RelativePose measured;                 ///< T_match_query of the base, metric
 };
 
 /// What is new.
