@@ -22,6 +22,7 @@ try:
     import rospy
     from geometry_msgs.msg import TransformStamped
     from nav_msgs.msg import Odometry, Path
+    from std_srvs.srv import Empty
     from tf2_msgs.msg import TFMessage
     from visualization_msgs.msg import Marker, MarkerArray
     import robot
@@ -167,6 +168,12 @@ def check_drive(drive):
     cubes = [m for m in drive.markers if m.type == Marker.CUBE and m.action == Marker.ADD]
     print(f'{len(cubes)} objects')
     assert 30 < len(cubes) < 200 and {m.ns for m in cubes} <= set(robot.LABELS)
+    drive.path = []
+    rospy.ServiceProxy('/sslcd/refine', Empty)()
+    wait_until('a refined path', lambda: len(drive.path) == made, 10)
+    refined = robot.ate(drive.path, [drive.truth[i] for i in index])
+    print(f'refined: ATE {refined:.2f} m')
+    assert refined < after
     return made
 
 
@@ -203,6 +210,7 @@ def test(program, folder, work, started):
     time.sleep(0.5)  # detections of the new time that come before its odometry are out of order
     drive.play(range(1, 21), hz=50)
     wait_until('a second sequence', lambda: len(drive.path) == made + 20, 10)
+    rospy.ServiceProxy('/sslcd/start_sequence', Empty)()
     roscore.terminate()
     roscore.wait(20)
     assert node.poll() is None, 'the node ends with its roscore'
