@@ -9,6 +9,7 @@ namespace py = pybind11;
 
 /// Each adds its classes and functions to the module. python/sslcd wraps and documents them.
 void BindAsyncMapper(py::module_& module);
+void BindColour(py::module_& module);
 void BindConfiguration(py::module_& module);
 void BindDatasets(py::module_& module);
 void BindEvaluation(py::module_& module);

@@ -53,6 +53,7 @@ PYBIND11_MODULE(_core, module) {
   pybind11::register_exception_translator(Translate);
   module.attr("__version__") = SSLCD_VERSION;
   BindAsyncMapper(module);
+  BindColour(module);
   BindConfiguration(module);
   BindDatasets(module);
   BindEvaluation(module);

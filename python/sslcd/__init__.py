@@ -7,6 +7,7 @@ docs/conventions.md the conventions.
 """
 
 from . import _core
+from .colours import colour_vectors
 from .datasets import Dataset, RunResult, load_dataset, run
 from .errors import BadConfigError, BadInputError, Error, NoSolutionError, OutputError, UsageError
 from .evaluation import ate, rpe
@@ -77,6 +78,7 @@ __all__ = [
     "Trajectory",
     "UsageError",
     "ate",
+    "colour_vectors",
     "complete_options",
     "default_options",
     "kitti_cuboids",
