@@ -82,8 +82,11 @@ ros_bridge::TransformMessage FromRos(const geometry_msgs::TransformStamped& mess
 }
 
 std_msgs::Header HeaderOf(ros_bridge::Stamp stamp, const std::string& frame) {
+  // ros::Time throws beyond its range
+  const ros_bridge::Stamp latest = static_cast<ros_bridge::Stamp>(ros::TIME_MAX.toNSec());
   std_msgs::Header header;
-  header.stamp.fromNSec(static_cast<std::uint64_t>(std::max<ros_bridge::Stamp>(stamp, 0)));
+  header.stamp.fromNSec(
+      static_cast<std::uint64_t>(std::clamp<ros_bridge::Stamp>(stamp, 0, latest)));
   header.frame_id = frame;
   return header;
 }

@@ -2,6 +2,7 @@
 #include "parameters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -10,6 +11,8 @@
 
 namespace sslcd::ros1 {
 namespace {
+
+constexpr double kMostAhead_s = 10;
 
 // Reads parameters one by one and remembers what is wrong.
 class Reader {
@@ -95,6 +98,9 @@ Parameters ReadParameters(const ros::NodeHandle& node) {
   reader.Read("publish_tf", parameters.publish_tf);
   reader.Read("tf_ahead_s", parameters.tf_ahead_s);
   reader.Read("map_every_s", parameters.map_every_s);
+  if (!(std::abs(parameters.tf_ahead_s) <= kMostAhead_s))
+    reader.AddProblem("~tf_ahead_s must be a few seconds at most");
+  if (!(parameters.map_every_s >= 0)) reader.AddProblem("~map_every_s must be at least 0");
   ReadLabels(reader, parameters);
   std::string config;
   if (reader.Read("config", config) && !config.empty())

@@ -55,7 +55,7 @@ class Drive:
         self.stamps, self.odometry = robot.read_bases(os.path.join(folder, 'odometry.txt'))
         self.truth = robot.read_bases(os.path.join(folder, 'groundtruth.txt'))[1]
         self.objects = robot.read_detections(folder)
-        self.path, self.markers, self.correction = [], [], None
+        self.path, self.path_stamps, self.markers, self.correction = [], [], [], None
         rospy.Subscriber('/sslcd/path', Path, self.on_path)
         rospy.Subscriber('/sslcd/map', MarkerArray, self.on_map)
         rospy.Subscriber('/tf', TFMessage, self.on_tf)
@@ -83,6 +83,7 @@ class Drive:
                                robot.rotation([q.x, q.y, q.z, q.w]))
 
     def on_path(self, message):
+        self.path_stamps = [p.header.stamp.to_sec() - START for p in message.poses]
         self.path = [self.matrix(p.pose.position, p.pose.orientation) for p in message.poses]
 
     def on_map(self, message):
@@ -159,6 +160,7 @@ def check_drive(drive):
     before = robot.ate([drive.odometry[i] for i in index], [drive.truth[i] for i in index])
     after = robot.ate(drive.path, [drive.truth[i] for i in index])
     print(f'ATE {after:.2f} m, of the odometry {before:.2f} m')
+    assert np.allclose(drive.path_stamps, [drive.stamps[i] for i in index], rtol=0, atol=1e-5)
     assert after < 0.6 * before
     wait_until('the correction that belongs to the path', lambda: np.abs(
         drive.correction @ drive.odometry[-1] - drive.path[-1]).max() < 1e-6, 3)
@@ -179,12 +181,13 @@ def check_drive(drive):
 
 def check_wrong_parameters(program):
     run = subprocess.run([program, '__name:=wrong', '_labelz:=Car', '_max_gap_s:=-1',
-                          '_map_every_s:=often', '_symmetries:=none,round'],
+                          '_map_every_s:=often', '_tf_ahead_s:=1e9', '_symmetries:=none,round'],
                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=20,
                          check=False)
     assert run.returncode == 2, run.stdout
     for problem in ('unknown parameter ~labelz', '~labels is missing', '~max_gap_s is -1',
-                    '~map_every_s has another type', '~symmetries is longer than ~labels'):
+                    '~map_every_s has another type', '~tf_ahead_s must',
+                    '~symmetries is longer than ~labels'):
         assert problem in run.stdout, run.stdout
 
 
@@ -210,6 +213,10 @@ def test(program, folder, work, started):
     time.sleep(0.5)  # detections of the new time that come before its odometry are out of order
     drive.play(range(1, 21), hz=50)
     wait_until('a second sequence', lambda: len(drive.path) == made + 20, 10)
+    late = drive.odometry_of(20)
+    late.header.stamp = rospy.Time(2**32 - 1, 999999999)  # map to odom would be stamped later still
+    drive.odom.publish(late)
+    time.sleep(0.5)
     rospy.ServiceProxy('/sslcd/start_sequence', Empty)()
     roscore.terminate()
     roscore.wait(20)
