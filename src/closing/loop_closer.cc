@@ -61,14 +61,13 @@ void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing)
   LookBack(state, scale, timing);
 }
 
-void LoopCloser::Finish(MapState& state, double scale, TimingTable& timing) {
+void LoopCloser::SearchAtEnd(MapState& state, double scale, TimingTable& timing) {
   if (state.frames.empty()) return;
   const LoopLayoutOptions& o = options_.layout;
   const double end_m = state.frames.back().travelled;
   for (double lag_m = options_.lag_m - o.every_m; lag_m > 0; lag_m -= o.every_m)
     if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
       SearchAndCorrect(state, {end_m, lag_m, o.local_m, options_.lag_m}, scale, timing);
-  if (ledger_.AnyAccepted() && SearchesTwice()) SearchAgain(state, scale, timing);
 }
 
 bool LoopCloser::SearchesTwice() const {
@@ -83,6 +82,7 @@ SearchWindow LoopCloser::SecondWindow(int place) const {
 }
 
 void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing) {
+  if (!ledger_.AnyAccepted() || !SearchesTwice()) return;
   second_.finder->Reset();
   const int without_candidate = without_candidate_;
   for (int place = 0;; ++place) {

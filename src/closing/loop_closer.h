@@ -30,11 +30,13 @@ class LoopCloser {
   /// trajectory and map. `scale` is metres per odometry metre.
   void AddKeyframe(MapState& state, double scale, TimingTable& timing);
 
-  /// Searches after the last frame: from the latest cameras, whose local maps are complete now, and
-  /// then a second time along the whole run. The first loops have corrected the trajectory, so the
-  /// prior is narrow and few objects suffice. AddKeyframe makes such
-  /// searches, too, near the loops that it finds (LoopLayoutOptions::look_back).
-  void Finish(MapState& state, double scale, TimingTable& timing);
+  /// Searches a second time along the whole run. The first loops have corrected the trajectory, so
+  /// the prior is narrow and few objects suffice. AddKeyframe makes such searches, too, near the
+  /// loops that it finds (LoopLayoutOptions::look_back).
+  void SearchAgain(MapState& state, double scale, TimingTable& timing);
+
+  /// Searches after the last frame from the latest cameras, whose local maps are complete now.
+  void SearchAtEnd(MapState& state, double scale, TimingTable& timing);
 
   /// Reviews the loops after the refinement, see ReviewLoops. True: a loop that has fused landmarks
   /// was withdrawn, so they were split, and the map needs another refinement.
@@ -60,7 +62,6 @@ class LoopCloser {
   void LearnOdometry(const MapState& state, double scale);
   bool Search(const MapState& state, const SearchWindow& window);
   bool SearchesTwice() const;
-  void SearchAgain(MapState& state, double scale, TimingTable& timing);
   void LookBack(MapState& state, double scale, TimingTable& timing);
   void LookBackNear(const FrameStore& frames, double path_m);
   SearchWindow SecondWindow(int place) const;

@@ -54,6 +54,7 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
   }
   LoopGraph graph =
       BuildLoopGraph(state.frames, edges, scale, state.gravity().up, options, factors);
+  UseRefinedSteps(state.frames, graph);
   if (!SolveGraph(graph, loops, options)) return false;
   const std::vector<Pose> before = PosesOf(state.frames);
   MoveKeyframes(state.frames, graph.keyframes, PosesOf(graph.graph));

@@ -9,6 +9,15 @@
 
 namespace sslcd {
 
+void UseRefinedSteps(const FrameStore& frames, LoopGraph& graph) {
+  for (std::size_t k = 0; k < graph.first_loop; ++k) {
+    PoseGraph::Edge& step = graph.graph.edges[k];
+    const std::optional<Pose>&from = frames[step.from].T_refined_cam,
+          &to = frames[step.to].T_refined_cam;
+    if (from && to) step.T_from_to = from->inverse() * *to;
+  }
+}
+
 LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,
                          const Vec3& up, const LoopOptions& options,
                          const OdometryFactors& factors) {

@@ -37,4 +37,8 @@ LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& 
                          const Vec3& up, const LoopOptions& options,
                          const OdometryFactors& factors);
 
+/// Replaces the steps between refined frames by those of the refinement, which knows more than
+/// odometry and loops: a later loop bends them, but does not undo them.
+void UseRefinedSteps(const FrameStore& frames, LoopGraph& graph);
+
 }  // namespace sslcd

@@ -90,6 +90,10 @@ bool IsLost(const FrameStore& frames, int index) {
   return index > 0 && FailuresBetween(frames, index - 1, index).lost > 0;
 }
 
+void FrameStore::MarkRefined() {
+  for (FrameRecord& frame : frames_) frame.T_refined_cam = frame.T_world_cam;
+}
+
 void FrameStore::SetPose(int index, const Pose& T_world_cam) {
   frames_[index].T_world_cam = T_world_cam;
   Changed(index);

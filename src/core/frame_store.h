@@ -30,6 +30,7 @@ struct FrameRecord {
   Pose T_input_cam;                   ///< as odometry gave it
   Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
   Pose T_world_cam;                   ///< the current estimate
+  std::optional<Pose> T_refined_cam;  ///< after the last refinement; none: came later
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors
   std::vector<LandmarkId> matched;    ///< landmark of each detection; value -1: none
 };
@@ -61,6 +62,8 @@ class FrameStore {
   std::vector<FrameRecord>::const_iterator end() const { return frames_.end(); }
 
   void SetPose(int index, const Pose& T_world_cam);
+  /// Remembers the current poses as refined ones.
+  void MarkRefined();
   /// Sets the landmarks of a frame's detections. Does not change the revision: readers that store
   /// landmarks are notified of merged ids.
   void SetMatched(int index, std::vector<LandmarkId> matched);

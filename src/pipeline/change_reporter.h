@@ -10,14 +10,12 @@ namespace sslcd {
 /// Remembers what a host has been told of a mapper's results. Copyable.
 class ChangeReporter {
  public:
-  /// What has changed since the call before. `result` is the optimised state, or a copy of it of
-  /// which parts are the odometry (`is_copy`): all poses are new wherever one follows the other.
-  MapChanges Take(const MapState& result, bool is_copy, const LoopLedger& ledger);
+  /// What has changed since the call before.
+  MapChanges Take(const MapState& state, const LoopLedger& ledger);
 
  private:
   LoopChanges loops_;
   FrameStore::Revision revision_ = 0;
-  bool was_copy_ = false;
 };
 
 }  // namespace sslcd

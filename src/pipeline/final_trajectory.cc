@@ -17,32 +17,31 @@ constexpr double kLevel = 0.1;
 
 }  // namespace
 
-FinalTrajectory ChooseTrajectory(const MapState& state, double log_scale,
-                                 const LoopEvidence& evidence, const WholeMapOptions& options,
-                                 const LoopLedger& loops, const OdometryNoise& noise) {
+ImprovementProbability ChooseTrajectory(MapState& state, double& log_scale,
+                                        const LoopEvidence& evidence,
+                                        const WholeMapOptions& options, const LoopLedger& loops,
+                                        const OdometryNoise& noise) {
   const double least = options.refine.least_probability;
-  FinalTrajectory result;
-  if (least <= 0) return result;
+  ImprovementProbability improvement;
+  if (least <= 0) return improvement;
   const Vec3 up = state.gravity().up;
   KeptOdometry kept{true, true, {}};
   std::vector<Pose> odometry;
   for (const FrameRecord& frame : state.frames) odometry.push_back(frame.T_input_cam);
   if (MayBeUp(up, odometry)) {
-    result.improvement = ProbabilityOfImprovement(state, log_scale, evidence, options);
-    kept.horizontal = result.improvement.horizontal < least;
+    improvement = ProbabilityOfImprovement(state, log_scale, evidence, options);
+    kept.horizontal = improvement.horizontal < least;
     if (LargestTiltFactor(state.frames, up, noise) < kLevel) {
       HeightCorrection heights = HeightsByLoops(state.frames, loops, evidence.view_ties, up);
-      result.improvement.height = heights.probability;
+      improvement.height = heights.probability;
       if (heights.probability >= least) kept.rise_m = std::move(heights.rise_m);
     } else {
-      kept.height = result.improvement.height < least;
+      kept.height = improvement.height < least;
     }
   }
-  result.keeps_horizontal = kept.horizontal;
-  if (!kept.horizontal && !kept.height) return result;
-  result.state = state;
-  KeepOdometry(kept, *result.state, options.noise);
-  return result;
+  if (kept.horizontal) log_scale = 0;
+  if (kept.horizontal || kept.height) KeepOdometry(kept, state, options.noise);
+  return improvement;
 }
 
 }  // namespace sslcd

@@ -77,7 +77,6 @@ struct SSLCD_HIDDEN Mapper::Impl {
 
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
-  const MapState& best() const { return final_trajectory.state ? *final_trajectory.state : state; }
   void StampAndStep(const Frame& frame, FrameRecord& record, std::optional<StepUncertainty>& step);
   void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
   BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
@@ -89,9 +88,9 @@ struct SSLCD_HIDDEN Mapper::Impl {
   SlidingWindow window;
   LoopCloser loops;
   double log_scale = 0;
-  double refined_log_scale = 0;  // result of the last full-map optimisation
+  double refined_log_scale = 0;  // result of the last refinement
   std::vector<ViewTie> view_ties;
-  FinalTrajectory final_trajectory;  // of the last refinement, until the next frame
+  ImprovementProbability improvement;  // by the last refinement, until the next frame
   ChangeReporter reporter;
   bool starts_sequence = false;  // with the next frame
   double stamp_shift = 0;        // from the stamps of this sequence to those of the store [s]
@@ -106,17 +105,15 @@ Mapper& Mapper::operator=(const Mapper& other) { return *this = Mapper(other); }
 Mapper::Mapper(Mapper&&) noexcept = default;
 Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
-double Mapper::scale() const {
-  return impl_->final_trajectory.keeps_horizontal ? 1 : impl_->scale();
-}
-ImprovementProbability Mapper::improvement() const { return impl_->final_trajectory.improvement; }
+double Mapper::scale() const { return impl_->scale(); }
+ImprovementProbability Mapper::improvement() const { return impl_->improvement; }
 const GravityFrame& Mapper::gravity() const { return impl_->state.map.gravity(); }
 NoiseScale Mapper::noise_scale() const { return impl_->state.map.noise_scale(); }
 const std::vector<ViewTie>& Mapper::view_ties() const { return impl_->view_ties; }
 TimingTable& Mapper::timing() { return impl_->timing; }
 std::vector<LoopClosure> Mapper::LoopClosures() const { return impl_->loops.ledger().Rows(); }
 std::optional<LandmarkId> Mapper::Current(LandmarkId id) const {
-  return impl_->best().map.Current(id);
+  return impl_->state.map.Current(id);
 }
 void Mapper::StartSequence() { impl_->starts_sequence = true; }
 
@@ -136,7 +133,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   Impl& m = *impl_;
   FrameStore& frames = m.state.frames;
   CheckFrame(frame, frames, m.starts_sequence);
-  m.final_trajectory = {};
+  m.improvement = {};
   FrameReport report;
   const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
   const Pose T_world_cam =
@@ -176,8 +173,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
 
 MapChanges Mapper::TakeChanges() {
   Impl& m = *impl_;
-  MapChanges changes =
-      m.reporter.Take(m.best(), m.final_trajectory.state.has_value(), m.loops.ledger());
+  MapChanges changes = m.reporter.Take(m.state, m.loops.ledger());
   changes.scale = scale();
   return changes;
 }
@@ -222,13 +218,16 @@ BaSummary Mapper::Impl::Adjust(WholeMapOptions& whole_map, LoopEvidence& evidenc
   }
 }
 
-BaSummary Mapper::Refine() {
+BaSummary Mapper::Refine(Refinement when) {
   Impl& m = *impl_;
   const LoopOptions& loop = m.options.loop;
   WholeMapOptions whole_map = WholeMap(m.options);
   LoopEvidence evidence;
   if (m.state.frames.empty()) return {};
-  if (loop.enabled) m.loops.Finish(m.state, m.scale(), m.timing);
+  if (loop.enabled) {
+    if (when == Refinement::kAtEnd) m.loops.SearchAtEnd(m.state, m.scale(), m.timing);
+    m.loops.SearchAgain(m.state, m.scale(), m.timing);
+  }
   m.LearnFromLoops(whole_map, evidence);
   m.view_ties.clear();
   BaSummary summary = m.Adjust(whole_map, evidence);
@@ -244,15 +243,17 @@ BaSummary Mapper::Refine() {
   }
   {
     const ScopedTimer timer(m.timing, "choice of trajectory");
-    m.final_trajectory = ChooseTrajectory(m.state, m.log_scale, evidence, whole_map,
-                                          m.loops.ledger(), loop.odometry);
+    m.improvement = ChooseTrajectory(m.state, m.log_scale, evidence, whole_map, m.loops.ledger(),
+                                     loop.odometry);
   }
+  m.refined_log_scale = m.log_scale;
+  m.state.frames.MarkRefined();
   return summary;
 }
 
 Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;
-  for (const FrameRecord& record : impl_->best().frames) {
+  for (const FrameRecord& record : impl_->state.frames) {
     trajectory.stamps.push_back(record.input_stamp);
     trajectory.poses.push_back(record.T_world_cam);
   }
@@ -261,7 +262,7 @@ Trajectory Mapper::CameraTrajectory() const {
 
 PoseGraph Mapper::Graph() const {
   PoseGraph graph;
-  const FrameStore& frames = impl_->best().frames;
+  const FrameStore& frames = impl_->state.frames;
   for (int i = 0; i < frames.size(); ++i) {
     graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
     if (i == 0) continue;
@@ -284,7 +285,7 @@ PoseGraph Mapper::Graph() const {
 
 std::vector<MapObject> Mapper::Objects() const {
   std::vector<MapObject> objects;
-  for (const auto& [id, landmark] : impl_->best().map.landmarks()) {
+  for (const auto& [id, landmark] : impl_->state.map.landmarks()) {
     MapObject object;
     object.id = landmark.id;
     object.label = landmark.label;

@@ -54,7 +54,10 @@ class LoopCloserDrive : public ::testing::Test {
   void Drive(int end = 2 * TwoPasses::kFrames + 46) {
     while (state_.frames.size() <= end) DriveFrame(*closer_, state_);
   }
-  void Finish() { closer_->Finish(state_, 1., timing_); }
+  void Finish() {
+    closer_->SearchAtEnd(state_, 1., timing_);
+    closer_->SearchAgain(state_, 1., timing_);
+  }
 
   // Enters an accepted loop between frames midway on both passes, `off` the truth.
   void Accept(int query, const Pose& off = {}) {

@@ -66,22 +66,20 @@ TEST(FinalTrajectory, IsTheOdometryInAWorldThatIsTurned) {
   EXPECT_EQ(result.improvement.horizontal, 0);
 }
 
-TEST(FinalTrajectory, IsNotWhatTheNextFrameContinues) {
+TEST(FinalTrajectory, IsWhatTheNextFrameContinues) {
   const Drives drives = WithPerfectOdometry();
-  const int last = static_cast<int>(drives.frames.size()) - 1;
   Mapper mapper({}, drives.Context());
   Trajectory odometry;
-  for (int i = 0; i <= last; ++i) {
-    if (i == last) {
-      mapper.Refine();
+  for (const Frame& frame : drives.frames) {
+    if (&frame == &drives.frames.back()) {
+      mapper.Refine(Refinement::kOnTheWay);
       EXPECT_LT(LargestChange(mapper.CameraTrajectory(), odometry), 1e-9);
       EXPECT_GT(mapper.Objects().size(), 20u);
     }
-    mapper.AddFrame(drives.frames[i]);
-    odometry.poses.push_back(drives.frames[i].T_odom_cam);
+    mapper.AddFrame(frame);
+    odometry.poses.push_back(frame.T_odom_cam);
   }
-  EXPECT_GT(LargestChange(mapper.CameraTrajectory(), odometry), 1e-6) << "the running estimate";
-  EXPECT_EQ(mapper.CameraTrajectory().size(), drives.frames.size());
+  EXPECT_LT(LargestChange(mapper.CameraTrajectory(), odometry), 0.02) << "of the last step alone";
   EXPECT_EQ(mapper.improvement().horizontal, 0) << "of no refinement any more";
 }
 

@@ -82,6 +82,12 @@ struct FrameReport {
   BaSummary window;       ///< sliding-window adjustment; not usable if none ran
 };
 
+/// Whether frames follow a refinement.
+enum class Refinement {
+  kAtEnd,     ///< none: the latest cameras search for loops, too, with what they have seen so far
+  kOnTheWay,  ///< some
+};
+
 /// The streaming interface: takes frames and builds a map of objects and a corrected trajectory
 /// (paper III). The world is the odometry's frame with metric scale; the first camera keeps its
 /// odometry pose. Use one mapper per sequence; it is not thread-safe.
@@ -116,9 +122,9 @@ class Mapper {
   /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
   /// With a ViewAligner it also aligns images of different passes and optimises again with these.
   /// Where the result is not surely better than the odometry, horizontally or in height, the
-  /// odometry stays (RefineOptions::least_probability); the next frame continues the optimised
-  /// trajectory all the same. May be called at any time and repeatedly.
-  BaSummary Refine();
+  /// odometry stays (RefineOptions::least_probability). Searches for loops a second time, since the
+  /// prior is narrow now. May be called at any time and repeatedly.
+  BaSummary Refine(Refinement when = Refinement::kAtEnd);
 
   const GravityFrame& gravity() const;
   NoiseScale noise_scale() const;          ///< learnt factors on the detector's noise
