@@ -15,13 +15,15 @@ class LoopChanges {
   /// O(1) if nothing has happened in the ledger, otherwise O(attempts).
   std::vector<LoopClosure> Take(const LoopLedger& ledger);
 
+  /// From now on tells a host that knows what `other` has told of another ledger. Attempts from
+  /// frame `first_new` on are all new, since their objects may be others. Accepted ones that
+  /// `ledger` does not have are told once more, as refused.
+  void TakeOver(const LoopChanges& other, const LoopLedger& ledger, int first_new);
+
  private:
-  struct Known {
-    LoopDecision decision;
-    Pose T_match_query;
-  };
-  std::unordered_map<int, Known> known_;  // by id
-  int revision_ = 0;                      // of the ledger
+  std::unordered_map<int, LoopClosure> known_;  // by id, without pairs
+  std::vector<LoopClosure> lost_;               // to be told
+  int revision_ = 0;                            // of the ledger
 };
 
 }  // namespace sslcd

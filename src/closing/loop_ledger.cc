@@ -29,20 +29,26 @@ LoopClosure LoopAttempt::Measured() const {
 }
 
 bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int newest_frame) {
+  const Key key = KeyOf(found.loop, newest_frame);
   const bool known =
       std::any_of(attempts_.begin(), attempts_.end(), [&](const LoopAttempt& attempt) {
-        const LoopMeasurement& loop = attempt.found.loop;
-        return loop.query == found.loop.query && loop.match == found.loop.match &&
-               loop.row.newest_frame == newest_frame;
+        return KeyOf(attempt.found.loop, attempt.row().newest_frame) == key;
       });
   if (known) return false;
   LoopAttempt& attempt = attempts_.emplace_back();
   attempt.found = found;
-  attempt.row().id = next_id_++;
+  const auto reserved = reserved_.find(key);
+  attempt.row().id = reserved != reserved_.end() ? reserved->second : next_id_++;
   attempt.row().newest_frame = newest_frame;
   ++revision_;
   attempt.window = window;
   return true;
+}
+
+void LoopLedger::ReserveIds(const LoopLedger& other) {
+  for (const LoopAttempt& attempt : other.attempts_)
+    reserved_[KeyOf(attempt.found.loop, attempt.row().newest_frame)] = attempt.row().id;
+  next_id_ = std::max(next_id_, other.next_id_);
 }
 
 void LoopLedger::AcceptNewest() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,6 +54,10 @@ class LoopLedger {
   /// confirmed attempts of its track.
   void AcceptNewest();
 
+  /// Of a ledger that this one was a copy of: new attempts that `other` has made, too, get its ids,
+  /// and others none that it has used.
+  void ReserveIds(const LoopLedger& other);
+
   /// Removes the attempts of the second search that were never accepted.
   void DropUnacceptedOfSecond();
 
@@ -81,7 +87,13 @@ class LoopLedger {
   std::vector<LoopClosure> Rows() const;
 
  private:
+  using Key = std::array<int, 3>;  // newest, query and match frame
+  static Key KeyOf(const LoopMeasurement& loop, int newest_frame) {
+    return {newest_frame, loop.query, loop.match};
+  }
+
   std::vector<LoopAttempt> attempts_;
+  std::map<Key, int> reserved_;  // ids
   int next_id_ = 0, revision_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <vector>
@@ -26,6 +27,9 @@ class LandmarkStore {
   /// Counts replaced sightings, and fused and restored landmarks. A change invalidates data that
   /// was computed from landmarks by id.
   int rewrites() const { return rewrites_; }
+
+  /// New landmarks get no id that `other` has used.
+  void ReserveIds(const LandmarkStore& other) { next_id_ = std::max(next_id_, other.next_id_); }
 
   /// Adds an existing landmark, e.g. of a loaded map. Returns its new id.
   LandmarkId Insert(MapLandmark landmark);

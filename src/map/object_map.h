@@ -41,6 +41,7 @@ class ObjectMap {
   const std::map<int, MapLandmark>& landmarks() const { return landmarks_.all(); }
   const MapLandmark& at(LandmarkId id) const { return landmarks_.at(id); }
   int rewrites() const { return landmarks_.rewrites(); }
+  void ReserveIds(const ObjectMap& other) { landmarks_.ReserveIds(other.landmarks_); }
   LandmarkId Insert(MapLandmark landmark) { return landmarks_.Insert(std::move(landmark)); }
   void Restore(MapLandmark landmark) { landmarks_.Restore(std::move(landmark)); }
   void SetPose(LandmarkId id, const UprightPose& pose) { landmarks_.SetPose(id, pose); }

@@ -7,12 +7,12 @@
 #include <deque>
 #include <exception>
 #include <functional>
-#include <iterator>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "pipeline/background_refinement.h"
 #include "pipeline/merge_changes.h"
 #include "sslcd/core/error.h"
 
@@ -29,13 +29,46 @@ Step Together(const Step& a, const Step& b) {
                          std::hypot(a->rotation_rad, b->rotation_rad)};
 }
 
+/// Tells when the next refinement is due.
+class RefinementPlan {
+ public:
+  explicit RefinementPlan(double every_m) : every_m_(every_m) {}
+
+  void Add(const Frame& frame, const std::vector<LoopClosure>& loops) {
+    if (before_) path_m_ += (frame.T_odom_cam.translation() - before_->translation()).norm();
+    before_ = frame.T_odom_cam;
+    for (const LoopClosure& loop : loops)
+      has_loop_ = has_loop_ || loop.decision == LoopDecision::kAccepted;
+  }
+  void StartSequence() { before_.reset(); }
+  bool IsDue() const { return every_m_ > 0 && has_loop_ && path_m_ >= every_m_; }
+  void Begin() {
+    path_m_ = 0;
+    has_loop_ = false;
+  }
+
+ private:
+  double every_m_, path_m_ = 0;  // since the last one began [m]
+  bool has_loop_ = false;
+  std::optional<Pose> before_;
+};
+
+double CheckedPath(double refine_every_m) {
+  if (refine_every_m >= 0) return refine_every_m;
+  throw Error(ErrorKind::kBadConfig, "refine_every_m is " + std::to_string(refine_every_m) +
+                                         ": give a path in metres, or 0 for none");
+}
+
 }  // namespace
 
 struct SSLCD_HIDDEN AsyncMapper::Impl {
-  using Job = std::function<void(Mapper&, AsyncReport&)>;
+  using Job = std::function<void(AsyncReport&)>;
 
-  Impl(const Options& options, const MapperContext& context, int most)
-      : mapper(options, context), most_waiting(most), thread([this] { Run(); }) {}
+  Impl(const Options& options, const MapperContext& context, int most, double refine_every_m)
+      : mapper(options, context),
+        plan(CheckedPath(refine_every_m)),
+        most_waiting(most),
+        thread([this] { Run(); }) {}
   ~Impl() {
     {
       const std::lock_guard lock(mutex);
@@ -47,7 +80,7 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
 
   // All below need the lock.
   bool HasFailed() const { return !report.failure.empty(); }
-  bool IsIdle() const { return jobs.empty() && !works; }
+  bool IsIdle() const { return jobs.empty() && !works && (!refines || HasFailed()); }
   void Push(Job job) {
     if (HasFailed()) return;
     jobs.push_back(std::move(job));
@@ -57,7 +90,16 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
   void Run();
   void Do(const Job& job);
 
-  Mapper mapper;  // of the thread alone
+  // Of the thread alone.
+  void AddFrame(const Frame& frame, AsyncReport& done);
+  void BeginRefinement(Refinement when);
+  void EndRefinement(AsyncReport& done);
+  Mapper mapper;
+  RefinementPlan plan;
+  bool starts_sequence = false;                                  // with the next frame
+  std::optional<Refinement> next_refinement;                     // after the one in work
+  std::vector<std::shared_ptr<std::promise<Mapper>>> snapshots;  // that wait for it
+
   const int most_waiting;
   std::mutex mutex;
   std::condition_variable changed;
@@ -65,7 +107,8 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
   AsyncReport report;
   Step dropped_step;  // over the frames dropped since the last one
   int waiting = 0;    // frames among the jobs
-  bool works = false, ends = false;
+  bool works = false, refines = false, ends = false;
+  std::unique_ptr<BackgroundRefinement> refinement;  // of the thread alone
   std::thread thread;  // the last member: it starts when all others are there
 };
 
@@ -90,15 +133,7 @@ void AsyncMapper::Impl::Run() {
 void AsyncMapper::Impl::Do(const Job& job) {
   AsyncReport done;
   try {
-    job(mapper, done);
-  } catch (const Error& error) {
-    // of a bad frame alone the mapper is as it was
-    if (error.kind() == ErrorKind::kBadInput) {
-      done.refused = 1;
-      done.refusal = error.what();
-    } else {
-      done.failure = error.what();
-    }
+    job(done);
   } catch (const std::exception& error) {
     done.failure = error.what();
   } catch (...) {
@@ -112,8 +147,51 @@ void AsyncMapper::Impl::Do(const Job& job) {
   if (!done.failure.empty()) report.failure = std::move(done.failure);
 }
 
-AsyncMapper::AsyncMapper(const Options& options, const MapperContext& context, int most_waiting)
-    : impl_(std::make_unique<Impl>(options, context, most_waiting)) {}
+void AsyncMapper::Impl::AddFrame(const Frame& frame, AsyncReport& done) {
+  try {
+    done.changes = mapper.AddFrame(frame).changes;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    done.refused = 1;  // the mapper is as it was
+    done.refusal = error.what();
+    return;
+  }
+  done.frames = 1;
+  if (refinement) refinement->Add({frame, starts_sequence});
+  starts_sequence = false;
+  plan.Add(frame, done.changes.loops);
+  if (plan.IsDue()) BeginRefinement(Refinement::kOnTheWay);
+}
+
+void AsyncMapper::Impl::BeginRefinement(Refinement when) {
+  if (refinement) {
+    if (next_refinement != Refinement::kAtEnd) next_refinement = when;
+    return;
+  }
+  plan.Begin();
+  {
+    const std::lock_guard lock(mutex);
+    refines = true;
+  }
+  refinement = std::make_unique<BackgroundRefinement>(mapper, when, [this] {
+    const std::lock_guard lock(mutex);
+    Push([this](AsyncReport& done) { EndRefinement(done); });
+  });
+}
+
+void AsyncMapper::Impl::EndRefinement(AsyncReport& done) {
+  const std::unique_ptr<BackgroundRefinement> ended = std::move(refinement);
+  ended->Replace(mapper);
+  done.changes = mapper.TakeChanges();
+  if (next_refinement) return BeginRefinement(*std::exchange(next_refinement, std::nullopt));
+  for (const auto& snapshot : std::exchange(snapshots, {})) snapshot->set_value(mapper);
+  const std::lock_guard lock(mutex);
+  refines = false;
+}
+
+AsyncMapper::AsyncMapper(const Options& options, const MapperContext& context, int most_waiting,
+                         double refine_every_m)
+    : impl_(std::make_unique<Impl>(options, context, most_waiting, refine_every_m)) {}
 AsyncMapper::~AsyncMapper() = default;
 
 bool AsyncMapper::AddFrame(Frame frame) {
@@ -127,13 +205,12 @@ bool AsyncMapper::AddFrame(Frame frame) {
   }
   m.dropped_step = {};
   ++m.waiting;
-  m.Push([&m, frame = std::move(frame)](Mapper& mapper, AsyncReport& done) {
+  m.Push([&m, frame = std::move(frame)](AsyncReport& done) {
     {
       const std::lock_guard taken(m.mutex);
       --m.waiting;
     }
-    done.changes = mapper.AddFrame(frame).changes;
-    done.frames = 1;
+    m.AddFrame(frame, done);
   });
   return true;
 }
@@ -141,21 +218,27 @@ bool AsyncMapper::AddFrame(Frame frame) {
 void AsyncMapper::StartSequence() {
   const std::lock_guard lock(impl_->mutex);
   impl_->dropped_step = {};
-  impl_->Push([](Mapper& mapper, AsyncReport&) { mapper.StartSequence(); });
+  impl_->Push([this](AsyncReport&) {
+    impl_->mapper.StartSequence();
+    impl_->plan.StartSequence();
+    impl_->starts_sequence = true;
+  });
 }
 
-void AsyncMapper::Refine() {
+void AsyncMapper::Refine(Refinement when) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->Push([](Mapper& mapper, AsyncReport& done) {
-    mapper.Refine();
-    done.changes = mapper.TakeChanges();
-  });
+  impl_->Push([this, when](AsyncReport&) { impl_->BeginRefinement(when); });
 }
 
 std::future<Mapper> AsyncMapper::Snapshot() {
   const auto promise = std::make_shared<std::promise<Mapper>>();
   const std::lock_guard lock(impl_->mutex);
-  impl_->Push([promise](Mapper& mapper, AsyncReport&) { promise->set_value(mapper); });
+  impl_->Push([this, promise](AsyncReport&) {
+    if (impl_->refinement)
+      impl_->snapshots.push_back(promise);
+    else
+      promise->set_value(impl_->mapper);
+  });
   return promise->get_future();
 }
 

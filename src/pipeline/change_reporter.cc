@@ -30,4 +30,10 @@ MapChanges ChangeReporter::Take(const MapState& state, const LoopLedger& ledger)
   return changes;
 }
 
+void ChangeReporter::TakeOver(const ChangeReporter& other, const LoopLedger& ledger,
+                              int first_new) {
+  loops_.TakeOver(other.loops_, ledger, first_new);
+  revision_ = 0;
+}
+
 }  // namespace sslcd

@@ -13,6 +13,10 @@ class ChangeReporter {
   /// What has changed since the call before.
   MapChanges Take(const MapState& state, const LoopLedger& ledger);
 
+  /// From now on tells a host of a state that knows what `other` has told of another one: all
+  /// poses, and the loops by LoopChanges::TakeOver.
+  void TakeOver(const ChangeReporter& other, const LoopLedger& ledger, int first_new);
+
  private:
   LoopChanges loops_;
   FrameStore::Revision revision_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "closing/loop_closer.h"
@@ -249,6 +250,19 @@ BaSummary Mapper::Refine(Refinement when) {
   m.refined_log_scale = m.log_scale;
   m.state.frames.MarkRefined();
   return summary;
+}
+
+void Mapper::CatchUp(const Mapper& original, const std::vector<AddedFrame>& since) {
+  Impl& m = *impl_;
+  const Impl& other = *original.impl_;
+  m.loops.ledger().ReserveIds(other.loops.ledger());
+  m.state.map.ReserveIds(other.state.map);
+  for (const AddedFrame& added : since) {
+    if (added.starts_sequence) StartSequence();
+    AddFrame(added.frame);
+  }
+  const int first_new = since.empty() ? std::numeric_limits<int>::max() : since[0].frame.index;
+  m.reporter.TakeOver(other.reporter, m.loops.ledger(), first_new);
 }
 
 Trajectory Mapper::CameraTrajectory() const {

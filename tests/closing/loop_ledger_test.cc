@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "closing/loop_changes.h"
+
 namespace sslcd {
 namespace {
 
@@ -41,6 +45,40 @@ TEST(LoopLedger, TwoCamerasAreEnteredOncePerNewestFrame) {
   EXPECT_TRUE(ledger.Add(Loop(3, 50, kOpen), {}, 65));
   EXPECT_EQ(ledger.Rows().size(), 4u);
   EXPECT_EQ(ledger.Rows()[3].newest_frame, 65);
+}
+
+std::vector<int> IdsOf(const std::vector<LoopClosure>& rows) {
+  std::vector<int> ids;
+  for (const LoopClosure& row : rows) ids.push_back(row.id);
+  return ids;
+}
+
+// The ledger of a copy that replaces its original.
+TEST(LoopLedger, AnAttemptThatAnotherLedgerHasMadeToo) {
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 50, kAccepted), {}, 60);
+  ledger.AcceptNewest();
+  LoopLedger copy = ledger;
+  LoopChanges told;
+  for (const int query : {51, 52, 53}) {
+    ledger.Add(Loop(2, query, kAccepted), {}, 70);
+    ledger.AcceptNewest();
+  }
+  EXPECT_EQ(IdsOf(told.Take(ledger)), (std::vector<int>{0, 1, 2, 3}));
+  copy.ReserveIds(ledger);
+  for (const int query : {52, 54}) copy.Add(Loop(2, query, kAccepted), {}, 70);
+  EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{0, 2, 4})) << "52 is the same, 54 is new";
+
+  LoopChanges changes;
+  changes.TakeOver(told, copy, 70);
+  const std::vector<LoopClosure> rows = changes.Take(copy);
+  ASSERT_EQ(IdsOf(rows), (std::vector<int>{1, 3, 2, 4})) << "0 is known";
+  for (const int lost : {0, 1}) {
+    EXPECT_EQ(rows[lost].decision, LoopDecision::kNone);
+    EXPECT_EQ(rows[lost].newest_frame, 70);
+  }
+  EXPECT_EQ(rows[2].decision, kAccepted);
+  EXPECT_TRUE(changes.Take(copy).empty());
 }
 
 TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -67,6 +69,63 @@ TEST(AsyncMapper, IsAMapper) {
   const std::vector<LoopClosure> rows = mapper.LoopClosures();
   ASSERT_EQ(rows.size(), loops.size());
   for (const LoopClosure& row : rows) EXPECT_EQ(loops.at(row.id), row.decision);
+}
+
+// The mapper is refined between two frames, whenever the refinement ends.
+TEST(AsyncMapper, RefinesWhileFramesGoOn) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
+  Mapper mapper({}, drives.Context());
+  std::mutex waits;  // held until all frames are done
+  std::unique_lock held(waits);
+  MapperContext context = drives.Context();
+  const std::size_t half = drives.frames.size() * 3 / 4;
+  std::atomic<bool> refines{false};
+  context.view_aligner = [&](const std::vector<ViewPair>& pairs) {
+    refines = true;
+    const std::lock_guard lock(waits);
+    return std::vector<std::optional<RelativePose>>(pairs.size());
+  };
+  AsyncMapper async({}, context, 1 << 20);
+  for (std::size_t i = 0; i < half; ++i) {
+    mapper.AddFrame(drives.frames[i]);
+    async.AddFrame(drives.frames[i]);
+  }
+  mapper.Refine(Refinement::kOnTheWay);
+  async.Refine(Refinement::kOnTheWay);
+  int frames = 0;
+  for (std::size_t i = half; i < drives.frames.size(); ++i) {
+    mapper.AddFrame(drives.frames[i]);
+    async.AddFrame(drives.frames[i]);
+  }
+  while (frames < static_cast<int>(drives.frames.size())) frames += async.TakeReport().frames;
+  EXPECT_FALSE(async.WaitFor(0.01)) << "the refinement is in work";
+  std::future<Mapper> snapshot = async.Snapshot();
+  held.unlock();
+  async.Wait();
+  EXPECT_TRUE(refines);
+  const AsyncReport report = async.TakeReport();
+  EXPECT_EQ(report.failure, "");
+  std::map<int, Pose> poses;
+  for (const FramePose& pose : report.changes.poses) poses[pose.frame] = pose.T_world_cam;
+  ExpectIs(mapper.CameraTrajectory(), poses);
+  ExpectIs(snapshot.get().CameraTrajectory(), poses);
+}
+
+TEST(AsyncMapper, RefinesByItselfAfterALoop) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
+  Mapper mapper({}, drives.Context());
+  AsyncMapper async({}, drives.Context(), 1 << 20, 50);
+  int refined = 0;
+  for (const Frame& frame : drives.frames) {
+    mapper.AddFrame(frame);
+    async.AddFrame(frame);
+    async.Wait();
+    refined += async.TakeReport().changes.poses.size() == mapper.CameraTrajectory().size() &&
+               frame.index > 100;
+  }
+  EXPECT_GT(refined, 1);
+  EXPECT_THROW(AsyncMapper({}, drives.Context(), 64, -1), Error);
+  EXPECT_THROW(AsyncMapper({}, drives.Context(), 64, std::nan("")), Error);
 }
 
 // A host's matcher that waits for a sign, and with it the mapper's thread.

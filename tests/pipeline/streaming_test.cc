@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "host_copy.h"
 #include "loop_drives.h"
 #include "sslcd/core/error.h"
 #include "sslcd/pipeline/mapper.h"
@@ -14,43 +15,10 @@
 namespace sslcd {
 namespace {
 
-// A host's copy of the results, which it keeps by the changes alone.
-struct Copy {
-  std::map<int, FramePose> poses;
-  std::map<int, LoopClosure> loops;
-
-  void Apply(const MapChanges& changes) {
-    for (const FramePose& pose : changes.poses) poses[pose.frame] = pose;
-    for (const LoopClosure& loop : changes.loops) loops[loop.id] = loop;
-  }
-
-  void ExpectIsOf(const Mapper& mapper) const {
-    const Trajectory trajectory = mapper.CameraTrajectory();
-    ASSERT_EQ(trajectory.size(), poses.size());
-    std::size_t i = 0;
-    for (const auto& [frame, pose] : poses) {
-      ASSERT_EQ(pose.T_world_cam.matrix(), trajectory.poses[i].matrix()) << "frame " << frame;
-      ASSERT_EQ(pose.stamp, trajectory.stamps[i++]);
-    }
-    const std::vector<LoopClosure> rows = mapper.LoopClosures();
-    ASSERT_EQ(rows.size(), loops.size());
-    for (const LoopClosure& row : rows) {
-      ASSERT_EQ(loops.at(row.id).decision, row.decision) << row.id;
-      ASSERT_EQ(loops.at(row.id).T_match_query.matrix(), row.T_match_query.matrix()) << row.id;
-    }
-  }
-};
-
-int Accepted(const std::map<int, LoopClosure>& loops) {
-  return static_cast<int>(std::count_if(loops.begin(), loops.end(), [](const auto& loop) {
-    return loop.second.decision == LoopDecision::kAccepted;
-  }));
-}
-
 TEST(Streaming, ChangesAloneKeepAHostsCopyUpToDate) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
   Mapper mapper({}, drives.Context());
-  Copy copy;
+  HostCopy copy;
   std::size_t told = 0;
   for (const Frame& frame : drives.frames) {
     const FrameReport report = mapper.AddFrame(frame);

@@ -23,14 +23,21 @@ struct AsyncReport {
 };
 
 /// A Mapper on a thread of its own, for hosts that must not wait: a frame that closes a loop takes
-/// a tenth of a second, a refinement of a long run seconds. Calls return at once but for Wait() and
-/// WaitFor(). All of them are thread-safe; frames and sequences are in the order of the calls. If
-/// no one takes the report, it grows no larger than the results.
+/// a tenth of a second, a refinement of a long run seconds. A copy is refined on a second thread,
+/// while frames go on, and then gets the frames since (Mapper::CatchUp). Calls return at once but
+/// for Wait() and WaitFor(). All of them are thread-safe; frames and sequences are in the order of
+/// the calls. The host's functions (MapperContext) are called on both threads. If no one takes the
+/// report, it grows no larger than the results.
 class AsyncMapper {
  public:
-  /// At most `most_waiting` frames wait. Throws what Mapper's constructor throws.
-  AsyncMapper(const Options& options, const MapperContext& context, int most_waiting = 64);
-  /// Ends after the frame or the refinement in work; what waits is not done.
+  /// At most `most_waiting` frames wait. A refinement begins by itself when a loop was accepted and
+  /// the path has become `refine_every_m` longer since the last one began; 0: by Refine() alone.
+  /// One that begins by itself while another one is in work begins after it, so which frame it
+  /// follows depends on the machine. Throws what Mapper's constructor throws, and Error(kBadConfig)
+  /// for a path below 0.
+  AsyncMapper(const Options& options, const MapperContext& context, int most_waiting = 64,
+              double refine_every_m = 0);
+  /// Ends after the frame and the refinement in work; what waits is not done.
   ~AsyncMapper();
   AsyncMapper(const AsyncMapper&) = delete;
   AsyncMapper& operator=(const AsyncMapper&) = delete;
@@ -40,10 +47,10 @@ class AsyncMapper {
   bool AddFrame(Frame frame);
   /// Mapper::StartSequence for the next frame.
   void StartSequence();
-  /// Refines after the frames handed in so far.
-  void Refine();
-  /// A copy of the mapper after the frames handed in so far. If the thread ends before, the future
-  /// has a std::future_error.
+  /// Refines after the frames handed in so far. While a refinement is in work, one more waits.
+  void Refine(Refinement when = Refinement::kAtEnd);
+  /// A copy of the mapper after the frames and the refinement handed in so far. If the thread ends
+  /// before, the future has a std::future_error.
   std::future<Mapper> Snapshot();
 
   /// What was done since the last call.

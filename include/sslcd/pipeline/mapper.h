@@ -72,6 +72,12 @@ struct LoopSearchSummary {
   std::string Text() const;
 };
 
+/// A frame that a mapper has got.
+struct AddedFrame {
+  Frame frame;
+  bool starts_sequence = false;  ///< after Mapper::StartSequence
+};
+
 /// The result of one frame.
 struct FrameReport {
   Pose T_world_cam;       ///< current estimate
@@ -98,7 +104,7 @@ class Mapper {
   Mapper(const Options& options, const MapperContext& context);
   ~Mapper();
   /// A copy has its own state, e.g. to run Refine() on another thread while the original adds
-  /// frames. It shares the host's functions (MapperContext). O(frames + map).
+  /// frames; see CatchUp. It shares the host's functions (MapperContext). O(frames + map).
   Mapper(const Mapper& other);
   Mapper& operator=(const Mapper& other);
   Mapper(Mapper&&) noexcept;
@@ -125,6 +131,12 @@ class Mapper {
   /// odometry stays (RefineOptions::least_probability). Searches for loops a second time, since the
   /// prior is narrow now. May be called at any time and repeatedly.
   BaSummary Refine(Refinement when = Refinement::kAtEnd);
+
+  /// Makes a refined copy the successor of its original, which has got the frames `since` after the
+  /// copy was taken: adds them. TakeChanges() then tells what differs from what the original has
+  /// told. Attempts that both have made have the same id, and no other id names anything else than
+  /// in the original. O(frames) and the time of AddFrame.
+  void CatchUp(const Mapper& original, const std::vector<AddedFrame>& since);
 
   const GravityFrame& gravity() const;
   NoiseScale noise_scale() const;          ///< learnt factors on the detector's noise
