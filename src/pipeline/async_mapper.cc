@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/pipeline/async_mapper.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -29,27 +30,26 @@ Step Together(const Step& a, const Step& b) {
                          std::hypot(a->rotation_rad, b->rotation_rad)};
 }
 
-/// Tells when the next refinement is due.
+/// Tells when a refinement is due.
 class RefinementPlan {
  public:
   explicit RefinementPlan(double every_m) : every_m_(every_m) {}
 
-  void Add(const Frame& frame, const std::vector<LoopClosure>& loops) {
+  // True if one is due now, and then not before the path has grown again. The time of a refinement
+  // grows with the path: without the share, refinements would take up all time.
+  bool Add(const Frame& frame) {
+    constexpr double kShare = 0.05;
     if (before_) path_m_ += (frame.T_odom_cam.translation() - before_->translation()).norm();
     before_ = frame.T_odom_cam;
-    for (const LoopClosure& loop : loops)
-      has_loop_ = has_loop_ || loop.decision == LoopDecision::kAccepted;
+    if (every_m_ == 0 || path_m_ - last_m_ < std::max(every_m_, kShare * last_m_)) return false;
+    last_m_ = path_m_;
+    return true;
   }
   void StartSequence() { before_.reset(); }
-  bool IsDue() const { return every_m_ > 0 && has_loop_ && path_m_ >= every_m_; }
-  void Begin() {
-    path_m_ = 0;
-    has_loop_ = false;
-  }
 
  private:
-  double every_m_, path_m_ = 0;  // since the last one began [m]
-  bool has_loop_ = false;
+  double every_m_;
+  double path_m_ = 0, last_m_ = 0;
   std::optional<Pose> before_;
 };
 
@@ -92,12 +92,14 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
 
   // Of the thread alone.
   void AddFrame(const Frame& frame, AsyncReport& done);
-  void BeginRefinement(Refinement when);
+  void BeginRefinement(Refinement when, AsyncReport& done);
   void EndRefinement(AsyncReport& done);
   Mapper mapper;
   RefinementPlan plan;
-  bool starts_sequence = false;                                  // with the next frame
-  std::optional<Refinement> next_refinement;                     // after the one in work
+  bool starts_sequence = false;  // with the next frame
+  int begun = 0;                 // refinements
+  int newest_frame = -1;
+  int refined_frame = -1;  // the newest one when the last refinement began
   std::vector<std::shared_ptr<std::promise<Mapper>>> snapshots;  // that wait for it
 
   const int most_waiting;
@@ -157,33 +159,37 @@ void AsyncMapper::Impl::AddFrame(const Frame& frame, AsyncReport& done) {
     return;
   }
   done.frames = 1;
+  newest_frame = frame.index;
   if (refinement) refinement->Add({frame, starts_sequence});
   starts_sequence = false;
-  plan.Add(frame, done.changes.loops);
-  if (plan.IsDue()) BeginRefinement(Refinement::kOnTheWay);
+  if (!plan.Add(frame)) return;
+  if (refinement) EndRefinement(done);  // so that its loops count, however fast it was
+  const std::vector<LoopClosure> loops = mapper.LoopClosures();
+  if (std::any_of(loops.begin(), loops.end(), [this](const LoopClosure& loop) {
+        return loop.decision == LoopDecision::kAccepted && loop.newest_frame > refined_frame;
+      }))
+    BeginRefinement(Refinement::kOnTheWay, done);
 }
 
-void AsyncMapper::Impl::BeginRefinement(Refinement when) {
-  if (refinement) {
-    if (next_refinement != Refinement::kAtEnd) next_refinement = when;
-    return;
-  }
-  plan.Begin();
+void AsyncMapper::Impl::BeginRefinement(Refinement when, AsyncReport& done) {
+  if (refinement) EndRefinement(done);
+  refined_frame = newest_frame;
   {
     const std::lock_guard lock(mutex);
     refines = true;
   }
-  refinement = std::make_unique<BackgroundRefinement>(mapper, when, [this] {
+  refinement = std::make_unique<BackgroundRefinement>(mapper, when, [this, which = ++begun] {
     const std::lock_guard lock(mutex);
-    Push([this](AsyncReport& done) { EndRefinement(done); });
+    Push([this, which](AsyncReport& its) {
+      if (refinement && which == begun) EndRefinement(its);
+    });
   });
 }
 
 void AsyncMapper::Impl::EndRefinement(AsyncReport& done) {
   const std::unique_ptr<BackgroundRefinement> ended = std::move(refinement);
   ended->Replace(mapper);
-  done.changes = mapper.TakeChanges();
-  if (next_refinement) return BeginRefinement(*std::exchange(next_refinement, std::nullopt));
+  MergeChanges(mapper.TakeChanges(), done.changes);
   for (const auto& snapshot : std::exchange(snapshots, {})) snapshot->set_value(mapper);
   const std::lock_guard lock(mutex);
   refines = false;
@@ -227,7 +233,7 @@ void AsyncMapper::StartSequence() {
 
 void AsyncMapper::Refine(Refinement when) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->Push([this, when](AsyncReport&) { impl_->BeginRefinement(when); });
+  impl_->Push([this, when](AsyncReport& done) { impl_->BeginRefinement(when, done); });
 }
 
 std::future<Mapper> AsyncMapper::Snapshot() {

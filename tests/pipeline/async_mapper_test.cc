@@ -38,7 +38,7 @@ void ExpectIs(const Trajectory& trajectory, const std::map<int, Pose>& poses) {
 TEST(AsyncMapper, IsAMapper) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
   Mapper mapper({}, drives.Context());
-  AsyncMapper async({}, drives.Context(), 1 << 20);
+  AsyncMapper async({}, drives.Context(), 1 << 20, 0);
   std::map<int, Pose> poses;
   std::map<int, LoopDecision> loops;
   const auto take = [&] {
@@ -85,7 +85,7 @@ TEST(AsyncMapper, RefinesWhileFramesGoOn) {
     const std::lock_guard lock(waits);
     return std::vector<std::optional<RelativePose>>(pairs.size());
   };
-  AsyncMapper async({}, context, 1 << 20);
+  AsyncMapper async({}, context, 1 << 20, 0);
   for (std::size_t i = 0; i < half; ++i) {
     mapper.AddFrame(drives.frames[i]);
     async.AddFrame(drives.frames[i]);
@@ -113,17 +113,19 @@ TEST(AsyncMapper, RefinesWhileFramesGoOn) {
 
 TEST(AsyncMapper, RefinesByItselfAfterALoop) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
-  Mapper mapper({}, drives.Context());
-  AsyncMapper async({}, drives.Context(), 1 << 20, 50);
-  int refined = 0;
-  for (const Frame& frame : drives.frames) {
-    mapper.AddFrame(frame);
-    async.AddFrame(frame);
-    async.Wait();
-    refined += async.TakeReport().changes.poses.size() == mapper.CameraTrajectory().size() &&
-               frame.index > 100;
-  }
-  EXPECT_GT(refined, 1);
+  const auto drive = [&](double refine_every_m, bool in_steps) {
+    AsyncMapper async({}, drives.Context(), 1 << 20, refine_every_m);
+    for (const Frame& frame : drives.frames) {
+      async.AddFrame(frame);
+      if (in_steps) async.Wait();
+    }
+    return async.Snapshot().get().CameraTrajectory();
+  };
+  const Trajectory refined = drive(50, false);
+  std::map<int, Pose> poses;
+  for (std::size_t i = 0; i < refined.size(); ++i) poses[drives.frames[i].index] = refined.poses[i];
+  ExpectIs(drive(50, true), poses);  // however long a refinement takes
+  EXPECT_NE(refined.poses.back().matrix(), drive(0, false).poses.back().matrix());
   EXPECT_THROW(AsyncMapper({}, drives.Context(), 64, -1), Error);
   EXPECT_THROW(AsyncMapper({}, drives.Context(), 64, std::nan("")), Error);
 }

@@ -26,17 +26,17 @@ struct AsyncReport {
 /// a tenth of a second, a refinement of a long run seconds. A copy is refined on a second thread,
 /// while frames go on, and then gets the frames since (Mapper::CatchUp). Calls return at once but
 /// for Wait() and WaitFor(). All of them are thread-safe; frames and sequences are in the order of
-/// the calls. The host's functions (MapperContext) are called on both threads. If no one takes the
-/// report, it grows no larger than the results.
+/// the calls, and the result depends on them alone, not on how long anything takes, unless frames
+/// are dropped. The host's functions (MapperContext) are called on both threads. If no one takes
+/// the report, it grows no larger than the results.
 class AsyncMapper {
  public:
-  /// At most `most_waiting` frames wait. A refinement begins by itself when a loop was accepted and
-  /// the path has become `refine_every_m` longer since the last one began; 0: by Refine() alone.
-  /// One that begins by itself while another one is in work begins after it, so which frame it
-  /// follows depends on the machine. Throws what Mapper's constructor throws, and Error(kBadConfig)
-  /// for a path below 0.
+  /// At most `most_waiting` frames wait. A refinement (Refinement::kOnTheWay) begins by itself when
+  /// a loop was accepted and the path has become longer by `refine_every_m`, and by a twentieth,
+  /// since the last one began; 0: none does. Throws what Mapper's constructor throws, and
+  /// Error(kBadConfig) for a path below 0.
   AsyncMapper(const Options& options, const MapperContext& context, int most_waiting = 64,
-              double refine_every_m = 0);
+              double refine_every_m = 100);
   /// Ends after the frame and the refinement in work; what waits is not done.
   ~AsyncMapper();
   AsyncMapper(const AsyncMapper&) = delete;
@@ -47,7 +47,8 @@ class AsyncMapper {
   bool AddFrame(Frame frame);
   /// Mapper::StartSequence for the next frame.
   void StartSequence();
-  /// Refines after the frames handed in so far. While a refinement is in work, one more waits.
+  /// Refines after the frames handed in so far. Ends a refinement in work first, and frames after
+  /// it wait.
   void Refine(Refinement when = Refinement::kAtEnd);
   /// A copy of the mapper after the frames and the refinement handed in so far. If the thread ends
   /// before, the future has a std::future_error.
