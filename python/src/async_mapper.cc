@@ -21,8 +21,9 @@ namespace {
 // it alive.
 class ClosableMapper {
  public:
-  ClosableMapper(const Options& options, const MapperContext& context, int most_waiting)
-      : mapper_(std::make_shared<AsyncMapper>(options, context, most_waiting)),
+  ClosableMapper(const Options& options, const MapperContext& context, int most_waiting,
+                 double refine_every_m)
+      : mapper_(std::make_shared<AsyncMapper>(options, context, most_waiting, refine_every_m)),
         filter_(options.filter) {}
   ~ClosableMapper() { Close(); }
 
@@ -66,14 +67,15 @@ std::unique_ptr<MapperInTurn> Snapshot(const ClosableMapper& self) {
 void BindAsyncMapper(py::module_& module) {
   py::class_<ClosableMapper>(module, "AsyncMapper")
       .def(py::init([](const std::vector<std::string>& settings, const py::dict& context,
-                       int most_waiting) {
+                       int most_waiting, double refine_every_m) {
              if (most_waiting < 1)
                throw Error(ErrorKind::kUsage,
                            "most_waiting is " + std::to_string(most_waiting) + ", must be above 0");
              return std::make_unique<ClosableMapper>(OptionsFrom(settings), ContextFrom(context),
-                                                     most_waiting);
+                                                     most_waiting, refine_every_m);
            }),
-           py::arg("settings"), py::arg("context"), py::arg("most_waiting"))
+           py::arg("settings"), py::arg("context"), py::arg("most_waiting"),
+           py::arg("refine_every_m"))
       .def(
           "add_frame",
           [](const ClosableMapper& self, const py::object& frame) {
@@ -81,7 +83,12 @@ void BindAsyncMapper(py::module_& module) {
           },
           py::arg("frame"))
       .def("start_sequence", [](const ClosableMapper& self) { self.get()->StartSequence(); })
-      .def("refine", [](const ClosableMapper& self) { self.get()->Refine(); })
+      .def(
+          "refine",
+          [](const ClosableMapper& self, bool at_end) {
+            self.get()->Refine(at_end ? Refinement::kAtEnd : Refinement::kOnTheWay);
+          },
+          py::arg("at_end"))
       .def("snapshot", &Snapshot)
       .def("take_report",
            [](const ClosableMapper& self) { return ToPython(self.get()->TakeReport()); })

@@ -60,10 +60,13 @@ void BindMapper(py::module_& module) {
            [](MapperInTurn& self) {
              return ToPython(self.Do([](Mapper& mapper) { return mapper.TakeChanges(); }));
            })
-      .def("refine",
-           [](MapperInTurn& self) {
-             return ToPython(self.Do([](Mapper& mapper) { return mapper.Refine(); }));
-           })
+      .def(
+          "refine",
+          [](MapperInTurn& self, bool at_end) {
+            const Refinement when = at_end ? Refinement::kAtEnd : Refinement::kOnTheWay;
+            return ToPython(self.Do([when](Mapper& mapper) { return mapper.Refine(when); }));
+          },
+          py::arg("at_end"))
       .def("copy", &MapperInTurn::Copy)
       .def("current", &Current, py::arg("id"))
       .def("trajectory", &GetTrajectory)

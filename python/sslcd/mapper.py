@@ -153,11 +153,14 @@ class Mapper:
         loops join them."""
         self._core.start_sequence()
 
-    def refine(self) -> AdjustmentSummary:
+    def refine(self, at_end: bool = True) -> AdjustmentSummary:
         """Optimises poses, landmarks and scale over all frames so far, and searches loops a second
         time. The trajectory of the odometry stays where the result is not surely better
-        (`improvement`). May be called at any time; takes seconds for thousands of frames."""
-        return self._core.refine()
+        (`improvement`). May be called at any time; takes seconds for thousands of frames.
+
+        at_end: no frame follows, so the latest cameras search, too, with what they have seen.
+        """
+        return self._core.refine(bool(at_end))
 
     def take_changes(self) -> MapChanges:
         """What has changed since the last call or the last frame's report, e.g. by refine()."""
@@ -247,6 +250,11 @@ class AsyncMapper:
     The arguments are those of Mapper; an exception of `place_matcher` ends the thread, and the
     report says so (`failure`). At most `most_waiting` frames wait; a frame that finds the
     queue full is dropped and counted, and the step to the next frame then spans it.
+
+    A copy is refined on a second thread, while frames go on, and then gets the frames since. That
+    begins by itself when a loop was accepted and the path has become longer by `refine_every_m`
+    [m], and by a twentieth, since the last one began; 0: only by refine(). The result depends on
+    the frames alone, unless some are dropped.
     """
 
     def __init__(
@@ -258,10 +266,12 @@ class AsyncMapper:
         camera: Optional[Camera] = None,
         place_matcher: Optional[PlaceMatcher] = None,
         most_waiting: int = 64,
+        refine_every_m: float = 100.0,
     ) -> None:
         given = context(labels, up, camera, place_matcher)
         most = int(array("most_waiting", most_waiting, (), np.int32))
-        self._core = _core.AsyncMapper(settings(options), given, most)
+        every_m = float(array("refine_every_m", refine_every_m, (), float))
+        self._core = _core.AsyncMapper(settings(options), given, most, every_m)
         _running.add(self)
         self._next_index = 0
 
@@ -310,9 +320,9 @@ class AsyncMapper:
         """Mapper.start_sequence for the next frame."""
         self._core.start_sequence()
 
-    def refine(self) -> None:
-        """Refines after the frames handed in so far."""
-        self._core.refine()
+    def refine(self, at_end: bool = True) -> None:
+        """Mapper.refine after the frames handed in so far, on a second thread."""
+        self._core.refine(bool(at_end))
 
     def snapshot(self) -> Mapper:
         """Waits for the frames handed in so far and returns a copy of the mapper. Raises

@@ -14,7 +14,9 @@ from conftest import DATA, mapper_for
 
 
 def test_it_is_a_mapper(drive, offline):
-    with mapper_for(drive, kind=sslcd.AsyncMapper, most_waiting=10**6) as mapper:
+    with mapper_for(
+        drive, kind=sslcd.AsyncMapper, most_waiting=10**6, refine_every_m=0
+    ) as mapper:
         assert all(mapper.add(frame) for frame in drive)
         mapper.refine()
         snapshot = mapper.snapshot()
@@ -120,3 +122,25 @@ print("end")
     command = [sys.executable, "-c", script]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, "end\n", "")
+
+
+def test_a_refinement_on_the_way_is_one_between_two_frames(drive):
+    later = len(drive) * 3 // 4
+    in_turn = mapper_for(drive)
+    with mapper_for(
+        drive, kind=sslcd.AsyncMapper, most_waiting=10**6, refine_every_m=0
+    ) as mapper:
+        for i, frame in enumerate(drive):
+            in_turn.add(frame)
+            mapper.add(frame)
+            if i == later:
+                in_turn.refine(at_end=False)
+                mapper.refine(at_end=False)
+        assert mapper.snapshot().trajectory.tum() == in_turn.trajectory.tum()
+
+
+def test_refine_every_m_is_a_path():
+    with pytest.raises(sslcd.BadConfigError, match="refine_every_m"):
+        sslcd.AsyncMapper(refine_every_m=-1)
+    with pytest.raises(sslcd.UsageError, match="refine_every_m"):
+        sslcd.AsyncMapper(refine_every_m="often")

@@ -100,7 +100,7 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
   int begun = 0;                 // refinements
   int newest_frame = -1;
   int refined_frame = -1;  // the newest one when the last refinement began
-  std::vector<std::shared_ptr<std::promise<Mapper>>> snapshots;  // that wait for it
+  std::vector<std::shared_ptr<std::promise<Mapper>>> snapshots;  // to be given
 
   const int most_waiting;
   std::mutex mutex;
@@ -131,7 +131,8 @@ void AsyncMapper::Impl::Run() {
   }
 }
 
-// Works without the lock, then adds what was done to the report.
+// Works without the lock, then adds what was done to the report. A snapshot comes after the report
+// of what is in it.
 void AsyncMapper::Impl::Do(const Job& job) {
   AsyncReport done;
   try {
@@ -141,12 +142,24 @@ void AsyncMapper::Impl::Do(const Job& job) {
   } catch (...) {
     done.failure = "an exception of the host's that is no std::exception";
   }
-  const std::lock_guard lock(mutex);
-  MergeChanges(std::move(done.changes), report.changes);
-  report.frames += done.frames;
-  report.refused += done.refused;
-  if (!done.refusal.empty()) report.refusal = std::move(done.refusal);
-  if (!done.failure.empty()) report.failure = std::move(done.failure);
+  const bool failed = !done.failure.empty();
+  {
+    const std::lock_guard lock(mutex);
+    MergeChanges(std::move(done.changes), report.changes);
+    report.frames += done.frames;
+    report.refused += done.refused;
+    if (!done.refusal.empty()) report.refusal = std::move(done.refusal);
+    if (failed) report.failure = std::move(done.failure);
+  }
+  if (failed) snapshots.clear();
+  if (refinement) return;
+  for (const auto& snapshot : std::exchange(snapshots, {})) {
+    try {
+      snapshot->set_value(mapper);
+    } catch (...) {
+      snapshot->set_exception(std::current_exception());
+    }
+  }
 }
 
 void AsyncMapper::Impl::AddFrame(const Frame& frame, AsyncReport& done) {
@@ -190,7 +203,6 @@ void AsyncMapper::Impl::EndRefinement(AsyncReport& done) {
   const std::unique_ptr<BackgroundRefinement> ended = std::move(refinement);
   ended->Replace(mapper);
   MergeChanges(mapper.TakeChanges(), done.changes);
-  for (const auto& snapshot : std::exchange(snapshots, {})) snapshot->set_value(mapper);
   const std::lock_guard lock(mutex);
   refines = false;
 }
@@ -239,12 +251,7 @@ void AsyncMapper::Refine(Refinement when) {
 std::future<Mapper> AsyncMapper::Snapshot() {
   const auto promise = std::make_shared<std::promise<Mapper>>();
   const std::lock_guard lock(impl_->mutex);
-  impl_->Push([this, promise](AsyncReport&) {
-    if (impl_->refinement)
-      impl_->snapshots.push_back(promise);
-    else
-      promise->set_value(impl_->mapper);
-  });
+  impl_->Push([this, promise](AsyncReport&) { impl_->snapshots.push_back(promise); });
   return promise->get_future();
 }
 
