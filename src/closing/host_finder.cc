@@ -26,6 +26,11 @@ void CheckMatches(const std::vector<std::pair<int, int>>& matches, std::size_t l
                                          std::to_string(globals) + " global ones");
 }
 
+// An answer as it is made, neither accepted nor with a place.
+bool SaysNothing(const PlaceAnswer& answer) {
+  return !answer.accepted && answer.matches.empty() && answer.match_frame < 0;
+}
+
 // The last frame at or before `path_m` of path; none if the path starts later.
 const FrameRecord* LastUntil(const FrameStore& frames, double path_m) {
   const auto after =
@@ -53,7 +58,7 @@ class HostFinder : public LoopFinder {
     if (old == nullptr) return std::nullopt;
     const auto answer =
         matcher_({local.objects, global.objects(), frames.back().frame, old->frame});
-    if (!answer) return std::nullopt;
+    if (!answer || SaysNothing(*answer)) return std::nullopt;
     FoundLoop found;
     if (answer->matches.empty()) {
       // Images only give the pose of the newest camera, which was queried before.

@@ -94,6 +94,11 @@ TEST(PlaceMatcher, AnswersThatNameNothing) {
   EXPECT_THROW(RunWith(drives, [](const PlaceQuery&) { return PlaceAnswer{{{0, 9999}}}; }), Error);
   EXPECT_THROW(RunWith(drives, [](const PlaceQuery&) { return PlaceAnswer{{{-1, 0}}}; }), Error);
   EXPECT_THROW(RunWith(drives, [](const PlaceQuery&) { return PlaceAnswer{{}, 9999}; }), Error);
+  EXPECT_TRUE(RunWith(drives, [](const PlaceQuery&) { return PlaceAnswer(); }).loops.empty())
+      << "no place";
+  PlaceAnswer nowhere;
+  nowhere.accepted = true;
+  EXPECT_THROW(RunWith(drives, [&](const PlaceQuery&) { return nowhere; }), Error);
 }
 
 }  // namespace
