@@ -83,7 +83,7 @@ void LoopFusion::TakeLoops() {
   if (!mapper_) return;
   const AsyncReport report = mapper_->TakeReport();
   Report(report);
-  if (report.frames > 0) Use(report.changes);
+  Use(report.changes);
   SayWhyThereAreNone();
 }
 

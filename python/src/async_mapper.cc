@@ -5,6 +5,8 @@
 
 #include <future>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "bindings.h"
 #include "configuration.h"
@@ -23,15 +25,11 @@ class ClosableMapper {
  public:
   ClosableMapper(const Options& options, const MapperContext& context, int most_waiting,
                  double refine_every_m)
-      : mapper_(std::make_shared<AsyncMapper>(options, context, most_waiting, refine_every_m)),
+      : mapper_(new AsyncMapper(options, context, most_waiting, refine_every_m), &Delete),
         filter_(options.filter) {}
   ~ClosableMapper() { Close(); }
 
-  void Close() {
-    std::shared_ptr<AsyncMapper> last = std::exchange(mapper_, nullptr);
-    const py::gil_scoped_release release;  // it waits for the frame in work
-    last.reset();
-  }
+  void Close() { std::exchange(mapper_, nullptr).reset(); }
   bool closed() const { return mapper_ == nullptr; }
   std::shared_ptr<AsyncMapper> get() const {
     if (!mapper_) throw Error(ErrorKind::kUsage, "the AsyncMapper is closed");
@@ -40,6 +38,13 @@ class ClosableMapper {
   const DetectionFilterOptions& filter() const { return filter_; }
 
  private:
+  // Waits for its threads, which may need the GIL for a function of the host's.
+  static void Delete(AsyncMapper* mapper) {
+    std::optional<py::gil_scoped_release> release;
+    if (PyGILState_Check() != 0) release.emplace();
+    delete mapper;
+  }
+
   std::shared_ptr<AsyncMapper> mapper_;
   DetectionFilterOptions filter_;
 };

@@ -266,7 +266,7 @@ class AsyncMapper:
         camera: Optional[Camera] = None,
         place_matcher: Optional[PlaceMatcher] = None,
         most_waiting: int = 64,
-        refine_every_m: float = 100.0,
+        refine_every_m: float = 50.0,
     ) -> None:
         given = context(labels, up, camera, place_matcher)
         most = int(array("most_waiting", most_waiting, (), np.int32))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sslcd {
 namespace {
@@ -46,9 +47,19 @@ bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int new
 }
 
 void LoopLedger::ReserveIds(const LoopLedger& other) {
-  for (const LoopAttempt& attempt : other.attempts_)
+  std::set<int> used;
+  for (const LoopAttempt& attempt : other.attempts_) {
     reserved_[KeyOf(attempt.found.loop, attempt.row().newest_frame)] = attempt.row().id;
+    used.insert(attempt.row().id);
+  }
   next_id_ = std::max(next_id_, other.next_id_);
+  for (LoopAttempt& attempt : attempts_) {
+    const auto reserved = reserved_.find(KeyOf(attempt.found.loop, attempt.row().newest_frame));
+    if (reserved != reserved_.end())
+      attempt.row().id = reserved->second;
+    else if (used.count(attempt.row().id) > 0)
+      attempt.row().id = next_id_++;
+  }
 }
 
 void LoopLedger::AcceptNewest() {

@@ -54,8 +54,8 @@ class LoopLedger {
   /// confirmed attempts of its track.
   void AcceptNewest();
 
-  /// Of a ledger that this one was a copy of: new attempts that `other` has made, too, get its ids,
-  /// and others none that it has used.
+  /// Of a ledger that this one was a copy of: attempts that `other` has made, too, get its ids,
+  /// also later ones, and attempts that it has not made get others than it has used.
   void ReserveIds(const LoopLedger& other);
 
   /// Removes the attempts of the second search that were never accepted.

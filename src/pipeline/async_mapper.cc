@@ -39,8 +39,10 @@ class RefinementPlan {
   // grows with the path: without the share, refinements would take up all time.
   bool Add(const Frame& frame) {
     constexpr double kShare = 0.05;
-    if (before_) path_m_ += (frame.T_odom_cam.translation() - before_->translation()).norm();
+    const double step_m =
+        before_ ? (frame.T_odom_cam.translation() - before_->translation()).norm() : 0;
     before_ = frame.T_odom_cam;
+    if (step_m < every_m_) path_m_ += step_m;  // a longer one is a jump
     if (every_m_ == 0 || path_m_ - last_m_ < std::max(every_m_, kShare * last_m_)) return false;
     last_m_ = path_m_;
     return true;
@@ -152,7 +154,6 @@ void AsyncMapper::Impl::Do(const Job& job) {
     if (failed) report.failure = std::move(done.failure);
   }
   if (failed) snapshots.clear();
-  if (refinement) return;
   for (const auto& snapshot : std::exchange(snapshots, {})) {
     try {
       snapshot->set_value(mapper);
@@ -166,8 +167,11 @@ void AsyncMapper::Impl::AddFrame(const Frame& frame, AsyncReport& done) {
   try {
     done.changes = mapper.AddFrame(frame).changes;
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kBadInput) throw;
-    done.refused = 1;  // the mapper is as it was
+    done.changes = mapper.TakeChanges();
+    const std::vector<FramePose>& poses = done.changes.poses;
+    const bool is_in = !poses.empty() && poses.back().frame == frame.index;
+    if (error.kind() != ErrorKind::kBadInput || is_in) throw;  // is_in: a function of the host's
+    done.refused = 1;                                          // the mapper is as it was
     done.refusal = error.what();
     return;
   }
@@ -251,7 +255,10 @@ void AsyncMapper::Refine(Refinement when) {
 std::future<Mapper> AsyncMapper::Snapshot() {
   const auto promise = std::make_shared<std::promise<Mapper>>();
   const std::lock_guard lock(impl_->mutex);
-  impl_->Push([this, promise](AsyncReport&) { impl_->snapshots.push_back(promise); });
+  impl_->Push([this, promise](AsyncReport& done) {
+    if (impl_->refinement) impl_->EndRefinement(done);
+    impl_->snapshots.push_back(promise);
+  });
   return promise->get_future();
 }
 

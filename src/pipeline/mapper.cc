@@ -261,6 +261,7 @@ void Mapper::CatchUp(const Mapper& original, const std::vector<AddedFrame>& sinc
     if (added.starts_sequence) StartSequence();
     AddFrame(added.frame);
   }
+  m.starts_sequence = other.starts_sequence;
   const int first_new = since.empty() ? std::numeric_limits<int>::max() : since[0].frame.index;
   m.reporter.TakeOver(other.reporter, m.loops.ledger(), first_new);
 }

@@ -111,6 +111,19 @@ TEST(AsyncMapper, RefinesWhileFramesGoOn) {
   ExpectIs(snapshot.get().CameraTrajectory(), poses);
 }
 
+TEST(AsyncMapper, ASequenceMayStartWhileARefinementEnds) {
+  AsyncMapper async({}, {});
+  for (int i = 0; i < 20; ++i) async.AddFrame(FrameAt(i));
+  async.Refine();
+  async.StartSequence();
+  async.Wait();
+  Frame first = FrameAt(20);
+  first.stamp = 0;
+  async.AddFrame(first);
+  async.Wait();
+  EXPECT_EQ(async.TakeReport().refused, 0);
+}
+
 TEST(AsyncMapper, RefinesByItselfAfterALoop) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
   const auto drive = [&](double refine_every_m, bool in_steps) {

@@ -24,15 +24,16 @@ struct Replaced {
   Mapper original;
 };
 
-// Refines a copy of a mapper that has got three quarters of the frames. `starts_after`: a sequence
-// starts so many frames later.
-Replaced Replace(const Drives& drives, int starts_after = -1) {
+// Refines a copy of a mapper that has got a share of the frames. `starts_after`: a sequence starts
+// so many frames later.
+Replaced Replace(const Drives& drives, int starts_after = -1, double share = 0.75,
+                 Refinement when = Refinement::kOnTheWay) {
   Mapper mapper({}, drives.Context());
   HostCopy host;
-  const std::size_t half = drives.frames.size() * 3 / 4;
+  const auto half = static_cast<std::size_t>(share * static_cast<double>(drives.frames.size()));
   for (std::size_t i = 0; i < half; ++i) host.Apply(mapper.AddFrame(drives.frames[i]).changes);
   Mapper copy = mapper, in_turn = mapper;
-  in_turn.Refine(Refinement::kOnTheWay);
+  in_turn.Refine(when);
   std::vector<AddedFrame> since;
   for (std::size_t i = half; i < drives.frames.size(); ++i) {
     since.push_back({drives.frames[i], static_cast<int>(i - half) == starts_after});
@@ -44,7 +45,7 @@ Replaced Replace(const Drives& drives, int starts_after = -1) {
     in_turn.AddFrame(drives.frames[i]);
   }
   const HostCopy before = host;
-  copy.Refine(Refinement::kOnTheWay);
+  copy.Refine(when);
   copy.CatchUp(mapper, since);
   const MapChanges changes = copy.TakeChanges();
   host.Apply(changes);
@@ -75,22 +76,33 @@ TEST(CatchUp, IsARefinementBetweenTwoFrames) {
   ExpectSameMap(two.mapper, two.in_turn);
 }
 
+// Whatever the refinement has found by itself.
 TEST(CatchUp, TellsAHostWhatDiffersFromTheOriginal) {
-  const Replaced replaced = Replace(TwoLaps(SecondLap::kOpposite, 0.5, 1));
-  const Trajectory trajectory = replaced.mapper.CameraTrajectory();
-  ASSERT_EQ(replaced.host.poses.size(), trajectory.size());
-  std::size_t i = 0;
-  for (const auto& [frame, pose] : replaced.host.poses)
-    ASSERT_EQ(pose.T_world_cam.matrix(), trajectory.poses[i++].matrix()) << "frame " << frame;
-  std::map<int, LoopClosure> accepted, of_host;
-  for (const LoopClosure& row : replaced.mapper.LoopClosures())
-    if (row.decision == LoopDecision::kAccepted) accepted[row.id] = row;
-  for (const auto& [id, row] : replaced.host.loops)
-    if (row.decision == LoopDecision::kAccepted) of_host[id] = row;
-  ASSERT_GT(accepted.size(), 10u);
-  ASSERT_EQ(accepted.size(), of_host.size());
-  for (const auto& [id, row] : accepted)
-    EXPECT_EQ(of_host.at(id).T_match_query.matrix(), row.T_match_query.matrix()) << id;
+  for (const int seed : {1, 2}) {
+    for (const Refinement when : {Refinement::kOnTheWay, Refinement::kAtEnd}) {
+      SCOPED_TRACE(seed);
+      const Drives drives = TwoLaps(SecondLap::kSame, 0.5, seed);
+      const Replaced replaced = Replace(drives, -1, 0.6 + 0.1 * seed, when);
+      const Trajectory trajectory = replaced.mapper.CameraTrajectory();
+      ASSERT_EQ(replaced.host.poses.size(), trajectory.size());
+      std::size_t i = 0;
+      for (const auto& [frame, pose] : replaced.host.poses)
+        ASSERT_EQ(pose.T_world_cam.matrix(), trajectory.poses[i++].matrix()) << "frame " << frame;
+      std::map<int, LoopClosure> rows;
+      int accepted = 0;
+      for (const LoopClosure& row : replaced.mapper.LoopClosures()) {
+        EXPECT_TRUE(rows.emplace(row.id, row).second) << "two attempts with the id " << row.id;
+        accepted += row.decision == LoopDecision::kAccepted;
+      }
+      EXPECT_EQ(Accepted(replaced.host.loops), accepted);
+      EXPECT_GT(accepted, 10);
+      for (const auto& [id, row] : replaced.host.loops) {
+        if (row.decision != LoopDecision::kAccepted) continue;
+        ASSERT_EQ(rows.count(id), 1u) << id;
+        EXPECT_EQ(rows.at(id).T_match_query.matrix(), row.T_match_query.matrix()) << id;
+      }
+    }
+  }
 }
 
 // An id means the same attempt, and the same landmark, before and after.

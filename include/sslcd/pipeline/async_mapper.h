@@ -26,17 +26,18 @@ struct AsyncReport {
 /// a tenth of a second, a refinement of a long run seconds. A copy is refined on a second thread,
 /// while frames go on, and then gets the frames since (Mapper::CatchUp). Calls return at once but
 /// for Wait() and WaitFor(). All of them are thread-safe; frames and sequences are in the order of
-/// the calls, and the result depends on them alone, not on how long anything takes, unless frames
-/// are dropped. The host's functions (MapperContext) are called on both threads. If no one takes
-/// the report, it grows no larger than the results.
+/// the calls, and the result, but for ids, depends on them alone, not on how long anything takes,
+/// unless frames are dropped. The host's functions (MapperContext) are called on both threads, and
+/// for the frames since a copy once more. If no one takes the report, it grows no larger than the
+/// results.
 class AsyncMapper {
  public:
   /// At most `most_waiting` frames wait. A refinement (Refinement::kOnTheWay) begins by itself when
   /// a loop was accepted and the path has become longer by `refine_every_m`, and by a twentieth,
-  /// since the last one began; 0: none does. Throws what Mapper's constructor throws, and
-  /// Error(kBadConfig) for a path below 0.
+  /// since the last one began; 0: none does. It ends the one in work first, and frames wait. Throws
+  /// what Mapper's constructor throws, and Error(kBadConfig) for a path below 0.
   AsyncMapper(const Options& options, const MapperContext& context, int most_waiting = 64,
-              double refine_every_m = 100);
+              double refine_every_m = 50);
   /// Ends after the frame and the refinement in work; what waits is not done.
   ~AsyncMapper();
   AsyncMapper(const AsyncMapper&) = delete;
@@ -50,8 +51,8 @@ class AsyncMapper {
   /// Refines after the frames handed in so far. Ends a refinement in work first, and frames after
   /// it wait.
   void Refine(Refinement when = Refinement::kAtEnd);
-  /// A copy of the mapper after the frames and the refinement handed in so far. If the thread ends
-  /// before, the future has a std::future_error.
+  /// A copy of the mapper after all that was handed in so far; ends a refinement in work first. If
+  /// the thread ends before, the future has a std::future_error.
   std::future<Mapper> Snapshot();
 
   /// What was done since the last call.
