@@ -123,7 +123,8 @@ std::string ResultTable(const RunResult& result, const Metrics& metrics) {
       {"probability better, in height", Judged(result.improvement.height)}};
   for (const auto& [name, value] : metrics)
     rows.push_back({name, value ? Number("%.4f", *value) : "-"});
-  return AlignedTable(rows) + "\n\n" + TimingText(result.timing);
+  const std::string why = accepted > 0 ? "" : "no loop: " + result.loop_search.Text() + "\n";
+  return AlignedTable(rows) + "\n" + why + "\n" + TimingText(result.timing);
 }
 
 struct Mapped {

@@ -41,6 +41,7 @@ struct RunResult {
   /// frames, metric odometry between them, accepted loops and ties of views
   PoseGraph graph;
   std::vector<LoopClosure> loops;  ///< all attempts in order, including refused ones
+  LoopSearchSummary loop_search;   ///< why there are no more loops
   /// number of camera pairs aligned by their images (ViewAligner)
   int views_tied = 0;
   double scale = 1;                    ///< metres per odometry metre
