@@ -42,7 +42,7 @@ class RefinementPlan {
     const double step_m =
         before_ ? (frame.T_odom_cam.translation() - before_->translation()).norm() : 0;
     before_ = frame.T_odom_cam;
-    if (step_m < every_m_) path_m_ += step_m;  // a longer one is a jump
+    path_m_ += std::min(step_m, every_m_);  // a jump is no path
     if (every_m_ == 0 || path_m_ - last_m_ < std::max(every_m_, kShare * last_m_)) return false;
     last_m_ = path_m_;
     return true;
@@ -141,6 +141,7 @@ void AsyncMapper::Impl::Do(const Job& job) {
     job(done);
   } catch (const std::exception& error) {
     done.failure = error.what();
+    if (done.failure.empty()) done.failure = "an exception without a message";
   } catch (...) {
     done.failure = "an exception of the host's that is no std::exception";
   }

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -109,6 +110,29 @@ TEST(AsyncMapper, RefinesWhileFramesGoOn) {
   for (const FramePose& pose : report.changes.poses) poses[pose.frame] = pose.T_world_cam;
   ExpectIs(mapper.CameraTrajectory(), poses);
   ExpectIs(snapshot.get().CameraTrajectory(), poses);
+}
+
+// Frames may be farther apart than that.
+TEST(AsyncMapper, RefinesByItselfAfterShortPathsToo) {
+  const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
+  const auto last = [&](double refine_every_m) {
+    AsyncMapper async({}, drives.Context(), 1 << 20, refine_every_m);
+    for (std::size_t i = 0; i < drives.frames.size() * 5 / 8; ++i) async.AddFrame(drives.frames[i]);
+    return async.Snapshot().get().CameraTrajectory().poses.back();
+  };
+  EXPECT_NE(last(0.1).matrix(), last(0).matrix());
+}
+
+TEST(AsyncMapper, AnExceptionWithoutAMessageIsAFailure) {
+  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
+  MapperContext context = drives.Context();
+  context.place_matcher = [](const PlaceQuery&) -> std::optional<PlaceAnswer> {
+    throw std::runtime_error("");
+  };
+  AsyncMapper async({}, context, 1 << 20);
+  for (const Frame& frame : drives.frames) async.AddFrame(frame);
+  async.Wait();
+  EXPECT_NE(async.TakeReport().failure, "");
 }
 
 TEST(AsyncMapper, ASequenceMayStartWhileARefinementEnds) {
