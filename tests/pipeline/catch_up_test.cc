@@ -9,6 +9,7 @@
 
 #include "host_copy.h"
 #include "loop_drives.h"
+#include "same_mappers.h"
 #include "sslcd/pipeline/mapper.h"
 
 namespace sslcd {
@@ -24,8 +25,8 @@ struct Replaced {
   Mapper original;
 };
 
-// Refines a copy of a mapper that has got a share of the frames. `starts_after`: a sequence starts
-// so many frames later.
+// Refines a copy of a mapper that has got a share of the frames. `starts_after`: number of frames
+// between the copy and the start of a sequence; -1: none starts.
 Replaced Replace(const Drives& drives, int starts_after = -1, double share = 0.75,
                  Refinement when = Refinement::kOnTheWay) {
   Mapper mapper({}, drives.Context());
@@ -52,28 +53,14 @@ Replaced Replace(const Drives& drives, int starts_after = -1, double share = 0.7
   return {copy, host, before, changes, in_turn, drives.frames[half].index, mapper};
 }
 
-void ExpectSameMap(const Mapper& a, const Mapper& b) {
-  const Trajectory one = a.CameraTrajectory(), other = b.CameraTrajectory();
-  ASSERT_EQ(one.size(), other.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-    ASSERT_EQ(one.poses[i].matrix(), other.poses[i].matrix()) << i;
-  EXPECT_EQ(a.Objects().size(), b.Objects().size());
-  const auto loops = a.LoopClosures(), others = b.LoopClosures();
-  ASSERT_EQ(loops.size(), others.size());
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    EXPECT_EQ(loops[i].decision, others[i].decision);
-    EXPECT_EQ(loops[i].score, others[i].score);
-  }
-}
-
 TEST(CatchUp, IsARefinementBetweenTwoFrames) {
   const Drives drives = TwoLaps(SecondLap::kOpposite, 0.5, 1);
   const Replaced replaced = Replace(drives);
-  ExpectSameMap(replaced.mapper, replaced.in_turn);
+  ExpectSame(replaced.mapper, replaced.in_turn);
   EXPECT_NE(replaced.mapper.CameraTrajectory().poses.back().translation(),
             replaced.original.CameraTrajectory().poses.back().translation());
   const Replaced two = Replace(drives, 20);
-  ExpectSameMap(two.mapper, two.in_turn);
+  ExpectSame(two.mapper, two.in_turn);
 }
 
 // Whatever the refinement has found by itself.

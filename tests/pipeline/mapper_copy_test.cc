@@ -4,24 +4,11 @@
 #include <utility>
 
 #include "loop_drives.h"
+#include "same_mappers.h"
 #include "sslcd/pipeline/mapper.h"
 
 namespace sslcd {
 namespace {
-
-void ExpectSame(const Mapper& a, const Mapper& b) {
-  const Trajectory one = a.CameraTrajectory(), other = b.CameraTrajectory();
-  ASSERT_EQ(one.size(), other.size());
-  for (std::size_t i = 0; i < one.size(); ++i)
-    ASSERT_EQ(one.poses[i].translation(), other.poses[i].translation()) << i;
-  EXPECT_EQ(a.Objects().size(), b.Objects().size());
-  const auto loops = a.LoopClosures(), others = b.LoopClosures();
-  ASSERT_EQ(loops.size(), others.size());
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    EXPECT_EQ(loops[i].decision, others[i].decision);
-    EXPECT_EQ(loops[i].score, others[i].score);
-  }
-}
 
 // A host refines a copy in a thread of its own, while the original goes on.
 TEST(MapperCopy, HasAllStateAndGoesItsOwnWay) {
