@@ -7,6 +7,7 @@ docs/conventions.md the conventions.
 """
 
 from . import _core
+from .async_mapper import AsyncMapper
 from .colours import colour_vectors
 from .datasets import Dataset, RunResult, load_dataset, run
 from .errors import BadConfigError, BadInputError, Error, NoSolutionError, OutputError, UsageError
@@ -15,7 +16,7 @@ from .graphs import read_g2o, solve_graph
 from .inputs import Camera, Frame
 from .kitti import kitti_cuboids
 from .layouts import Layout, PlaceAnswer, PlaceQuery, match, read_layout_pairs
-from .mapper import AsyncMapper, Mapper
+from .mapper import Mapper
 from .options import complete_options, default_options, read_options
 from .results import (
     AdjustmentSummary,
