@@ -15,6 +15,7 @@
 
 #include "pipeline/background_refinement.h"
 #include "pipeline/merge_changes.h"
+#include "pipeline/refinement_plan.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -30,37 +31,6 @@ Step Together(const Step& a, const Step& b) {
                          std::hypot(a->rotation_rad, b->rotation_rad)};
 }
 
-/// Tells when a refinement is due.
-class RefinementPlan {
- public:
-  explicit RefinementPlan(double every_m) : every_m_(every_m) {}
-
-  // True if one is due now, and then not before the path has grown again. The time of a refinement
-  // grows with the path: without the share, refinements would take up all time.
-  bool Add(const Frame& frame) {
-    constexpr double kShare = 0.05;
-    const double step_m =
-        before_ ? (frame.T_odom_cam.translation() - before_->translation()).norm() : 0;
-    before_ = frame.T_odom_cam;
-    path_m_ += std::min(step_m, every_m_);  // a jump is no path
-    if (every_m_ == 0 || path_m_ - last_m_ < std::max(every_m_, kShare * last_m_)) return false;
-    last_m_ = path_m_;
-    return true;
-  }
-  void StartSequence() { before_.reset(); }
-
- private:
-  double every_m_;
-  double path_m_ = 0, last_m_ = 0;
-  std::optional<Pose> before_;
-};
-
-double CheckedPath(double refine_every_m) {
-  if (refine_every_m >= 0) return refine_every_m;
-  throw Error(ErrorKind::kBadConfig, "refine_every_m is " + std::to_string(refine_every_m) +
-                                         ": give a path in metres, or 0 for none");
-}
-
 }  // namespace
 
 struct SSLCD_HIDDEN AsyncMapper::Impl {
@@ -68,7 +38,7 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
 
   Impl(const Options& options, const MapperContext& context, int most, double refine_every_m)
       : mapper(options, context),
-        plan(CheckedPath(refine_every_m)),
+        plan(refine_every_m),
         most_waiting(most),
         thread([this] { Run(); }) {}
   ~Impl() {
