@@ -9,7 +9,8 @@
 # sslcd_use_rooms(TARGET <modules>...)
 #   private headers for a program: a tool, a benchmark, a test.
 # sslcd_library(TARGET [LINK <libraries>...])
-#   the modules since the last sslcd_library() as an installed library: `sslcd`, `sslcd_vision`. It
+#   the modules since the last sslcd_library() as an installed library: `sslcd`, `sslcd_vision`, and
+#   libsslcd_store as `sslcd_store_lib`, since a module has that name. It
 #   is static; tools and tests, which use private headers, link it. With SSLCD_BUILD_SHARED there is
 #   also TARGET_shared, of the same objects, which shows only what installed headers declare.
 #   sslcd::sslcd and sslcd::vision are the shared ones if BUILD_SHARED_LIBS is on.
@@ -61,7 +62,8 @@ function(sslcd_library target)
   foreach(module ${modules})
     list(APPEND objects $<TARGET_OBJECTS:sslcd_${module}>)
   endforeach()
-  string(REPLACE "sslcd_" "" export_name ${target})
+  string(REGEX REPLACE "_lib$" "" output_name ${target})
+  string(REPLACE "sslcd_" "" export_name ${output_name})
 
   add_library(${target} STATIC ${objects})
   target_link_libraries(${target} PUBLIC ${ARG_LINK})
@@ -70,7 +72,7 @@ function(sslcd_library target)
     add_library(${target}_shared SHARED ${objects})
     list(TRANSFORM ARG_LINK APPEND _shared)
     target_link_libraries(${target}_shared PUBLIC ${ARG_LINK})
-    set_target_properties(${target}_shared PROPERTIES OUTPUT_NAME ${target}
+    set_target_properties(${target}_shared PROPERTIES
       VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
       LINK_DEPENDS ${SSLCD_SYMBOLS} INSTALL_RPATH $ORIGIN)
     target_link_options(${target}_shared PRIVATE LINKER:--version-script=${SSLCD_SYMBOLS})
@@ -86,7 +88,8 @@ function(sslcd_library target)
       $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
     target_compile_features(${kind} PUBLIC cxx_std_17)
     target_link_libraries(${kind} PUBLIC sslcd_lie PRIVATE ${outside})
-    set_target_properties(${kind} PROPERTIES EXPORT_NAME ${export_name})
+    set_target_properties(${kind} PROPERTIES EXPORT_NAME ${export_name}
+      OUTPUT_NAME ${output_name})
   endforeach()
   if(BUILD_SHARED_LIBS)
     add_library(sslcd::${export_name} ALIAS ${target}_shared)

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Writes config/default.yaml and docs/configuration.md from the field tables of the program. With
-# --check it only compares them (exit code 1 if they are out of date).
+# Writes config/default.yaml and docs/configuration.md from the field tables of the program, and the
+# schema of docs/store.md from its source. With --check it only compares them (exit code 1 if they
+# are out of date).
 #   scripts/update_docs.sh SSLCD_RUN [--check]
 set -euo pipefail
 run=$(realpath "${1:?usage: scripts/update_docs.sh SSLCD_RUN [--check]}")
@@ -41,10 +42,21 @@ defaults() {
   "$run" dump-config
 }
 
+store() {
+  sed '/^<!-- schema -->$/q' docs/store.md
+  echo '```sql'
+  sed -n '/R"sql(/,/^)sql"/p' src/store/schema_sql.h | sed '1d;$d'
+  echo '```'
+  sed -n '/^<!-- \/schema -->$/,$p' docs/store.md
+}
+
 if [[ ${2:-} == --check ]]; then
-  diff <(configuration) docs/configuration.md && diff <(defaults) config/default.yaml ||
+  diff <(configuration) docs/configuration.md && diff <(defaults) config/default.yaml &&
+    diff <(store) docs/store.md ||
     { echo "out of date: run scripts/update_docs.sh"; exit 1; }
   exit 0
 fi
 configuration >docs/configuration.md
+page=$(store)
+echo "$page" >docs/store.md
 defaults >config/default.yaml

@@ -21,7 +21,8 @@ from pathlib import Path
 OPT_IN = {"include/sslcd/perception/opencv_image.h": {"opencv2"}}
 # First part of an include path -> what the module's PRIVATE list has to name (part of it is enough).
 OUTSIDE = {"ceres": "ceres", "opencv2": "opencv", "flann": "flann", "yaml-cpp": "yaml_cpp", "nlohmann": "nlohmann",
-           "pugixml.hpp": "pugixml", "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree"}
+           "pugixml.hpp": "pugixml", "onnxruntime_c_api.h": "onnx", "embree3": "embree", "embree4": "embree",
+           "sqlite3.h": "sqlite"}
 UMBRELLA = "include/sslcd/sslcd.h"  # includes all modules of the library
 PROGRAMS = ("apps", "bench", "python", "tests")
 NOT_OURS = {"benchmark/benchmark.h"}  # named as one of ours

@@ -28,7 +28,8 @@ def preprocess(text, folders):
 class Upward(unittest.TestCase):
     def test_a_module_finds_the_headers_of_what_it_links_alone(self):
         modules, _ = read_modules(ROOT)
-        self.assertEqual(set(PATHS), {name for name, module in modules.items() if module.is_library})
+        missing = {name for name, module in modules.items() if module.is_library} - set(PATHS)
+        self.assertLessEqual(missing, {"store"}, "built where there is SQLite")
         for name, folders in PATHS.items():
             headers = [(other, header) for other in modules for header in headers_of(other)]
             text = "".join(f'#if __has_include("{header}")\nfound {header}\n#endif\n' for _, header in headers)

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/store/map_session.h"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+
+#include "sslcd/core/error.h"
+#include "sslcd/core/log.h"
+#include "store/frame_bytes.h"
+#include "store/sha256.h"
+#include "store/site.h"
+#include "store/utc_time.h"
+#include "store/view_answers.h"
+#include "store/writable_map.h"
+
+namespace sslcd {
+namespace {
+
+// A batch ends with a keyframe and has at least so many frames: each waits for the disk.
+constexpr int kFramesPerBatch = 10;
+// Readers get new results when a session has grown by so many frames, and by a tenth.
+constexpr int kFramesPerResult = 200;
+
+}  // namespace
+
+struct SSLCD_HIDDEN MapSession::Impl {
+  Impl(const std::string& path, Database::Access access) : map(path, access) {}
+
+  void MakeMapper(const MapperContext& context);
+  void Replay();
+  void RepeatInput(const StoredInput& input);
+  void LearnLabels(const Frame& frame);
+  void CheckVectors(const Frame& frame) const;
+  void Append(InputKind kind, std::string content);
+  void Store(bool with_results);
+  SessionInfo& session() { return map.info.sessions.back(); }
+  const SessionInfo& session() const { return map.info.sessions.back(); }
+
+  WritableMap map;
+  ViewAligner aligner;  // of the host
+  bool without_boxes = false;
+  std::shared_ptr<ViewAnswers> views = std::make_shared<ViewAnswers>();
+  std::optional<Mapper> mapper;
+  FilterReport filter;
+  std::vector<std::string> stored_hashes;  // of the frames of this session that were stored before
+  std::vector<int> stored_numbers;
+  // not stored yet
+  std::vector<StoredInput> waiting;
+  LabelTable new_labels;
+  PerCue<int> new_lengths;
+  int stored_frames = 0, frames_of_results = 0;
+};
+
+MapSession::MapSession(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MapSession::~MapSession() = default;
+MapSession::MapSession(MapSession&&) noexcept = default;
+MapSession& MapSession::operator=(MapSession&&) noexcept = default;
+
+const SessionInfo& MapSession::info() const { return impl_->session(); }
+int MapSession::stored_frames() const { return impl_->stored_frames; }
+FilterReport MapSession::filter() const { return impl_->filter; }
+Mapper& MapSession::mapper() { return *impl_->mapper; }
+
+void MapSession::Impl::MakeMapper(const MapperContext& context) {
+  const std::string& path = map.database.path();
+  if (context.place_matcher)
+    throw Error(ErrorKind::kUsage, path +
+                                       ": a map in a file cannot be made with a place matcher "
+                                       "of the host, whose answers are not stored");
+  without_boxes =
+      context.camera && (!map.info.camera || !IsSame(*context.camera, *map.info.camera));
+  if (without_boxes)
+    Log(LogLevel::kWarning, path +
+                                ": this drive has another camera than the first one of the map: "
+                                "its detections are associated without their 2D boxes");
+  aligner = context.view_aligner;
+  MapperContext own;
+  own.gravity = GravityFrame::FromUp(map.info.up_axis);
+  own.labels = map.info.labels;
+  own.camera = map.info.camera;
+  if (aligner || map.has_views)
+    own.view_aligner = [answers = views](const std::vector<ViewPair>& pairs) {
+      return answers->Answer(pairs);
+    };
+  mapper.emplace(OptionsOf(map.info, path), own);
+}
+
+void MapSession::Impl::RepeatInput(const StoredInput& input) {
+  const auto session = std::find_if(map.info.sessions.begin(), map.info.sessions.end(),
+                                    [&](const SessionInfo& s) { return s.id == input.session; });
+  switch (input.kind) {
+    case InputKind::kSequence: mapper->StartSequence(); return;
+    case InputKind::kRefinement: {
+      const RefinementInput refinement = RefinementOf(input.content);
+      views->Repeat(refinement.views);
+      mapper->Refine(refinement.when);
+      return;
+    }
+    case InputKind::kFrame: break;
+  }
+  Frame frame = FrameOf(input.content);
+  if (!session->ended) {
+    stored_numbers.push_back(frame.index);
+    stored_hashes.push_back(Sha256().Add(input.content).Finish());
+  }
+  frame.index += session->frame_offset;
+  const FrameReport report = mapper->AddFrame(frame);
+  if (!session->ended) filter += report.filter;
+}
+
+void MapSession::Impl::Replay() {
+  ReadInputs(map.database, map.info.sessions,
+             [&](const StoredInput& input) { RepeatInput(input); });
+  mapper->TakeChanges();
+}
+
+MapSession MapSession::Begin(const std::string& path, const SessionRequest& request,
+                             const MapperContext& context, const std::optional<Options>& options) {
+  auto impl = std::make_unique<Impl>(path, Database::Access::kCreate);
+  MapInfo& info = impl->map.info;
+  if (info.sessions.empty()) {
+    info.up_axis = context.gravity.up;
+    info.camera = context.camera;
+    info.config = ConfigText(options.value_or(Options()));
+    info.created = UtcTime();
+  } else {
+    CheckBelongs(info, path, context, options);
+  }
+  SessionInfo session;
+  session.frame_offset = 0;
+  for (const SessionInfo& other : info.sessions) {
+    if (!other.ended)
+      throw Error(ErrorKind::kUsage, path + ": session '" + other.name +
+                                         "' has not been ended; go on with it (--resume), or end "
+                                         "it as it is (`sslcd_run map end`)");
+    if (other.name == request.name)
+      throw Error(ErrorKind::kUsage, path + ": has a session '" + request.name +
+                                         "' already; give this one another name (--session)");
+    if (other.last_frame) session.frame_offset = *other.last_frame + 1;
+  }
+  session.id = info.sessions.empty() ? 1 : info.sessions.back().id + 1;
+  session.name = request.name;
+  session.checksum = FirstChecksum();
+  session.dataset = request.dataset;
+  session.command = request.command;
+  session.program = request.program;
+  session.started = UtcTime();
+  for (const auto& [name, label] : context.labels.entries()) {
+    info.labels.Set(name, label);
+    impl->new_labels.Set(name, label);
+  }
+  impl->MakeMapper(context);
+  impl->Replay();
+  impl->frames_of_results = 0;
+  info.sessions.push_back(std::move(session));
+  impl->views->AskHost(impl->aligner, impl->session().frame_offset);
+  MapSession result(std::move(impl));
+  result.StartSequence();
+  result.impl_->Store(false);
+  return result;
+}
+
+MapSession MapSession::Resume(const std::string& path, const MapperContext& context) {
+  auto impl = std::make_unique<Impl>(path, Database::Access::kWrite);
+  MapInfo& info = impl->map.info;
+  if (info.sessions.empty() || info.sessions.back().ended)
+    throw Error(ErrorKind::kUsage, path + ": has no session to go on with: all have been ended");
+  CheckBelongs(info, path, context, std::nullopt);
+  impl->MakeMapper(context);
+  impl->Replay();
+  impl->stored_frames = impl->frames_of_results = impl->session().frames;
+  impl->views->AskHost(impl->aligner, impl->session().frame_offset);
+  return MapSession(std::move(impl));
+}
+
+bool MapSession::IsStored(const Frame& frame) const {
+  const Impl& m = *impl_;
+  const auto at = std::lower_bound(m.stored_numbers.begin(), m.stored_numbers.end(), frame.index);
+  if (at == m.stored_numbers.end()) return false;
+  Frame stored = frame;
+  if (m.without_boxes)
+    for (Detection& detection : stored.detections) detection.box.reset();
+  const auto place = static_cast<std::size_t>(at - m.stored_numbers.begin());
+  if (*at == frame.index && Sha256().Add(FrameBytes(stored)).Finish() == m.stored_hashes[place])
+    return true;
+  throw Error(ErrorKind::kBadInput,
+              m.map.database.path() + ": frame " + std::to_string(frame.index) +
+                  " is not the one that session '" + m.session().name +
+                  "' was begun with: the drive has changed, or is another one. Restore it, or end "
+                  "the session as it is (`sslcd_run map end`)");
+}
+
+void MapSession::Impl::CheckVectors(const Frame& frame) const {
+  PerCue<int> lengths = map.info.vector_length;
+  for (const Detection& detection : frame.detections)
+    for (const CueRow& row : kCueRows) {
+      const int length = static_cast<int>(detection.appearance[row.cue].size());
+      int& known = lengths[row.cue];
+      if (length == 0) continue;
+      if (known == 0) known = length;
+      if (length != known)
+        throw Error(ErrorKind::kBadInput,
+                    map.database.path() + ": frame " + std::to_string(frame.index) + " has a " +
+                        row.name + " of " + std::to_string(length) +
+                        " numbers, those of the map have " + std::to_string(known) +
+                        ": they come from another model; use the one that the map was made with");
+    }
+}
+
+void MapSession::Impl::LearnLabels(const Frame& frame) {
+  for (const Detection& detection : frame.detections) {
+    if (map.info.labels.entries().count(detection.label) == 0) {
+      map.info.labels.Set(detection.label, {});
+      new_labels.Set(detection.label, {});
+    }
+    for (const CueRow& row : kCueRows) {
+      const int length = static_cast<int>(detection.appearance[row.cue].size());
+      if (length > 0 && map.info.vector_length[row.cue] == 0)
+        map.info.vector_length[row.cue] = new_lengths[row.cue] = length;
+    }
+  }
+}
+
+void MapSession::Impl::Append(InputKind kind, std::string content) {
+  SessionInfo& now = session();
+  now.checksum = NextChecksum(now.checksum, kind, content);
+  ++now.inputs;
+  waiting.push_back({now.id, kind, std::move(content)});
+}
+
+FrameReport MapSession::AddFrame(const Frame& given) {
+  Impl& m = *impl_;
+  Frame frame = given;
+  if (frame.index < 0 || frame.index > std::numeric_limits<int>::max() - m.session().frame_offset)
+    throw Error(ErrorKind::kBadInput,
+                "frame " + std::to_string(frame.index) + ": its number is out of range");
+  if (m.without_boxes)
+    for (Detection& detection : frame.detections) detection.box.reset();
+  m.CheckVectors(frame);
+  std::string content = FrameBytes(frame);
+  frame.index += m.session().frame_offset;
+  FrameReport report = m.mapper->AddFrame(frame);
+  m.filter += report.filter;
+  m.LearnLabels(frame);
+  m.Append(InputKind::kFrame, std::move(content));
+  ++m.session().frames;
+  m.session().last_frame = frame.index;
+  if (report.keyframe && m.session().frames - m.stored_frames >= kFramesPerBatch) {
+    const int grown = m.session().frames - m.frames_of_results;
+    m.Store(grown >= kFramesPerResult && 10 * grown >= m.frames_of_results);
+  }
+  return report;
+}
+
+void MapSession::StartSequence() {
+  impl_->mapper->StartSequence();
+  impl_->Append(InputKind::kSequence, "");
+}
+
+BaSummary MapSession::Refine(Refinement when) {
+  BaSummary summary = impl_->mapper->Refine(when);
+  impl_->Append(InputKind::kRefinement, RefinementBytes({when, impl_->views->TakeRecord()}));
+  return summary;
+}
+
+// What waits stays if that fails.
+void MapSession::Impl::Store(bool with_results) {
+  StoreBatch(map,
+             {&waiting, &session(), new_labels, new_lengths, with_results ? &*mapper : nullptr});
+  waiting.clear();
+  new_labels = {};
+  new_lengths = {};
+  stored_frames = session().frames;
+  if (with_results) frames_of_results = stored_frames;
+  Log(LogLevel::kDebug, "stored: " + std::to_string(stored_frames) + " frames");
+}
+
+void MapSession::Save() { impl_->Store(true); }
+
+void MapSession::End() {
+  impl_->session().ended = true;
+  try {
+    impl_->Store(true);
+  } catch (...) {
+    impl_->session().ended = false;
+    throw;
+  }
+}
+
+}  // namespace sslcd

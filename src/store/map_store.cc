@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sslcd/store/map_store.h"
+
+#include <map>
+
+#include "sslcd/core/error.h"
+#include "store/checksums.h"
+#include "store/frame_bytes.h"
+#include "store/journal.h"
+#include "store/result_tables.h"
+#include "store/schema.h"
+#include "store/site.h"
+#include "store/write_lock.h"
+
+namespace sslcd {
+namespace {
+
+// The frames of a session and the odometry's poses, by their numbers in the map.
+using OdometryPoses = std::map<int, Pose>;
+
+OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& sessions) {
+  OdometryPoses poses;
+  ReadInputs(database, sessions, [&](const StoredInput& input) {
+    if (input.kind != InputKind::kFrame) return;
+    const Frame frame = FrameOf(input.content);
+    for (const SessionInfo& session : sessions)
+      if (session.id == input.session) poses[frame.index + session.frame_offset] = frame.T_odom_cam;
+  });
+  return poses;
+}
+
+}  // namespace
+
+struct SSLCD_HIDDEN MapStore::Impl {
+  explicit Impl(const std::string& path) : database(OpenMap(path, Database::Access::kRead)) {}
+  Database database;
+};
+
+MapStore::MapStore(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+MapStore::~MapStore() = default;
+MapStore::MapStore(MapStore&&) noexcept = default;
+MapStore& MapStore::operator=(MapStore&&) noexcept = default;
+
+MapInfo MapStore::Describe() const {
+  const Transaction one_state(impl_->database, Transaction::Kind::kRead);
+  return ReadInfo(impl_->database);
+}
+
+MapResults MapStore::Results() const {
+  Database& database = impl_->database;
+  const Transaction one_state(database, Transaction::Kind::kRead);
+  const std::vector<std::string> problems = ChecksumProblems(database, kResultTables);
+  if (!problems.empty())
+    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+  MapResults results = ReadResults(database);
+  const OdometryPoses odometry = ReadOdometry(database, ReadInfo(database).sessions);
+  for (SessionPath& path : results.paths) {
+    path.odometry.stamps = path.trajectory.stamps;
+    for (const int frame : path.frames) path.odometry.poses.push_back(odometry.at(frame));
+  }
+  return results;
+}
+
+std::vector<std::string> MapStore::Verify() const {
+  Database& database = impl_->database;
+  const Transaction one_state(database, Transaction::Kind::kRead);
+  std::vector<std::string> problems = FileProblems(database, true);
+  if (!problems.empty()) return problems;
+  problems = ReadInputs(database, ReadInfo(database).sessions, [](const StoredInput&) {});
+  if (problems.empty() && database.Integer("SELECT count(*) FROM input") !=
+                              database.Integer("SELECT total(inputs) FROM session"))
+    problems.push_back("there are inputs that belong to no session");
+  return problems;
+}
+
+void CompactMap(const std::string& path) {
+  const WriteLock lock(path);
+  Database database = OpenMap(path, Database::Access::kWrite);
+  database.Execute("VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
+}
+
+}  // namespace sslcd

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace sslcd {
+
+/// The time now, e.g. "2026-11-23T17:40:06Z". Only for people: nothing is computed from it.
+std::string UtcTime();
+
+}  // namespace sslcd
