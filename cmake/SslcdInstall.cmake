@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `find_package(sslcd)` defines sslcd::sslcd, and with COMPONENTS vision also sslcd::vision.
-# tests/consumer checks it. Components: library, vision (shared libraries), tools, dev.
+# `find_package(sslcd)` defines sslcd::sslcd, and with COMPONENTS vision or store also sslcd::vision
+# or sslcd::store. tests/consumer checks it. Components: library, vision, store (shared libraries),
+# tools, dev.
 include(CMakePackageConfigHelpers)
 set(SSLCD_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sslcd)
 
+set(left_out)
 if(NOT TARGET sslcd_vision)
-  set(left_out REGEX "/sslcd/(inference|detectors|ground|visual_odometry|lifting|frontend)$"
+  list(APPEND left_out REGEX "/sslcd/(inference|detectors|ground|visual_odometry|lifting|frontend)$"
     EXCLUDE)
+endif()
+if(NOT TARGET sslcd_store_lib)
+  list(APPEND left_out REGEX "/sslcd/store$" EXCLUDE)
 endif()
 install(DIRECTORY include/sslcd ${SSLCD_GENERATED_INCLUDE_DIR}/sslcd
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev ${left_out})
@@ -38,6 +43,12 @@ if(TARGET sslcd_vision)
   install(DIRECTORY config/models DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd COMPONENT tools
     FILES_MATCHING PATTERN *.yaml)
   install(FILES config/classes.yaml DESTINATION ${CMAKE_INSTALL_DATADIR}/sslcd COMPONENT tools)
+endif()
+if(TARGET sslcd_store_lib)
+  sslcd_install_target(sslcd_store_lib dev sslcdStoreStaticTargets)
+  if(TARGET sslcd_store_lib_shared)
+    sslcd_install_target(sslcd_store_lib_shared store sslcdStoreSharedTargets)
+  endif()
 endif()
 if(TARGET sslcd_run)
   install(TARGETS sslcd_run sslcd_sim RUNTIME COMPONENT tools)

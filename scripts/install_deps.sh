@@ -13,7 +13,7 @@
 set -euo pipefail
 
 build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libflann-dev liblz4-dev
-       libyaml-cpp-dev libpugixml-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
+       libyaml-cpp-dev libpugixml-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
        libopencv-features2d-dev libopencv-calib3d-dev)
 ros=(libroscpp-dev libnav-msgs-dev libstd-srvs-dev libtf2-msgs-dev libvisualization-msgs-dev

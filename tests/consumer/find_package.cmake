@@ -10,5 +10,9 @@ execute_process(COMMAND ${CMAKE_COMMAND} -S ${OUTSIDE} -B ${WORK_DIR} -G ${GENER
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK_DIR} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${WORK_DIR}/consumer COMMAND_ERROR_IS_FATAL ANY)
+if(EXISTS ${PREFIX}/include/sslcd/store)
+  execute_process(COMMAND ${WORK_DIR}/consumer_store ${WORK_DIR}/site.db
+    COMMAND_ERROR_IS_FATAL ANY)
+endif()
 execute_process(COMMAND ${WORK_DIR}/consumer_vision ${PREFIX}/share/sslcd/models/yolo11.yaml
   COMMAND_ERROR_IS_FATAL ANY)
