@@ -6,18 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/odometry_failures.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/landmark.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
-
-/// What the steps in which odometry failed, or said that it was uncertain, add to the variance that
-/// its noise explains, and the number of steps in which it was lost.
-struct OdometryFailures {
-  double translation_m2 = 0, rotation_rad2 = 0;
-  int lost = 0;
-};
 
 /// A stored frame.
 struct FrameRecord {
@@ -49,8 +43,7 @@ class FrameStore {
   explicit FrameStore(double lost_path_m) : lost_path_m_(lost_path_m) {}
 
   /// Adds the newest frame and sets its `travelled` and `failures`. `reported` is the uncertainty
-  /// of the step to it. Where none is reported, odometry has failed in a step that is much longer
-  /// than any of the steps before it, or turns by much more.
+  /// of the step to it (StepJudge).
   void Append(FrameRecord record, const std::optional<StepUncertainty>& reported = std::nullopt);
 
   int size() const { return static_cast<int>(frames_.size()); }
@@ -86,6 +79,7 @@ class FrameStore {
   void Changed(int index);
 
   double lost_path_m_ = 0;
+  StepJudge steps_;
   std::vector<FrameRecord> frames_;
   Revision revision_ = 0;
   // (revision, first changed frame), both strictly ascending: a later change of an earlier frame

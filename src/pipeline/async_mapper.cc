@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/odometry_failures.h"
 #include "pipeline/background_refinement.h"
 #include "pipeline/merge_changes.h"
 #include "pipeline/refinement_plan.h"
@@ -21,14 +22,9 @@
 namespace sslcd {
 namespace {
 
-using Step = std::optional<StepUncertainty>;
-
-// Of two steps, one after the other.
-Step Together(const Step& a, const Step& b) {
-  if (!a) return b;
-  if (!b) return a;
-  return StepUncertainty{a->lost || b->lost, std::hypot(a->translation_m, b->translation_m),
-                         std::hypot(a->rotation_rad, b->rotation_rad)};
+// The step over dropped frames, of which nothing else is left.
+StepUncertainty Together(const OdometryFailures& failures) {
+  return {failures.lost > 0, std::sqrt(failures.translation_m2), std::sqrt(failures.rotation_rad2)};
 }
 
 }  // namespace
@@ -79,8 +75,9 @@ struct SSLCD_HIDDEN AsyncMapper::Impl {
   std::condition_variable changed;
   std::deque<Job> jobs;
   AsyncReport report;
-  Step dropped_step;  // over the frames dropped since the last one
-  int waiting = 0;    // frames among the jobs
+  StepJudge steps;                          // of all frames handed in
+  std::optional<OdometryFailures> dropped;  // in the steps to the frames dropped since the last one
+  int waiting = 0;                          // frames among the jobs
   bool works = false, refines = false, ends = false;
   std::unique_ptr<BackgroundRefinement> refinement;  // of the thread alone
   std::thread thread;  // the last member: it starts when all others are there
@@ -190,13 +187,15 @@ AsyncMapper::~AsyncMapper() = default;
 bool AsyncMapper::AddFrame(Frame frame) {
   Impl& m = *impl_;
   const std::lock_guard lock(m.mutex);
-  frame.step = Together(m.dropped_step, frame.step);
+  OdometryFailures failures = m.steps.Add(frame.T_odom_cam, frame.step);
+  if (m.dropped) failures += *m.dropped;
   if (m.waiting >= m.most_waiting || m.HasFailed()) {
-    m.dropped_step = frame.step;
+    m.dropped = failures;
     ++m.report.dropped;
     return false;
   }
-  m.dropped_step = {};
+  // a step over many frames would be taken for a failure
+  if (std::exchange(m.dropped, {})) frame.step = Together(failures);
   ++m.waiting;
   m.Push([&m, frame = std::move(frame)](AsyncReport& done) {
     {
@@ -210,7 +209,7 @@ bool AsyncMapper::AddFrame(Frame frame) {
 
 void AsyncMapper::StartSequence() {
   const std::lock_guard lock(impl_->mutex);
-  impl_->dropped_step = {};
+  impl_->dropped = {};
   impl_->Push([this](AsyncReport&) {
     impl_->mapper.StartSequence();
     impl_->plan.StartSequence();

@@ -167,68 +167,6 @@ TEST(AsyncMapper, RefinesByItselfAfterALoop) {
   EXPECT_THROW(AsyncMapper({}, drives.Context(), 64, std::nan("")), Error);
 }
 
-// A host's matcher that waits for a sign, and with it the mapper's thread.
-class Gate {
- public:
-  PlaceMatcher Matcher() {
-    return [this](const PlaceQuery&) {
-      reached_ = true;
-      opened_.wait();
-      return std::optional<PlaceAnswer>();
-    };
-  }
-  bool reached() const { return reached_; }
-  void Open() { open_.set_value(); }
-
- private:
-  std::atomic<bool> reached_{false};
-  std::promise<void> open_;
-  std::shared_future<void> opened_{open_.get_future()};
-};
-
-TEST(AsyncMapper, NeverWaitsAndDropsWhatIsTooMuch) {
-  const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
-  Gate gate;
-  Options options;
-  options.loop.layout.every_m = 200;  // once in the second lap
-  MapperContext context = drives.Context();
-  context.place_matcher = gate.Matcher();
-  constexpr int kMost = 3;
-  AsyncMapper async(options, context, kMost);
-  std::size_t next = 0;
-  int done = 0;
-  while (!gate.reached()) {
-    ASSERT_TRUE(async.AddFrame(drives.frames.at(next++)));
-    while (done < static_cast<int>(next) && !gate.reached()) done += async.TakeReport().frames;
-  }
-  for (int i = 0; i < kMost; ++i) EXPECT_TRUE(async.AddFrame(drives.frames[next++]));
-  Frame lost = drives.frames[next++];
-  lost.step = StepUncertainty{true};
-  EXPECT_FALSE(async.AddFrame(lost));
-  EXPECT_FALSE(async.AddFrame(drives.frames[next++]));
-  EXPECT_FALSE(async.WaitFor(0.001));
-  gate.Open();
-  EXPECT_TRUE(async.WaitFor(60));
-  const std::size_t after = next++;  // the step to it spans the dropped ones
-  EXPECT_TRUE(async.AddFrame(drives.frames[after]));
-  EXPECT_TRUE(async.AddFrame(drives.frames[next++]));
-  async.Wait();
-  const AsyncReport report = async.TakeReport();
-  EXPECT_EQ(report.dropped, 2);
-  EXPECT_EQ(report.failure, "");
-  EXPECT_EQ(async.TakeReport().dropped, 0);
-  ASSERT_FALSE(drives.frames[after].detections.empty());
-  int of_lost = 0, of_next = 0;
-  for (const MapObject& object : async.Snapshot().get().Objects()) {
-    for (const Observation& observation : object.observations) {
-      of_lost += observation.frame == drives.frames[after].index;
-      of_next += observation.frame == drives.frames[after + 1].index;
-    }
-  }
-  EXPECT_EQ(of_lost, 0) << "a lost step makes its detections useless";
-  EXPECT_GT(of_next, 0);
-}
-
 TEST(AsyncMapper, ABadFrameIsCountedWithItsReason) {
   AsyncMapper async({}, {});
   async.AddFrame(FrameAt(3));
