@@ -17,14 +17,22 @@ namespace sslcd {
 namespace {
 
 // Solves the graph and applies its verdict to the rows of `loops`. False: not solvable.
-bool SolveGraph(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
-                const LoopOptions& options) {
+bool SolveAndDecide(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
+                    const LoopOptions& options) {
   if (!options.robust) return SolvePoseGraph(graph.graph, options.graph.graph).usable;
   const RobustPoseGraphSummary summary = SolveRobust(graph.graph, options.graph, graph.kept_before);
   if (!summary.graph.usable) return false;
   for (std::size_t i = 0; i < loops.size(); ++i)
     ApplyGraphVerdict(summary.edge_weight[graph.first_loop + i] > 0, loops[i]->row());
   return true;
+}
+
+// Solves a graph with the accepted ones of its loops. False: not solvable.
+bool SolveKept(PoseGraph& graph, std::size_t first_loop, const std::vector<LoopAttempt*>& loops,
+               const LoopOptions& options) {
+  std::vector<double> weights(first_loop, 1.);
+  for (const LoopAttempt* loop : loops) weights.push_back(loop->accepted() ? 1. : 0.);
+  return SolvePoseGraph(graph, options.graph.graph, weights).usable;
 }
 
 }  // namespace
@@ -54,8 +62,13 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
   }
   LoopGraph graph =
       BuildLoopGraph(state.frames, edges, scale, state.gravity().up, options, factors);
-  UseRefinedSteps(state.frames, graph);
-  if (!SolveGraph(graph, loops, options)) return false;
+  // Odometry decides about the loops. The refined steps have them in, wrong ones, too, and would
+  // confirm them.
+  PoseGraph refined = WithRefinedSteps(state.frames, graph);
+  if (!SolveAndDecide(graph, loops, options)) return false;
+  if (state.frames.front().T_refined_cam && !ledger.RefinedByRefused() &&
+      SolveKept(refined, graph.first_loop, loops, options))
+    graph.graph = std::move(refined);
   const std::vector<Pose> before = PosesOf(state.frames);
   MoveKeyframes(state.frames, graph.keyframes, PosesOf(graph.graph));
   MoveObjects(state, before, noise);

@@ -9,13 +9,15 @@
 
 namespace sslcd {
 
-void UseRefinedSteps(const FrameStore& frames, LoopGraph& graph) {
+PoseGraph WithRefinedSteps(const FrameStore& frames, const LoopGraph& graph) {
+  PoseGraph result = graph.graph;
   for (std::size_t k = 0; k < graph.first_loop; ++k) {
-    PoseGraph::Edge& step = graph.graph.edges[k];
+    PoseGraph::Edge& step = result.edges[k];
     const std::optional<Pose>&from = frames[step.from].T_refined_cam,
           &to = frames[step.to].T_refined_cam;
     if (from && to) step.T_from_to = from->inverse() * *to;
   }
+  return result;
 }
 
 LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& loops, double scale,

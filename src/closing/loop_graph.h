@@ -37,8 +37,8 @@ LoopGraph BuildLoopGraph(const FrameStore& frames, const std::vector<LoopEdge>& 
                          const Vec3& up, const LoopOptions& options,
                          const OdometryFactors& factors);
 
-/// Replaces the steps between refined frames by those of the refinement, which knows more than
-/// odometry and loops: a later loop bends them, but does not undo them.
-void UseRefinedSteps(const FrameStore& frames, LoopGraph& graph);
+/// The graph with the steps of the refinement between refined frames, which know more than odometry
+/// and loops: a later loop bends them, but does not undo them.
+PoseGraph WithRefinedSteps(const FrameStore& frames, const LoopGraph& graph);
 
 }  // namespace sslcd

@@ -94,6 +94,16 @@ void LoopLedger::ForgetFusions() {
   for (LoopAttempt& attempt : attempts_) attempt.fused = false;
 }
 
+void LoopLedger::MarkRefined() {
+  for (LoopAttempt& attempt : attempts_) attempt.refined = attempt.accepted();
+}
+
+bool LoopLedger::RefinedByRefused() const {
+  return std::any_of(attempts_.begin(), attempts_.end(), [](const LoopAttempt& attempt) {
+    return attempt.refined && !attempt.accepted();
+  });
+}
+
 bool LoopLedger::AnyAccepted() const {
   return std::any_of(attempts_.begin(), attempts_.end(),
                      [](const LoopAttempt& attempt) { return attempt.accepted(); });

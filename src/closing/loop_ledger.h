@@ -29,8 +29,9 @@ struct LoopAttempt {
   SearchWindow window;
   /// accepted at some time, so it is an edge of the pose graph, which may refuse it
   bool in_graph = false;
-  bool solved = false;  ///< a solve of the pose graph has included it
-  bool fused = false;   ///< its matched objects were fused
+  bool solved = false;   ///< a solve of the pose graph has included it
+  bool fused = false;    ///< its matched objects were fused
+  bool refined = false;  ///< accepted when the trajectory was last refined
 
   LoopClosure& row() { return found.loop.row; }
   const LoopClosure& row() const { return found.loop.row; }
@@ -65,6 +66,11 @@ class LoopLedger {
   bool FusedByRefused() const;
   /// To be called when all fused landmarks were split.
   void ForgetFusions();
+
+  /// To be called when the trajectory was refined with the accepted loops.
+  void MarkRefined();
+  /// Whether that trajectory has a loop that is no longer accepted.
+  bool RefinedByRefused() const;
 
   std::vector<LoopAttempt>& attempts() {
     ++revision_;

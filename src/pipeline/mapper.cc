@@ -249,6 +249,7 @@ BaSummary Mapper::Refine(Refinement when) {
   }
   m.refined_log_scale = m.log_scale;
   m.state.frames.MarkRefined();
+  m.loops.ledger().MarkRefined();
   return summary;
 }
 

@@ -49,6 +49,13 @@ void Gnc::Start(double weight) {
   Solve();
 }
 
+void Gnc::Start(const std::vector<double>& weights) {
+  std::size_t loop = 0;
+  for (std::size_t e = 0; e < ends_.size(); ++e)
+    if (graph_.edges[e].loop) weights_[e] = weights[loop++];
+  Solve();
+}
+
 void Gnc::Graduate() {
   double mu = limit_ / std::max(2 * Worst() - limit_, kLeastMisfit * limit_);
   for (bool undecided = true; undecided && rounds_ < kMaxRounds; mu *= options_.mu_factor) {

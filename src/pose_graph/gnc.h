@@ -25,6 +25,8 @@ class Gnc {
 
   /// Solves with all loops on (1) or off (0).
   void Start(double weight);
+  /// Solves with the weight of each loop, in the order of the edges.
+  void Start(const std::vector<double>& weights);
 
   /// Updates weights and solution until no loop is left between 0 and 1.
   void Graduate();

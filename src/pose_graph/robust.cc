@@ -16,27 +16,37 @@ namespace {
 
 constexpr int kMaxDecisions = 5;      // rounds of decisions on all loops; usually two
 constexpr int kMaxWarmDecisions = 3;  // the same with a previous solution
-// Largest share of the loops (at least one loop) that a warm start may additionally refuse; with
-// more, everything is solved again. Set by hand.
-constexpr double kShareOfNew = 0.02;
+// Largest share of the loops (at least one loop) that a warm start may refuse; with more,
+// everything is solved again. Set by hand.
+constexpr double kShareRefused = 0.02;
 
 // Optimises a graph that starts at the geometry of its trusted edges. GNC may end in a local
-// minimum, so it runs with all loops and with none, and the lower cost wins. If all loops agree,
-// there is nothing to decide.
-int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, double limit) {
-  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
-  Gnc from_all(condensed.graph(), options, limit), from_none = from_all;
-  from_all.Start(1);
+// minimum, so it runs with all loops, with none, and with those that were kept before if some were
+// not, and the lowest cost wins. If all loops agree, there is nothing else to decide.
+// `kept_before`: weight per loop, or empty.
+int SolveTruncated(PoseGraph& graph, const RobustPoseGraphOptions& options, double limit,
+                   const std::vector<double>& kept_before) {
+  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // loops come first, in order
+  Gnc from_all(condensed.graph(), options, limit), from_none = from_all, from_kept = from_all;
   const Gnc* best = &from_all;
+  const auto compare = [&best](const Gnc& other) {
+    if (other.Cost() <= best->Cost()) best = &other;
+  };
+  from_all.Start(1);
   if (!from_all.AllAgree()) {
     from_all.Graduate();
     from_none.Start(0);
     from_none.Graduate();
-    if (from_none.Cost() <= from_all.Cost()) best = &from_none;
+    compare(from_none);
+  }
+  if (std::count(kept_before.begin(), kept_before.end(), 0.) > 0) {
+    from_kept.Start(kept_before);
+    from_kept.Graduate();
+    compare(from_kept);
   }
   condensed.graph() = best->graph();
   condensed.Expand(graph);
-  return from_all.rounds() + from_none.rounds();
+  return from_all.rounds() + from_none.rounds() + from_kept.rounds();
 }
 
 // Weight per edge: 0 for a loop beyond the limit, else 1.
@@ -61,11 +71,6 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
 
 namespace {
 
-// The chi2 against the trusted edges above which a loop is ruled out.
-double RuledOut(double chi2_limit, const RobustPoseGraphOptions& options) {
-  return chi2_limit * options.drift_factor * options.drift_factor;
-}
-
 // Selects among all loops, including ruled-out ones, by the poses of `work` and solves with the
 // kept ones, repeatedly until nothing changes. `graph` gets the result of `work`.
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
@@ -87,9 +92,9 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
   summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
 }
 
-// Starts at the poses and the kept loops of the previous solve. False if it refuses more loops than
-// the new ones explain, or if the new ones distort the trusted edges more than one true loop can:
-// then all loops must be decided again.
+// Starts at the poses and the kept loops of the previous solve. False if it refuses more than few
+// loops, or if the new ones distort the trusted edges more than one true loop does: then all loops
+// must be decided again.
 bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
                const std::vector<double>& kept_before, double limit) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // loops come first, in order
@@ -105,7 +110,6 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
       if (!condensed.graph().edges[e].loop) sum += EdgeChi2(condensed.graph(), ends, e);
     return sum;
   };
-  const auto refused_before = refused();
   const double misfit_before = misfit_of_trusted();
   PoseGraphOptions inner = options.graph;
   inner.start = PoseGraphStart::kGiven;
@@ -116,12 +120,34 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
     weights = std::move(kept);
     if (settled) break;
   }
-  if (static_cast<double>(refused() - refused_before) >
-      std::max(1., kShareOfNew * static_cast<double>(loops)))
+  if (static_cast<double>(refused()) > std::max(1., kShareRefused * static_cast<double>(loops)))
     return false;
-  if (misfit_of_trusted() - misfit_before > RuledOut(limit, options)) return false;
+  if (misfit_of_trusted() - misfit_before > limit) return false;
   condensed.Expand(graph);
   return true;
+}
+
+// Starts at the trusted edges, with the loops that these do not rule out. Returns the weight
+// updates.
+int SolveCold(PoseGraph& graph, const RobustPoseGraphOptions& options,
+              const std::vector<std::pair<int, int>>& ends, double limit,
+              const std::vector<double>& kept_before) {
+  const TrustedTree tree(graph, ends);
+  PoseGraph candidates;
+  candidates.vertices = graph.vertices;
+  for (std::size_t v = 0; v < graph.vertices.size(); ++v)
+    if (!graph.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];
+  std::vector<double> candidates_before;
+  const double ruled_out = limit * options.drift_factor * options.drift_factor;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+    const PoseGraph::Edge& edge = graph.edges[e];
+    if (edge.loop && tree.Disagreement(edge, ends[e].first, ends[e].second) > ruled_out) continue;
+    candidates.edges.push_back(edge);
+    if (edge.loop && !kept_before.empty()) candidates_before.push_back(kept_before[e]);
+  }
+  const int rounds = SolveTruncated(candidates, options, limit, candidates_before);
+  graph.vertices = candidates.vertices;
+  return rounds;
 }
 
 }  // namespace
@@ -146,26 +172,10 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
         EdgeWithin(options.graph.freedom, options.graph.gravity.up, work.edges[e],
                    work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
   }
-  if (kept_before.size() == graph.edges.size() &&
-      SolveWarm(work, options, kept_before, summary.chi2_limit)) {
-    Decide(work, options, index.ends, graph, summary);
-    return summary;
-  }
-  const TrustedTree tree(work, index.ends);
-  PoseGraph candidates;  // graph with the loops that odometry does not rule out
-  candidates.vertices = work.vertices;
-  for (std::size_t v = 0; v < work.vertices.size(); ++v)
-    if (!work.vertices[v].fixed) candidates.vertices[v].T_world_vertex = tree.poses()[v];
-  const double ruled_out = RuledOut(summary.chi2_limit, options);
-  for (std::size_t e = 0; e < work.edges.size(); ++e) {
-    const PoseGraph::Edge& edge = work.edges[e];
-    if (!edge.loop ||
-        tree.Disagreement(edge, index.ends[e].first, index.ends[e].second) <= ruled_out)
-      candidates.edges.push_back(edge);
-  }
-  summary.rounds = SolveTruncated(candidates, options, summary.chi2_limit);
-  work.vertices = candidates.vertices;
-
+  const bool decided_before = kept_before.size() == graph.edges.size();
+  if (!decided_before || !SolveWarm(work, options, kept_before, summary.chi2_limit))
+    summary.rounds = SolveCold(work, options, index.ends, summary.chi2_limit,
+                               decided_before ? kept_before : std::vector<double>());
   Decide(work, options, index.ends, graph, summary);
   return summary;
 }
