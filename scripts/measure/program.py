@@ -16,6 +16,7 @@ class Program:
     """sslcd_run of a build folder."""
 
     def __init__(self, build):
+        self.build = build
         self.path = os.path.join(build, 'apps', 'sslcd_run')
         self.built = 'unknown'
         header = os.path.join(build, 'apps', 'generated', 'sslcd_commit.h')
@@ -23,6 +24,13 @@ class Program:
             with open(header, encoding='utf-8') as file:
                 found = re.search(r'SSLCD_COMMIT "([^"]*)"', file.read())
             self.built = found.group(1) if found else 'unknown'
+
+    def beside(self, path):
+        """Another program of the build folder."""
+        full = os.path.join(self.build, path)
+        if not os.path.exists(full):
+            raise SystemExit(f'no {full}: configure with -DSSLCD_BUILD_BENCH=ON and build it')
+        return full
 
     def run(self, arguments):
         """Standard output, and {wall_s, cpu_s, memory_mib}. Raises if the run fails."""

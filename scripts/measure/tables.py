@@ -164,6 +164,24 @@ def city(sets):
     return table(header, rows) + note(entries, 'scripts/measure.sh --only city')
 
 
+def stream(sets):
+    entries = {name.removeprefix('stream/'): entry for name, entry in sets.items()
+               if name.startswith('stream/')}
+    rows = []
+    for name, entry in entries.items():
+        f = entry['figures']
+        quarters = (number(f[f'{which}_quarter_p99_ms'], 1) for which in ('first', 'last'))
+        rows.append([name, round(f['frames']), number(f['p50_ms'], 1), number(f['p99_ms'], 1),
+                     ' / '.join(quarters), number(f['max_ms'], 1), round(f['dropped']),
+                     f'{f["loops"]:.0f}, {number(f["ATE_m"])}',
+                     f'{f["loops_refined"]:.0f}, {number(f["ATE_refined_m"])}',
+                     number(f['KiB_per_frame'], 1)])
+    header = ['sequence', 'frames', 'call p50 [ms]', 'p99 [ms]', 'p99 of the first / last quarter',
+              'longest [ms]', 'frames dropped', 'loops and ATE [m] after the last frame',
+              'after a last Refine()', 'memory per frame [KiB]']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only stream')
+
+
 def halv_ate(sets):
     rows = []
     for name, title in ((KNOWN, 'seeds 1-10'), (FRESH, 'seeds 11-20, held out')):
@@ -259,7 +277,7 @@ def bench(set_name, key, sets):
 
 
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
-                                  halv_ate, halv_viewpoints)}
+                                  stream, halv_ate, halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):
     TABLES['bench_' + bench_key] = functools.partial(bench, 'bench/all', bench_key)
