@@ -1,28 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/pipeline/run.h"
 
-#include <algorithm>
+#include "pipeline/frame_colours.h"
 
 namespace sslcd {
-namespace {
-
-bool LacksColour(const Frame& frame) {
-  return !frame.image_left.empty() &&
-         std::any_of(frame.detections.begin(), frame.detections.end(),
-                     [](const auto& d) { return d.box && d.appearance[Cue::kColour].empty(); });
-}
-
-// Computes colour vectors of the detections with a box and without a colour. False: the image
-// cannot be read.
-bool AddColours(Frame& frame, const ColourOptions& options, const RunHooks& hooks) {
-  return hooks.with_image(frame.image_left, [&](const ImageView& image) {
-    for (Detection& detection : frame.detections)
-      if (detection.box && detection.appearance[Cue::kColour].empty())
-        detection.appearance[Cue::kColour] = ColourVector(image, *detection.box, options);
-  });
-}
-
-}  // namespace
 
 RunResult RunSequence(const std::vector<Frame>& frames, const MapperContext& context,
                       const Options& options, const RunHooks& hooks) {
