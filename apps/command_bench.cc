@@ -20,7 +20,7 @@ int RunBench(BenchArguments& arguments, const Console& console) {
   } catch (const BenchStopped&) {
     console.EndProgress();
     console.Say("interrupted: the same command goes on from here");
-    return 130;
+    return InterruptCode();
   }
   console.Say("wrote " + arguments.out);
   return 0;

@@ -183,7 +183,7 @@ int Detect(DetectArguments& a, const Console& console) {
   const FrontendReport report = frontend.Finish();
   if (Interrupted()) {
     Log(LogLevel::kWarning, "interrupted: nothing but overlays is written");
-    return 130;
+    return InterruptCode();
   }
   if (failure && !fresh) {
     Log(LogLevel::kWarning,

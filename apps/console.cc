@@ -16,12 +16,12 @@ namespace sslcd::apps {
 namespace {
 
 // lock-free, so a handler may set it and any thread read it
-std::atomic<bool> g_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> g_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
-extern "C" void OnInterrupt(int) {
-  g_interrupted = true;
-  std::signal(SIGINT, SIG_DFL);
+extern "C" void OnInterrupt(int signal) {
+  g_signal = signal;
+  std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
@@ -96,8 +96,16 @@ std::string TimingText(const TimingTable& timing) {
   return AlignedTable(rows);
 }
 
-void CatchInterrupt() { std::signal(SIGINT, OnInterrupt); }
+void CatchInterrupt() {
+  std::signal(SIGINT, OnInterrupt);
+  std::signal(SIGTERM, OnInterrupt);
+}
 
-bool Interrupted() { return g_interrupted != 0; }
+bool Interrupted() { return g_signal != 0; }
+
+int InterruptCode() {
+  constexpr int kBySignal = 128;
+  return kBySignal + g_signal;
+}
 
 }  // namespace sslcd::apps

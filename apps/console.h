@@ -34,8 +34,11 @@ std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);
 /// printf-style number, e.g. Number("%.3f", 1.2).
 std::string Number(const char* format, double value);
 
-/// Installs a SIGINT handler that only sets a flag; a second ctrl-C ends the program at once.
+/// Installs handlers of SIGINT and SIGTERM that only set a flag; a second one ends the program at
+/// once.
 void CatchInterrupt();
 bool Interrupted();
+/// The exit code of a program that was interrupted: 128 and the signal's number.
+int InterruptCode();
 
 }  // namespace sslcd::apps
