@@ -11,6 +11,7 @@
 #include "formats/atomic_file.h"
 #include "from_images.h"
 #include "image_loader.h"
+#include "map_run.h"
 #include "overwriting.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
@@ -27,6 +28,7 @@ struct RunArguments {
   std::string score = "auto", out;
   ConfigArguments config;
   ImageArguments images;
+  MapArguments map;
   bool json = false;
   int threads = HardwareThreads();
 };
@@ -46,7 +48,8 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--score", a.score, "what the score column holds; guessed where not given")
       ->check(CLI::IsMember({"auto", "probability", "logit"}));
   a.config.AddTo(command);
-  command.add_option("--out", a.out, "folder to write; default runs/latest")
+  a.map.AddTo(command);
+  command.add_option("--out", a.out, "folder to write; default runs/latest, with --map none")
       ->default_str("runs/latest");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
@@ -164,20 +167,28 @@ Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& da
   if (!a.images.detects()) hooks.with_image = WithImage;
   CatchInterrupt();
   Mapped mapped;
+  const auto next = [&]() -> std::optional<Frame> {
+    std::optional<Frame> frame;
+    if (frontend)
+      frame = NextFrame(*frontend, mapped.frames.size(), mapped.failure);
+    else if (mapped.frames.size() < dataset.frames.size())
+      frame = dataset.frames[mapped.frames.size()];
+    if (frame) mapped.frames.push_back(*frame);
+    return frame;
+  };
+  if (a.map.given()) {
+    const auto failed = [&mapped] { return mapped.failure.has_value(); };
+    mapped.result = RunInMap(a.map, {dataset.name, a.request.path, next, total, failed}, context,
+                             configuration.options, hooks);
+  } else {
+    mapped.result = RunSequence(next, total, context, configuration.options, hooks);
+    mapped.result.stopped = Interrupted();  // may have happened during view alignment
+  }
   if (!frontend) {
-    mapped.result = RunSequence(dataset.frames, context, configuration.options, hooks);
-    mapped.result.stopped = Interrupted();
     mapped.frames = std::move(dataset.frames);
     console.EndProgress();
     return mapped;
   }
-  const auto next = [&] {
-    std::optional<Frame> frame = NextFrame(*frontend, mapped.frames.size(), mapped.failure);
-    if (frame) mapped.frames.push_back(*frame);
-    return frame;
-  };
-  mapped.result = RunSequence(next, total, context, configuration.options, hooks);
-  mapped.result.stopped = Interrupted();  // may have happened during view alignment
   const FrontendReport report = frontend->Finish();
   mapped.result.timing.Append(report.timing);
   console.EndProgress();
@@ -214,27 +225,38 @@ Metrics EvaluateRun(const RunArguments& a, const Dataset& dataset, std::vector<i
   return Evaluate(evaluation);
 }
 
+// A session that can go on.
+int ReportOpenSession(const RunArguments& a, const Mapped& mapped) {
+  Log(LogLevel::kWarning, MapLine(a.map) + "; the same command with --resume goes on");
+  if (mapped.failure) throw *mapped.failure;
+  return InterruptCode();
+}
+
 int Run(RunArguments& a, const Console& console) {
-  if (a.out.empty()) a.out = "runs/latest";
+  if (a.out.empty() && !a.map.given()) a.out = "runs/latest";
   a.images.AddTo(a.config);
-  const Configuration given = a.config.Load();  // reports wrong options first
-  MakeWritableFolder(a.out);                    // fails before the run, not after it
+  const Configuration given = a.config.Load();    // reports wrong options first
+  if (!a.out.empty()) MakeWritableFolder(a.out);  // fails before the run, not after it
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
-                     a.images.boxes, a.config.file},
+                     a.images.boxes, a.config.file, a.map.file},
                     RunFolderPaths(a.out));
   std::vector<int> identities = IdentitiesOf(a, dataset);
   const ImageRequest request = a.images.RequestFor(dataset, a.images.detects(), given);
-  const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
+  Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
+  UseOptionsOfMap(a.map, a.config, configuration);
   const Mapped mapped = MapFrames(a, request, dataset, configuration, console);
+  if (a.map.given() && mapped.result.stopped) return ReportOpenSession(a, mapped);
   RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
   outputs.metrics = EvaluateRun(a, dataset, std::move(identities), mapped, outputs);
-  const std::vector<std::string> paths = WriteRunFolder(a.out, outputs);
+  std::vector<std::string> paths;
+  if (!a.out.empty()) paths = WriteRunFolder(a.out, outputs);
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
   console.Say(ResultTable(mapped.result, outputs.metrics));
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
+  if (a.map.given()) console.Say("wrote " + MapLine(a.map));
   if (const int too_many = mapped.result.filter.too_many; too_many > 0)
     Log(LogLevel::kWarning, std::to_string(too_many) +
                                 " detections dropped, because a frame has more than "
@@ -245,7 +267,7 @@ int Run(RunArguments& a, const Console& console) {
   }
   if (mapped.result.stopped)
     Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
-  return mapped.result.stopped ? 130 : 0;
+  return mapped.result.stopped ? InterruptCode() : 0;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ Command AddDetectCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
+Command AddMapCommand(CLI::App& app, Console& console);
 Command AddBenchCommand(CLI::App& app, Console& console);
 Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad "
       "configuration, "
-      "5 no solution, 130 interrupted.");
+      "5 no solution, 130 and 143 interrupted.");
   Console console;
   const std::map<std::string, Command> commands = {
       {"run", AddRunCommand(app, console)},
@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
       {"eval", AddEvalCommand(app, console)},
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
+      {"map", AddMapCommand(app, console)},
       {"bench", AddBenchCommand(app, console)},
       {"check-config", AddCheckConfigCommand(app, console)},
       {"dump-config", AddDumpConfigCommand(app, console)},

@@ -22,6 +22,17 @@ constexpr int kFramesPerBatch = 10;
 // Readers get new results when a session has grown by so many frames, and by a tenth.
 constexpr int kFramesPerResult = 200;
 
+// The name becomes that of a folder (`sslcd_run map export`).
+void CheckName(const std::string& name) {
+  const bool printable = std::all_of(name.begin(), name.end(), [](char c) {
+    return static_cast<unsigned char>(c) >= ' ' && c != '/' && c != '\x7f';
+  });
+  if (name.empty() || name == "." || name == ".." || !printable)
+    throw Error(ErrorKind::kUsage, "'" + name +
+                                       "' cannot be the name of a session: give it a name "
+                                       "without slashes and control characters");
+}
+
 }  // namespace
 
 struct SSLCD_HIDDEN MapSession::Impl {
@@ -41,6 +52,7 @@ struct SSLCD_HIDDEN MapSession::Impl {
   ViewAligner aligner;  // of the host
   bool without_boxes = false;
   std::shared_ptr<ViewAnswers> views = std::make_shared<ViewAnswers>();
+  Options options;
   std::optional<Mapper> mapper;
   FilterReport filter;
   std::vector<std::string> stored_hashes;  // of the frames of this session that were stored before
@@ -58,6 +70,7 @@ MapSession::MapSession(MapSession&&) noexcept = default;
 MapSession& MapSession::operator=(MapSession&&) noexcept = default;
 
 const SessionInfo& MapSession::info() const { return impl_->session(); }
+const Options& MapSession::options() const { return impl_->options; }
 int MapSession::stored_frames() const { return impl_->stored_frames; }
 FilterReport MapSession::filter() const { return impl_->filter; }
 Mapper& MapSession::mapper() { return *impl_->mapper; }
@@ -83,7 +96,8 @@ void MapSession::Impl::MakeMapper(const MapperContext& context) {
     own.view_aligner = [answers = views](const std::vector<ViewPair>& pairs) {
       return answers->Answer(pairs);
     };
-  mapper.emplace(OptionsOf(map.info, path), own);
+  options = OptionsOf(map.info, path);
+  mapper.emplace(options, own);
 }
 
 void MapSession::Impl::RepeatInput(const StoredInput& input) {
@@ -117,6 +131,7 @@ void MapSession::Impl::Replay() {
 
 MapSession MapSession::Begin(const std::string& path, const SessionRequest& request,
                              const MapperContext& context, const std::optional<Options>& options) {
+  CheckName(request.name);
   auto impl = std::make_unique<Impl>(path, Database::Access::kCreate);
   MapInfo& info = impl->map.info;
   if (info.sessions.empty()) {
@@ -128,7 +143,6 @@ MapSession MapSession::Begin(const std::string& path, const SessionRequest& requ
     CheckBelongs(info, path, context, options);
   }
   SessionInfo session;
-  session.frame_offset = 0;
   for (const SessionInfo& other : info.sessions) {
     if (!other.ended)
       throw Error(ErrorKind::kUsage, path + ": session '" + other.name +

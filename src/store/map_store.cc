@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/store/map_store.h"
 
+#include <filesystem>
 #include <map>
 
 #include "sslcd/core/error.h"
@@ -71,6 +72,13 @@ std::vector<std::string> MapStore::Verify() const {
                               database.Integer("SELECT total(inputs) FROM session"))
     problems.push_back("there are inputs that belong to no session");
   return problems;
+}
+
+bool HasMap(const std::string& path) {
+  std::error_code none;
+  if (!std::filesystem::exists(path, none) || IsEmptyMap(path)) return false;
+  OpenMap(path, Database::Access::kRead);
+  return true;
 }
 
 void CompactMap(const std::string& path) {

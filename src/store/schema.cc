@@ -17,11 +17,16 @@ int PresentVersion() { return static_cast<int>(SchemaMigrations().size()); }
   throw Error(ErrorKind::kBadInput, path + ": " + why);
 }
 
+// The tables of a new map are made before its first row.
+bool HasSite(Database& database) { return database.Integer("SELECT count(*) FROM site") > 0; }
+
 void CheckKind(Database& database, Database::Access access) {
   const std::string& path = database.path();
   const std::string version = std::to_string(database.Integer("PRAGMA user_version"));
   switch (KindOf(database, PresentVersion())) {
-    case FileKind::kMap: return;
+    case FileKind::kMap:
+      if (access == Database::Access::kCreate || HasSite(database)) return;
+      break;
     case FileKind::kForeign:
       Refuse(path, "is the database of another program, not a map of sslcd; name another file");
     case FileKind::kNewer:
@@ -40,6 +45,8 @@ void CheckKind(Database& database, Database::Access access) {
     Refuse(path,
            "has no map: its first session was ended before anything was stored; "
            "`sslcd_run run DATASET --map FILE` begins one");
+  // first, since a reader cannot take back what is half done without it
+  database.Execute("PRAGMA journal_mode = WAL");
   Migrate(database, SchemaMigrations());
 }
 
@@ -81,6 +88,14 @@ std::string PresentSchemaText() {
   Database database(":memory:", Database::Access::kCreate);
   Migrate(database, SchemaMigrations());
   return SchemaText(database);
+}
+
+bool IsEmptyMap(const std::string& path) {
+  std::error_code none;
+  if (fs::is_directory(path, none)) Refuse(path, "is a folder; name a file");
+  Database database(path, Database::Access::kRead);
+  const FileKind kind = KindOf(database, PresentVersion());
+  return kind == FileKind::kEmpty || (kind == FileKind::kMap && !HasSite(database));
 }
 
 Database OpenMap(const std::string& path, Database::Access access) {

@@ -33,9 +33,13 @@ std::string SchemaText(Database& database);
 /// The same of a file of the present schema.
 std::string PresentSchemaText();
 
+/// Whether the file, which must be there, is a map that has no session yet.
+bool IsEmptyMap(const std::string& path);
+
 /// Opens a map and checks what the file is. With Access::kCreate it makes the tables of a new one;
 /// with it and kWrite, those of an older schema are updated. Throws Error as Database does, and
-/// kBadInput for each other kind of file with a way out.
+/// kBadInput for each other kind of file with a way out; for a map without a session, too, but with
+/// kCreate.
 Database OpenMap(const std::string& path, Database::Access access);
 
 }  // namespace sslcd

@@ -9,7 +9,7 @@ import unittest
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../..')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
 SOURCE = re.compile(r'(?<![\w./])((?:[a-z_0-9]+/)+[a-z_0-9]+\.(?:cc|h|py|sh))\b')
-FILE_ENDINGS = {'cc', 'csv', 'h', 'json', 'md', 'npy', 'ply', 'txt', 'yaml'}
+FILE_ENDINGS = {'cc', 'csv', 'geojson', 'h', 'json', 'md', 'npy', 'ply', 'txt', 'yaml'}
 
 
 def read(path):

@@ -8,15 +8,16 @@
 #include <iterator>
 
 #include "../support/temp_folder.h"
+#include "sslcd/store/map_session.h"
 
 namespace sslcd {
 namespace {
 
 using Access = Database::Access;
 
-std::string NewMap(const TempFolder& folder) {
-  const std::string path = folder.In("site.db");
-  OpenMap(path, Access::kCreate);
+std::string NewMap(const TempFolder& folder, const std::string& name = "site.db") {
+  const std::string path = folder.In(name);
+  MapSession::Begin(path, {"one"}, {}, std::nullopt);
   return path;
 }
 
@@ -57,7 +58,12 @@ TEST(Schema, EachKindOfFileHasItsOwnMessage) {
 
 TEST(Schema, AnEmptyFileBecomesAMap) {
   const TempFolder folder;  // a program was killed before it wrote anything
-  Database database = OpenMap(folder.Write("empty.db", ""), Access::kCreate);
+  const std::string path = folder.Write("empty.db", "");
+  EXPECT_FALSE(HasMap(path));
+  EXPECT_FALSE(HasMap(folder.In("none.db")));
+  Database database = OpenMap(path, Access::kCreate);
+  EXPECT_FALSE(HasMap(path)) << "no session yet";
+  ExpectError([&] { OpenMap(path, Access::kRead); }, {"has no map"});
   EXPECT_EQ(SchemaText(database), PresentSchemaText());
 }
 
@@ -93,8 +99,7 @@ TEST(Schema, AFileThatLacksItsEndIsRefused) {
 
 TEST(Schema, NamesWithSpecialCharactersAreRead) {
   const TempFolder folder;
-  const std::string path = folder.In("a ?b#c%20.db");
-  OpenMap(path, Access::kCreate);
+  const std::string path = NewMap(folder, "a ?b#c%20.db");
   EXPECT_TRUE(std::filesystem::exists(path));
   OpenMap(path, Access::kRead);
 }

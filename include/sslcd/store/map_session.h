@@ -60,8 +60,9 @@ class MapSession {
   void End();
 
   const SessionInfo& info() const;
-  int stored_frames() const;    ///< frames of this session that will not be lost
-  FilterReport filter() const;  ///< sums over the frames of this session
+  const Options& options() const;  ///< of the map
+  int stored_frames() const;       ///< frames of this session that will not be lost
+  FilterReport filter() const;     ///< sums over the frames of this session
   /// All sessions together. Frames have the numbers of the map.
   Mapper& mapper();
 

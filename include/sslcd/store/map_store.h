@@ -88,6 +88,10 @@ class MapStore {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Whether the file is there and has a session. False for an empty file: a program was ended before
+/// it stored anything. Throws as MapStore does for all other files that are no map.
+bool HasMap(const std::string& path);
+
 /// Updates a map of an older schema, returns unused space to the disk and merges the log into the
 /// file. Throws Error(kOutput) while a session is in work.
 void CompactMap(const std::string& path);

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "sslcd/core/error.h"
+#include "sslcd/store/map_session.h"
+#include "store/export_map.h"
+#include "store/session_view.h"
+#include "store/sha256.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct MapCommandArguments {
+  std::string file, out, origin;
+  bool json = false;
+};
+
+struct MapCounts {
+  int landmarks = 0, loops = 0;
+  double path_m = 0;
+};
+
+MapCounts CountsOf(const MapResults& results) {
+  MapCounts counts;
+  for (const MapObject& object : results.objects)
+    counts.landmarks += object.state == LandmarkState::kConfirmed ? 1 : 0;
+  for (const LoopClosure& loop : results.loops)
+    counts.loops += loop.decision == LoopDecision::kAccepted ? 1 : 0;
+  for (const SessionPath& path : results.paths)
+    for (std::size_t i = 1; i < path.trajectory.size(); ++i)
+      counts.path_m +=
+          (path.trajectory.poses[i].translation() - path.trajectory.poses[i - 1].translation())
+              .norm();
+  return counts;
+}
+
+nlohmann::ordered_json JsonOf(const MapInfo& info, const MapResults& results) {
+  nlohmann::ordered_json json, sessions = nlohmann::ordered_json::array();
+  const MapCounts counts = CountsOf(results);
+  json["file_bytes"] = info.file_bytes;
+  json["created"] = info.created;
+  json["landmarks"] = counts.landmarks;
+  json["loops_accepted"] = counts.loops;
+  json["path_m"] = counts.path_m;
+  json["results_after_inputs"] = results.inputs;
+  for (const SessionInfo& session : info.sessions)
+    sessions.push_back({{"name", session.name},
+                        {"ended", session.ended},
+                        {"frames", session.frames},
+                        {"frame_offset", session.frame_offset},
+                        {"loops_to_earlier_sessions", LoopsToEarlierSessions(results, session)},
+                        {"checksum", Hexadecimal(session.checksum)},
+                        {"dataset", session.dataset},
+                        {"command", session.command},
+                        {"program", session.program},
+                        {"started", session.started}});
+  json["sessions"] = sessions;
+  return json;
+}
+
+int PrintInfo(const MapCommandArguments& a, const Console& console) {
+  const MapStore store(a.file);
+  const MapInfo info = store.Describe();
+  const MapResults results = store.Results();
+  if (a.json) {
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    std::printf("%s\n", JsonOf(info, results).dump(2, ' ', false, replace).c_str());
+    return 0;
+  }
+  const MapCounts counts = CountsOf(results);
+  console.Say(a.file + ": " + Number("%.2f", static_cast<double>(info.file_bytes) / 1e6) + " MB, " +
+              Number("%.2f", counts.path_m / 1e3) + " km, " + std::to_string(counts.landmarks) +
+              " landmarks, " + std::to_string(counts.loops) + " loops accepted");
+  std::vector<std::vector<std::string>> rows = {
+      {"session", "state", "frames", "loops to earlier", "started", "dataset"}};
+  for (const SessionInfo& session : info.sessions)
+    rows.push_back({session.name, session.ended ? "ended" : "open", std::to_string(session.frames),
+                    std::to_string(LoopsToEarlierSessions(results, session)), session.started,
+                    session.dataset});
+  console.Say(AlignedTable(rows));
+  return 0;
+}
+
+int Verify(const MapCommandArguments& a, const Console& console) {
+  const std::vector<std::string> problems = MapStore(a.file).Verify();
+  for (const std::string& problem : problems) console.Say(problem);
+  if (!problems.empty())
+    throw Error(ErrorKind::kBadInput,
+                a.file + ": is damaged: " + problems.front() +
+                    "; restore a copy, or build the map again from its drives");
+  console.Say(a.file + ": ok");
+  return 0;
+}
+
+int Export(const MapCommandArguments& a, const Console& console) {
+  std::optional<GeoOrigin> origin;
+  if (!a.origin.empty()) origin = ParseGeoOrigin(a.origin);
+  const MapStore store(a.file);
+  for (const std::string& path : ExportMap(store.Describe(), store.Results(), a.out, origin))
+    console.Say("wrote " + path);
+  return 0;
+}
+
+int Compact(const MapCommandArguments& a, const Console& console) {
+  CompactMap(a.file);
+  console.Say(a.file + ": " +
+              Number("%.2f", static_cast<double>(MapStore(a.file).Describe().file_bytes) / 1e6) +
+              " MB");
+  return 0;
+}
+
+// Refines as the end of a run does.
+int End(const MapCommandArguments& a, const Console& console) {
+  MapperContext context;
+  {
+    const MapInfo info = MapStore(a.file).Describe();
+    context.gravity = GravityFrame::FromUp(info.up_axis);
+    context.labels = info.labels;
+    context.camera = info.camera;
+  }
+  MapSession session = MapSession::Resume(a.file, context);
+  if (session.options().refine.enabled) session.Refine();
+  session.End();
+  console.Say(a.file + ": session '" + session.info().name + "' ended with " +
+              std::to_string(session.info().frames) + " frames");
+  return 0;
+}
+
+using MapFunction = int (*)(const MapCommandArguments&, const Console&);
+struct MapSubcommand {
+  const char *name, *meaning;
+  MapFunction run;
+};
+constexpr MapSubcommand kMapSubcommands[] = {
+    {"info", "what a map holds", PrintInfo},
+    {"verify", "read all of a map and compare it with its checksums", Verify},
+    {"export", "write the results as the files of a run folder", Export},
+    {"compact", "update an older schema and return unused space to the disk", Compact},
+    {"end", "end a session that was interrupted, with the frames that it has", End}};
+
+}  // namespace
+
+Command AddMapCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand("map", "look at a map in a file, check and export it");
+  command->require_subcommand(1);
+  const auto arguments = std::make_shared<MapCommandArguments>();
+  for (const MapSubcommand& row : kMapSubcommands) {
+    CLI::App* one = command->add_subcommand(row.name, row.meaning);
+    one->add_option("MAP", arguments->file, "file of the map")->required();
+    one->add_flag("-q,--quiet", console.quiet, "print errors only");
+    if (row.run == Export) {
+      one->add_option("--out", arguments->out, "folder to write")->required();
+      one->add_option("--origin", arguments->origin,
+                      "LATITUDE,LONGITUDE,HEADING of the first camera, degrees: writes "
+                      "map.geojson, too");
+    }
+    if (row.run == PrintInfo) one->add_flag("--json", arguments->json, "print JSON");
+  }
+  return [command, arguments, &console] {
+    console.InstallLog();
+    const std::string name = command->get_subcommands().front()->get_name();
+    for (const MapSubcommand& row : kMapSubcommands)
+      if (row.name == name) return row.run(*arguments, console);
+    return 0;
+  };
+}
+
+}  // namespace sslcd::apps

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "store/export_map.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "formats/atomic_file.h"
+#include "formats/g2o.h"
+#include "formats/loops_csv.h"
+#include "formats/map_json.h"
+#include "formats/ply.h"
+#include "sslcd/formats/poses.h"
+
+namespace sslcd {
+namespace {
+
+using PathsAndTexts = std::vector<std::pair<std::string, std::string>>;
+
+void AddPath(const SessionPath& path, const std::filesystem::path& folder, PathsAndTexts& files) {
+  MakeWritableFolder(folder.string());
+  files.insert(files.end(), {{folder / "trajectory_tum.txt", TumText(path.trajectory)},
+                             {folder / "trajectory_kitti.txt", KittiText(path.trajectory)},
+                             {folder / "odometry_tum.txt", TumText(path.odometry)},
+                             {folder / "odometry_kitti.txt", KittiText(path.odometry)}});
+}
+
+}  // namespace
+
+std::vector<std::string> ExportMap(const MapInfo& info, const MapResults& results,
+                                   const std::string& folder,
+                                   const std::optional<GeoOrigin>& origin) {
+  const std::filesystem::path root = folder;
+  MakeWritableFolder(folder);
+  const MapFile map{info.up_axis, results.objects};
+  Trajectory all;
+  PathsAndTexts files;
+  for (const SessionPath& path : results.paths) {
+    for (const SessionInfo& session : info.sessions)
+      if (session.id == path.session) AddPath(path, root / session.name, files);
+    const Trajectory& trajectory = path.trajectory;
+    all.stamps.insert(all.stamps.end(), trajectory.stamps.begin(), trajectory.stamps.end());
+    all.poses.insert(all.poses.end(), trajectory.poses.begin(), trajectory.poses.end());
+  }
+  files.insert(files.end(), {{root / "map.json", MapJson(map)},
+                             {root / "map.ply", PlyText(map, all)},
+                             {root / "graph.g2o", G2oText(results.graph)},
+                             {root / "loops.csv", LoopsCsv(results.loops)},
+                             {root / "config.yaml", info.config}});
+  if (origin) files.emplace_back(root / "map.geojson", GeoJsonText(info, results, *origin));
+  WriteFilesAtomically(files);
+  std::vector<std::string> paths;
+  for (const auto& [path, text] : files) paths.push_back(path);
+  return paths;
+}
+
+}  // namespace sslcd

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sslcd/store/map_store.h"
+
+namespace sslcd {
+
+/// What a map holds of one session, with the frame numbers of its drive: its path, the landmarks
+/// that it has seen, the loops within it, its part of the pose graph.
+MapResults ResultsOfSession(const MapResults& map, const SessionInfo& session);
+
+/// The number of accepted loops that join a session to earlier ones.
+int LoopsToEarlierSessions(const MapResults& map, const SessionInfo& session);
+
+}  // namespace sslcd
