@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "map_export/export_map.h"
 #include "sslcd/core/error.h"
 #include "sslcd/store/map_session.h"
-#include "store/export_map.h"
 #include "store/session_view.h"
 #include "store/sha256.h"
 

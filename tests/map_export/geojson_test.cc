@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/geojson.h"
+#include "map_export/geojson.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "map_export/geojson.h"
 #include "sslcd/store/map_store.h"
-#include "store/geojson.h"
 
 namespace sslcd {
 

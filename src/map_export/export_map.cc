@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/export_map.h"
+#include "map_export/export_map.h"
 
 #include <filesystem>
 #include <utility>
