@@ -13,6 +13,7 @@ PoseGraph WithRefinedSteps(const FrameStore& frames, const LoopGraph& graph) {
   PoseGraph result = graph.graph;
   for (std::size_t k = 0; k < graph.first_loop; ++k) {
     PoseGraph::Edge& step = result.edges[k];
+    if (FailuresBetween(frames, step.from, step.to).lost > 0) continue;
     const std::optional<Pose>&from = frames[step.from].T_refined_cam,
           &to = frames[step.to].T_refined_cam;
     if (from && to) step.T_from_to = from->inverse() * *to;

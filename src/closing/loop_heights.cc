@@ -2,6 +2,7 @@
 #include "closing/loop_heights.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -51,6 +52,8 @@ std::vector<int> PointsOf(const FrameStore& frames, const std::vector<Rise>& ris
   for (const Rise& rise : rises) points.insert({rise.from, rise.to});
   for (double path_m = kSpacing; path_m < frames.back().travelled; path_m += kSpacing)
     points.insert(frames.AtPath(path_m));
+  for (int f = 1; f < frames.size(); ++f)
+    if (IsLost(frames, f)) points.insert({f - 1, f});
   return {points.begin(), points.end()};
 }
 
@@ -86,7 +89,9 @@ HeightCorrection HeightsByLoops(const FrameStore& frames, const LoopLedger& loop
   for (std::size_t k = 0; k < points.size(); ++k) point_of_frame[points[k]] = static_cast<int>(k);
   std::vector<double> lengths;
   for (std::size_t k = 1; k < points.size(); ++k)
-    lengths.push_back(PathAt(frames, points[k]) - PathAt(frames, points[k - 1]));
+    lengths.push_back(IsLost(frames, points[k])
+                          ? std::numeric_limits<double>::infinity()
+                          : PathAt(frames, points[k]) - PathAt(frames, points[k - 1]));
   std::vector<WalkDifference> measured;
   for (const Rise& rise : rises) {
     const Vec3 by_odometry =
@@ -101,7 +106,11 @@ HeightCorrection HeightsByLoops(const FrameStore& frames, const LoopLedger& loop
     const auto& [k, share] = shares[f];
     change[f] = correction.rise_m[f] = (1 - share) * walk.mean()[k] + share * walk.mean()[k + 1];
   }
-  change.array() -= change.mean();
+  for (std::size_t k = 0; k < frames.parts().size(); ++k) {  // odometry does not place a part
+    const int from = frames.parts()[k];
+    auto part = change.segment(from, frames.EndOfPart(static_cast<int>(k)) - from);
+    part.array() -= part.mean();
+  }
   Eigen::VectorXd at_points = Eigen::VectorXd::Zero(walk.mean().size());
   for (int f = 0; f < frames.size(); ++f) {
     const auto& [k, share] = shares[f];

@@ -92,6 +92,10 @@ double LargestTiltFactor(const FrameStore& frames, const Vec3& up, const Odometr
   const Vec3 up_in_cam = frames.front().T_odom_cam.so3().inverse() * up;
   double reported = 0, expected = 0, variance = 0;
   for (int f = 1; f < frames.size(); ++f) {
+    if (frames[f].sequence != frames[f - 1].sequence) {  // upright again
+      variance = 0;
+      continue;
+    }
     const double sigma = SigmasOfStep(frames, f, walk).rotation;
     variance += sigma * sigma;
     reported += (frames[f].T_odom_cam.so3() * up_in_cam).cross(up).squaredNorm();

@@ -28,6 +28,7 @@ void FrameStore::Append(FrameRecord record, const std::optional<StepUncertainty>
     record.failures += before.failures;
   }
   frames_.push_back(std::move(record));
+  if (size() == 1 || IsLost(*this, size() - 1)) parts_.push_back(size() - 1);
   Changed(size() - 1);
 }
 
@@ -37,6 +38,13 @@ OdometryFailures FailuresBetween(const FrameStore& frames, int a, int b) {
 
 bool IsLost(const FrameStore& frames, int index) {
   return index > 0 && FailuresBetween(frames, index - 1, index).lost > 0;
+}
+
+bool IsLostAt(const FrameStore& frames, double path_m) {
+  const int after = frames.FirstFrom(path_m);
+  if (after == 0 || after == frames.size()) return false;
+  if (frames[after].travelled == path_m) return false;
+  return IsLost(frames, after) || IsLost(frames, after - 1);
 }
 
 void FrameStore::MarkRefined() {

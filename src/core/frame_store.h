@@ -16,6 +16,7 @@ namespace sslcd {
 /// A stored frame.
 struct FrameRecord {
   int frame = 0;           ///< frame number in the dataset
+  int sequence = 0;        ///< number of the sequence, from 0 on
   double stamp = 0;        ///< increases over all sequences [s]
   double input_stamp = 0;  ///< as odometry gave it [s]
   /// path of the odometry up to this frame [m], see FrameStore::Append
@@ -69,6 +70,14 @@ class FrameStore {
   /// instead of a frame in it. The store must not be empty.
   int AtPath(double path_m) const;
 
+  /// The first frame of each part: a stretch of frames between which odometry was never lost. Part
+  /// k has the frames whose OdometryFailures::lost is k.
+  const std::vector<int>& parts() const { return parts_; }
+  /// The frame after the last one of a part.
+  int EndOfPart(int part) const {
+    return part + 1 < static_cast<int>(parts_.size()) ? parts_[part + 1] : size();
+  }
+
   Revision revision() const { return revision_; }
 
   /// Index of the first frame that was added or moved after the revision; size() if there is none.
@@ -81,6 +90,7 @@ class FrameStore {
   double lost_path_m_ = 0;
   StepJudge steps_;
   std::vector<FrameRecord> frames_;
+  std::vector<int> parts_;
   Revision revision_ = 0;
   // (revision, first changed frame), both strictly ascending: a later change of an earlier frame
   // replaces previous entries.
@@ -92,6 +102,9 @@ OdometryFailures FailuresBetween(const FrameStore& frames, int a, int b);
 
 /// Whether the step to a frame is unknown.
 bool IsLost(const FrameStore& frames, int index);
+
+/// Whether there is no camera at this path length, because odometry was lost.
+bool IsLostAt(const FrameStore& frames, double path_m);
 
 /// T_world_cam of all frames.
 std::vector<Pose> PosesOf(const FrameStore& frames);

@@ -16,7 +16,8 @@ struct OdometryEdge {
 };
 
 /// Makes the edge between two frames, given by index. `up` is the unit vector against gravity in
-/// the world, `scale` is metres per odometry metre.
+/// the world, `scale` is metres per odometry metre. Where odometry was lost in between, the edge
+/// measures the current poses: nothing is known, so nothing moves them, but they are not free.
 OdometryEdge OdometryBetween(const FrameStore& frames, int from, int to, const OdometryModel& model,
                              const Vec3& up, double scale);
 

@@ -12,6 +12,13 @@ constexpr double kFreedom = 4;  // of the Student-t distribution; set by hand
 constexpr int kRounds = 3;      // of weights, for each rate
 // Rates that are tried, in units of the measurements per root of path; set by hand.
 constexpr double kLeastRate = 1e-4, kMostRate = 1, kRateStep = 1.25;
+// Variance of a step of infinite length, in squared units of the measurements: larger than what is
+// measured, and not too large for the arithmetic.
+constexpr double kAnywhere = 1e8;
+
+double VarianceOf(double length, double rate) {
+  return std::isinf(length) ? kAnywhere : rate * rate * length;
+}
 
 }  // namespace
 
@@ -61,7 +68,7 @@ void RandomWalk::Solve(double rate) {
     if (to > 0) right[to - 1] += information * value;
     if (from > 0) right[from - 1] -= information * value;
   };
-  for (Eigen::Index k = 0; k < count; ++k) add(k, k + 1, 1 / (rate * rate * lengths_[k]), 0);
+  for (Eigen::Index k = 0; k < count; ++k) add(k, k + 1, 1 / VarianceOf(lengths_[k], rate), 0);
   for (std::size_t i = 0; i < measured_.size(); ++i) {
     const WalkDifference& each = measured_[i];
     add(each.from, each.to, weights_[static_cast<Eigen::Index>(i)] / (each.sigma * each.sigma),
@@ -75,10 +82,10 @@ void RandomWalk::Solve(double rate) {
 
 // -2 log of the marginal likelihood of the measurements, up to a constant.
 double RandomWalk::Cost(double rate) const {
-  double sum = information_.vectorD().array().log().sum() +
-               2 * std::log(rate) * static_cast<double>(lengths_.size());
+  const auto steps = static_cast<double>(lengths_.array().isFinite().count());
+  double sum = information_.vectorD().array().log().sum() + 2 * std::log(rate) * steps;
   for (Eigen::Index k = 0; k < lengths_.size(); ++k)
-    sum += std::pow(mean_[k + 1] - mean_[k], 2) / (rate * rate * lengths_[k]);
+    sum += std::pow(mean_[k + 1] - mean_[k], 2) / VarianceOf(lengths_[k], rate);
   for (const WalkDifference& each : measured_) {
     const double error = (mean_[each.to] - mean_[each.from] - each.value) / each.sigma;
     sum += (kFreedom + 1) * std::log1p(error * error / kFreedom);

@@ -20,7 +20,8 @@ struct WalkDifference {
 /// stiff walk takes for wrong has to be worth a faster one.
 class RandomWalk {
  public:
-  /// `lengths` are the s_k between successive points, positive; any unit of path.
+  /// `lengths` are the s_k between successive points, positive; any unit of path. Infinite where
+  /// the walk starts again anywhere.
   RandomWalk(const std::vector<double>& lengths, std::vector<WalkDifference> measured);
 
   /// x_k of all points; zero without measurements.

@@ -15,7 +15,8 @@ namespace sslcd {
 double ProbabilityNearer(double change, double variance);
 
 /// The same of the camera positions of an optimised map against odometry, after an alignment by
-/// shift and yaw. The arguments are those of OptimiseMap(), after it.
+/// shift and yaw, for each part of the run (FrameStore::parts) its own: odometry does not place it.
+/// The arguments are those of OptimiseMap(), after it.
 ImprovementProbability ProbabilityOfImprovement(const MapState& state, double log_scale,
                                                 const LoopEvidence& loops,
                                                 const WholeMapOptions& options);
@@ -27,7 +28,9 @@ struct KeptOdometry {
   std::vector<double> rise_m;  ///< to add to the kept heights, by frame; empty: nothing
 };
 
-/// Gives these parts to all frames. Objects follow the frames that saw them.
+/// Gives these parts to all frames. Objects follow the frames that saw them. The first part of the
+/// run (FrameStore::parts) stays where odometry has it, the others keep their mean places relative
+/// to it.
 void KeepOdometry(const KeptOdometry& parts, MapState& state, const DetectionNoise& noise);
 
 }  // namespace sslcd

@@ -58,9 +58,13 @@ BaProblem MapProblem(const MapState& state, const std::vector<int>& keyframes, d
     const int camera = static_cast<int>(problem.cameras.size());
     if (camera > 0) {
       const FrameRecord& before = frames[keyframes[camera - 1]];
-      problem.odometry.push_back({camera - 1, camera,
-                                  before.T_odom_cam.inverse() * record.T_odom_cam,
-                                  FailuresBetween(frames, keyframes[camera - 1], keyframe)});
+      const OdometryFailures failures = FailuresBetween(frames, keyframes[camera - 1], keyframe);
+      Pose step = before.T_odom_cam.inverse() * record.T_odom_cam;
+      if (failures.lost > 0) {  // as OdometryBetween()
+        step = before.T_world_cam.inverse() * record.T_world_cam;
+        step.translation() *= std::exp(-log_scale);
+      }
+      problem.odometry.push_back({camera - 1, camera, step, failures});
     }
     problem.cameras.push_back({record.frame, record.T_world_cam});
   }

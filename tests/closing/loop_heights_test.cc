@@ -131,5 +131,29 @@ TEST(HeightsByLoops, AreMeasuredInTheWorld) {
   EXPECT_LT(drive.Rms(drive.Correct().rise_m), 1e-6);
 }
 
+// The way back is a sequence of its own, whose odometry starts `higher` by some metres.
+void CutWhereItTurns(double higher, OutAndBack& drive) {
+  FrameStore frames(100);
+  for (int i = 0; i < 2 * kOneWay; ++i) {
+    FrameRecord record = drive.frames[i];
+    if (i >= kOneWay) record.T_input_cam.translation() += higher * GravityFrame{}.up;
+    frames.Append(record, StepUncertainty{i == kOneWay});
+  }
+  drive.frames = std::move(frames);
+}
+
+TEST(HeightsByLoops, FindTheHeightOfAnotherSequence) {
+  OutAndBack drive(0.1, 0.1);
+  const double uncut = drive.Rms(drive.Correct().rise_m);
+  CutWhereItTurns(50, drive);
+  EXPECT_LT(drive.Rms(drive.Correct().rise_m), 1.5 * uncut);
+}
+
+TEST(HeightsByLoops, PlacingASequenceIsNoImprovement) {
+  OutAndBack drive(0, 0.2);
+  CutWhereItTurns(50, drive);
+  EXPECT_LT(drive.Correct().probability, 0.975);
+}
+
 }  // namespace
 }  // namespace sslcd

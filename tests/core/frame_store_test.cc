@@ -186,5 +186,23 @@ TEST(ReportedSteps, ALostOneIsNoLongStep) {
   EXPECT_EQ(FailuresBetween(frames, 7, 8).translation_m2, 30 * 30) << "a jump by the others";
 }
 
+TEST(ReportedSteps, NoCameraIsWithinALostStretch) {
+  const FrameStore frames = Reported({0, 1, 2, 2, 2, 3, 4}, {{3, kLost}, {4, kLost}}, 100);
+  for (const double path_m : {0., 1.5, 2., 52., 103., 103.5, 1000.})
+    EXPECT_FALSE(IsLostAt(frames, path_m)) << path_m;
+  for (const double path_m : {2.5, 51.5, 52.5, 101.}) EXPECT_TRUE(IsLostAt(frames, path_m));
+}
+
+TEST(FrameStore, PartsBeginWhereOdometryWasLost) {
+  EXPECT_TRUE(FrameStore().parts().empty());
+  EXPECT_EQ(Line(3).parts(), std::vector<int>{0});
+  const FrameStore frames = Reported({0, 1, 2, 2, 2, 3, 4}, {{3, kLost}, {4, kLost}}, 100);
+  EXPECT_EQ(frames.parts(), (std::vector<int>{0, 3, 4}));
+  EXPECT_EQ(frames.EndOfPart(0), 3);
+  EXPECT_EQ(frames.EndOfPart(2), 7);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(frames[frames.parts()[k]].failures.lost, static_cast<int>(k));
+}
+
 }  // namespace
 }  // namespace sslcd

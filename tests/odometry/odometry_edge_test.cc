@@ -58,5 +58,20 @@ TEST(OdometryBetween, UpIsTurnedIntoTheSecondCamera) {
   EXPECT_LT(edge.information(2, 2), 0.5 * edge.information(1, 1));
 }
 
+TEST(OdometryBetween, ALostStepHoldsTheCurrentPoses) {
+  FrameStore frames;
+  for (int i = 0; i < 3; ++i) {
+    FrameRecord record;
+    record.T_odom_cam = Pose::Trans(0, 0, i);
+    record.T_world_cam = Pose::Trans(7 * i, 0, 0);
+    frames.Append(record, StepUncertainty{i == 2});
+  }
+  const Vec3 up(0, -1, 0);
+  EXPECT_EQ(OdometryBetween(frames, 0, 1, {}, up, 2).T_from_to.translation(), Vec3(0, 0, 2));
+  const OdometryEdge lost = OdometryBetween(frames, 0, 2, {}, up, 2);
+  EXPECT_EQ(lost.T_from_to.translation(), Vec3(14, 0, 0));
+  EXPECT_LT(lost.information.diagonal().maxCoeff(), 1);
+}
+
 }  // namespace
 }  // namespace sslcd

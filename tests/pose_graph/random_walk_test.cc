@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace sslcd {
@@ -83,6 +84,22 @@ TEST(RandomWalk, FollowsMostMeasurementsNotAWrongOne) {
   made.measured[20].value += 5;
   const RandomWalk with(made.lengths, made.measured);
   EXPECT_LT((with.mean() - without.mean()).cwiseAbs().maxCoeff(), 0.3);
+}
+
+TEST(RandomWalk, StartsAgainAnywhereAfterAnInfiniteLength) {
+  MadeUp made(0.05, 0.1, 1);
+  const RandomWalk known(made.lengths, made.measured);
+  made.lengths[199] = std::numeric_limits<double>::infinity();
+  for (WalkDifference& each : made.measured) each.value += 70;  // all span the step
+  const RandomWalk walk(made.lengths, made.measured);
+  EXPECT_NEAR(std::log(walk.rate() / known.rate()), 0, 0.5);
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(400);
+  step[200] = 1;
+  step[199] = -1;
+  const double variance = walk.VarianceAlong(step);
+  EXPECT_LT(variance, 4) << "the walk that the measurements span with it";
+  EXPECT_NEAR(walk.mean()[200] - walk.mean()[199], made.truth[200] - made.truth[199] + 70,
+              3 * std::sqrt(variance));
 }
 
 }  // namespace

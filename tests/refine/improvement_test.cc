@@ -134,5 +134,33 @@ TEST(KeepOdometry, RaisesTheHeightsThatItKeeps) {
   }
 }
 
+// The second half is a part of its own, whose odometry has another origin and heading.
+FrameStore InTwoParts(const FrameStore& walk, const Pose& T_other_odom) {
+  FrameStore frames;
+  for (int i = 0; i < walk.size(); ++i) {
+    FrameRecord record = walk[i];
+    if (i >= 30) record.T_input_cam = record.T_odom_cam = T_other_odom * record.T_input_cam;
+    frames.Append(record, StepUncertainty{i == 30});
+  }
+  return frames;
+}
+
+TEST(ProbabilityOfImprovement, IsEvenWhereOnlyAPartHasBeenPlaced) {
+  Walk walk(Pose::Trans(3, 1, 2));
+  walk.state.frames = InTwoParts(walk.state.frames, Pose::Trans(100, 0, 7) * Pose::RotY(2));
+  EXPECT_NEAR(walk.Judge().horizontal, 0.5, 1e-3);
+  EXPECT_NEAR(walk.Judge().height, 0.5, 1e-3);
+}
+
+TEST(KeepOdometry, PartsKeepTheirPlaces) {
+  Walk walk(Pose::Trans(3, 1, 2));
+  walk.state.frames = InTwoParts(walk.state.frames, Pose::Trans(100, 9, 7) * Pose::RotY(2));
+  KeepOdometry({true, true, {}}, walk.state, {});
+  for (const int i : {0, 29, 30, 59}) {
+    const Pose T = Pose::Trans(0, -0.02 * i, i) * Pose::RotY(0.01 * i) * Pose::RotX(0.05);
+    EXPECT_NEAR((T.inverse() * walk.state.frames[i].T_world_cam).Log().norm(), 0, 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace sslcd
