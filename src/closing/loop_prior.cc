@@ -72,11 +72,12 @@ PosePrior OdometryPrior::Of(const YawShift& pose, const LayoutFit& fit) const {
     centre += local_.objects[i].position / static_cast<double>(fit.matches.size());
   }
   const int old = state_.frames.AtPath(Median(std::move(old_m)));
-  if (!uncertainty_.Joined(old, here_)) return {};
+  PosePrior prior;
+  prior.joins = !uncertainty_.Joined(old, here_);
+  if (prior.joins) return prior;
   const Eigen::Matrix3d covariance = WithoutHeight(Covariance(old, here_));
   // Odometry places the camera, the matched objects place the pose at their centre.
   const Vec3 error = LevelError(pose, 0.5 * (Camera() + centre));
-  PosePrior prior;
   prior.level = std::log(index_.pose_volume()) - 0.5 * std::log(covariance.determinant()) +
                 LogStudent(error.dot(covariance.inverse() * error), 3);
   prior.height = OfRise(old, here_, Median(std::move(rise)));

@@ -10,6 +10,7 @@
 #include "closing/pass_layout.h"
 #include "closing/trajectory_uncertainty.h"
 #include "core/sigmoid.h"
+#include "loop/appearance_likelihood.h"
 #include "loop/decision.h"
 #include "loop/pose_tracks.h"
 
@@ -47,7 +48,8 @@ class TrackFinder : public LoopFinder {
     const LoopMeter meter(input.state, input.passes, options_, input.odometry);
     auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
-    return Decide(std::move(*loop), best, index.pose_volume(), prior);
+    return Decide(std::move(*loop), best, AppearanceOf(best.fit, local, index), prior,
+                  index.pose_volume());
   }
 
   void MoveLocalMap(const YawShift& change) override { tracks_.Move(change); }
@@ -73,8 +75,18 @@ class TrackFinder : public LoopFinder {
         [&prior](const YawShift& pose, const LayoutFit& fit) { return prior.Of(pose, fit); });
   }
 
-  FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double searched,
-                   const OdometryPrior& prior) const {
+  // Log likelihood ratio of the looks of the matched objects: the same ones against others. [nats]
+  double AppearanceOf(const LayoutFit& fit, const PassLayout& local,
+                      const LayoutIndex& index) const {
+    double sum = 0;
+    for (const auto& [i, j] : fit.matches)
+      sum += AppearanceGain(local.objects[i], index.objects()[j],
+                            options_.match.likelihood.appearance);
+    return sum;
+  }
+
+  FoundLoop Decide(LoopMeasurement loop, const PoseTrack& best, double appearance,
+                   const OdometryPrior& prior, double searched) const {
     TrackEvidence evidence;
     evidence.evidence = best.evidence;
     evidence.margin = tracks_.Margin(0);
@@ -82,6 +94,9 @@ class TrackFinder : public LoopFinder {
     evidence.own_evidence = EvidenceOnTrack(best.fit.evidence, searched);
     evidence.height = prior.OfHeight(loop);
     evidence.heading_sigma_rad = loop.heading_sigma;
+    evidence.joins = best.prior.joins;
+    evidence.lead = tracks_.Lead();
+    evidence.appearance = appearance;
     const TrackVerdict verdict = DecideTrack(evidence, options_.acceptance);
     FoundLoop found{std::move(loop), best.fit.sigma, best.id, verdict.confirmed};
     LoopClosure& row = found.loop.row;

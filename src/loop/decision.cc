@@ -11,6 +11,13 @@ namespace {
 
 // Least log likelihood of a measured height: 2.7 standard deviations. Set by hand. [nats]
 constexpr double kLeastHeight = -3;
+// Least lead of a loop that joins two parts of a trajectory: a part is compared with the whole map
+// hundreds of times, without odometry. Of such attempts between quarters of five drives, those at
+// wrong places reach 7.3 (docs/decision.md, "Several sequences"). [nats]
+constexpr double kLeastLead = 12;
+// Least log likelihood ratio of the looks of its objects: below it, a place that is not in the map
+// but laid out alike (PoseTrackOptions::look_alike) is more probable than the risk allows. [nats]
+constexpr double kLeastAppearance = -3;
 
 std::string Nats(double value) { return std::to_string(std::lround(value)) + " nats"; }
 
@@ -89,8 +96,13 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
   else if (track.heading_sigma_rad >= options.max_heading_sigma_rad)
     weakness = "heading too uncertain";
   verdict.confirmed = weakness.empty();
+  std::string doubt;  // about a loop for which no odometry speaks
+  if (track.joins && track.lead < kLeastLead)
+    doubt = "too few objects agree to join parts of the trajectory";
+  else if (track.joins && track.appearance < kLeastAppearance)
+    doubt = "the objects look different";
   const bool sure = Sigmoid(-track.margin) <= options.max_risk;
-  if (verdict.confirmed && sure) {
+  if (verdict.confirmed && sure && doubt.empty()) {
     loop.decision = LoopDecision::kAccepted;
     return verdict;
   }
@@ -99,7 +111,7 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
   else if (!sure)
     loop.reason = "another pose fits nearly as well";
   else
-    loop.reason = weakness;
+    loop.reason = doubt.empty() ? weakness : doubt;
   return verdict;
 }
 

@@ -37,6 +37,11 @@ struct TrackEvidence {
   /// log likelihood of the measured height against that of the trajectory, never positive [nats]
   double height = 0;
   double heading_sigma_rad = 0;  ///< standard deviation of the heading of the measured loop
+  /// the loop joins two parts of the trajectory of which odometry says nothing
+  bool joins = false;
+  double lead = 0;  ///< log odds against chance and all other tracks [nats]
+  /// log likelihood ratio of the looks of the matched objects: the same ones against others [nats]
+  double appearance = 0;
 };
 
 /// Evidence of the objects of one attempt at its track's pose. `evidence`: of the fit, against

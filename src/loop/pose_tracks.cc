@@ -185,6 +185,12 @@ double PoseTracks::Margin(std::size_t number) const {
   return (track ? track->evidence : nowhere) - LogSumExp(others);
 }
 
+double PoseTracks::Lead() const {
+  std::vector<double> others = {0.};
+  for (std::size_t i = 1; i < tracks_.size(); ++i) others.push_back(tracks_[i].evidence);
+  return tracks_.at(0).evidence - LogSumExp(others);
+}
+
 void PoseTracks::Move(const YawShift& change) {
   for (PoseTrack& track : tracks_) {
     // pose o change^-1

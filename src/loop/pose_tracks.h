@@ -13,6 +13,8 @@ namespace sslcd {
 struct PosePrior {
   double level = 0;   ///< of its horizontal position and heading
   double height = 0;  ///< of its height, never positive
+  /// nothing leads from there to here: odometry was lost, and no loop has joined the two yet
+  bool joins = false;
 };
 
 /// A pose that several attempts have found.
@@ -58,6 +60,10 @@ class PoseTracks {
   /// is not in the map: it looks like chance, or like the place of a track. Where the map repeats
   /// itself, only odometry tells a track from its copies. [nats]
   double Margin(std::size_t number) const;
+
+  /// Log odds of the best track against chance and all others: how surely the objects tell it from
+  /// anywhere else in the map. Places that are not in the map do not count. [nats]
+  double Lead() const;
 
   /// Transforms the tracks after a change of the local map's coordinates: new = change(old).
   void Move(const YawShift& change);

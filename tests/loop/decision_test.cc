@@ -157,6 +157,31 @@ TEST(DecideTrack, APoorMeasurementIsNotAcceptedHoweverSureTheTrackIs) {
   }
 }
 
+TEST(DecideTrack, ALoopWithoutOdometryNeedsALeadAndTheLooks) {
+  TrackEvidence track = GoodTrack();
+  track.joins = true;
+  track.lead = 12;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAccepted);
+  track.lead = 11.9;
+  const TrackVerdict verdict = DecideTrack(track, Acceptance());
+  EXPECT_EQ(verdict.loop.decision, LoopDecision::kAmbiguous);
+  EXPECT_TRUE(verdict.confirmed) << "accepted as soon as its track is";
+  EXPECT_EQ(verdict.loop.reason, "too few objects agree to join parts of the trajectory");
+  track.margin = 4;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.reason, "another pose fits nearly as well");
+  track.margin = 20;
+  track.lead = 12;
+  track.appearance = -2.9;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAccepted);
+  track.appearance = -3.1;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAmbiguous);
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.reason, "the objects look different");
+  track.joins = false;
+  track.lead = -100;
+  EXPECT_EQ(DecideTrack(track, Acceptance()).loop.decision, LoopDecision::kAccepted)
+      << "where odometry speaks, too";
+}
+
 TEST(ApplyGraphVerdict, ARefusedLoopIsAmbiguousAndMayComeBack) {
   LoopClosure loop;
   loop.decision = LoopDecision::kAccepted;

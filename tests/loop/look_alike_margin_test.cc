@@ -86,5 +86,20 @@ TEST(PoseTracks, WhereTheMapRepeatsItselfOdometryAloneTellsCopiesApart) {
   EXPECT_NEAR(margin(repeated, -6), 6, 0.3);
 }
 
+TEST(PoseTracks, TheLeadIsOverChanceAndTheOthers) {
+  Attempts one(Strewn(60, 80, 1));
+  one.Update(one.SeenAt(10, 5), 100);
+  ASSERT_FALSE(one.tracks.tracks().empty());
+  const double evidence = one.tracks.tracks()[0].evidence;
+  EXPECT_GT(evidence, 8) << "above the limit of Margin()";
+  EXPECT_NEAR(one.tracks.Lead(), evidence, 1e-3);
+  std::vector<LayoutObject> map = Strewn(20, 40, 4);
+  for (int i = 0; i < 20; ++i)
+    map.push_back(ObjectAt(map[i].position + Vec3(300, 0, 0), map[i].label));
+  Attempts twins(map);
+  twins.Update(twins.SeenAt(0, 0, 25), 100);
+  EXPECT_NEAR(twins.tracks.Lead(), 0, 0.1);
+}
+
 }  // namespace
 }  // namespace sslcd
