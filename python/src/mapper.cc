@@ -72,6 +72,7 @@ void BindMapper(py::module_& module) {
       .def("trajectory", &GetTrajectory)
       .def("objects", GetList(&Mapper::Objects))
       .def("loops", GetList(&Mapper::LoopClosures))
+      .def("parts", GetList(&Mapper::Parts))
       .def("graph", Get(&Mapper::Graph))
       .def("loop_search", Get(&Mapper::SummariseLoopSearch))
       .def("improvement", Get(&Mapper::improvement))

@@ -48,6 +48,11 @@ py::object ToPython(const MapObject& object) {
               }));
 }
 
+py::object ToPython(const MapPart& part) {
+  return Make("MapPart", "first_frame"_a = part.first_frame, "sequence"_a = part.sequence,
+              "joined_with"_a = part.joined_with);
+}
+
 py::object ToPython(const MapChanges& changes) {
   py::object poses =
       Make("Trajectory",
@@ -56,7 +61,8 @@ py::object ToPython(const MapChanges& changes) {
            "poses"_a = Stack<4, 4>(changes.poses,
                                    [](const FramePose& p) { return p.T_world_cam.matrix(); }));
   return Make("MapChanges", "T_world_odom"_a = ToArray(changes.T_world_odom),
-              "scale"_a = changes.scale, "poses"_a = poses, "loops"_a = ListOf(changes.loops));
+              "scale"_a = changes.scale, "poses"_a = poses, "loops"_a = ListOf(changes.loops),
+              "parts"_a = ListOf(changes.parts));
 }
 
 py::object ToPython(const FilterReport& filter) {

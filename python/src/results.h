@@ -32,6 +32,7 @@ py::list ListOf(const Items& items);
 /// The dataclass of the same name in sslcd.results, which documents the fields.
 py::object ToPython(const LoopClosure& loop);
 py::object ToPython(const MapObject& object);
+py::object ToPython(const MapPart& part);
 py::object ToPython(const MapChanges& changes);
 py::object ToPython(const FilterReport& filter);
 py::object ToPython(const BaSummary& summary);

@@ -19,6 +19,7 @@ from .results import (
     LoopSearchSummary,
     MapChanges,
     MapObject,
+    MapPart,
     NoiseScale,
     PoseGraph,
     StageTimes,
@@ -123,6 +124,11 @@ class Mapper(FrameTaker[FrameReport]):
     def loops(self) -> List[LoopClosure]:
         """All attempts to close a loop in order, also refused ones."""
         return self._core.loops()
+
+    @property
+    def parts(self) -> List[MapPart]:
+        """The parts of the run by number, and which of them have a common map."""
+        return self._core.parts()
 
     @property
     def graph(self) -> PoseGraph:

@@ -92,6 +92,17 @@ class MapObject(_Compact):
     observations: np.ndarray  #: [M, 2] frame number, and row of the detection (Frame.rows)
 
 
+@dataclass(frozen=True)
+class MapPart:
+    """Frames between which odometry was never lost, up to the first one of the next part. Until
+    loops join it with other parts, its poses hold among themselves only."""
+
+    first_frame: int
+    sequence: int  #: number of its sequence, from 0 on
+    #: the earliest part that accepted loops join it with, by number; its own number: none
+    joined_with: int
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MapChanges(_Compact):
     """What has changed since it was last asked for, for those who keep a copy of the results."""
@@ -103,6 +114,7 @@ class MapChanges(_Compact):
     #: decision
 
     loops: List[LoopClosure]
+    parts: List[MapPart]  #: all, if one is new or joined with others than before; otherwise empty
 
 
 @dataclass(frozen=True)

@@ -148,6 +148,7 @@ def test_frame_numbers(mapper):
         1,
         -5,
     ]
+    assert mapper.parts == [sslcd.MapPart(7, 0, 0), sslcd.MapPart(9, 1, 1)]
 
 
 def test_steps(mapper):

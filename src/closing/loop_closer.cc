@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "closing/loop_corrector.h"
+#include "closing/parts.h"
 #include "closing/remeasure.h"
 #include "closing/resightings.h"
 
@@ -88,6 +89,7 @@ void LoopCloser::SearchAgain(MapState& state, double scale, TimingTable& timing)
   for (int place = 0;; ++place) {
     const SearchWindow window = SecondWindow(place);
     if (window.end_m >= state.frames.back().travelled) break;
+    if (IsLostAt(state.frames, window.end_m - window.lag_m)) continue;
     if (!ledger_.AcceptedNear(state.frames, window.end_m - window.lag_m,
                               0.5 * options_.layout.every_m))
       SearchAndCorrect(state, window, scale, timing);
@@ -127,7 +129,7 @@ void LoopCloser::LookBackNear(const FrameStore& frames, double path_m) {
   const int last = static_cast<int>((path_m + kNear) / every_m);
   for (int place = std::max(0, static_cast<int>((path_m - kNear) / every_m));
        place <= last && SecondWindow(place).end_m < frames.back().travelled; ++place)
-    look_back_.insert(place);
+    if (!IsLostAt(frames, place * every_m)) look_back_.insert(place);
 }
 
 void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
@@ -141,14 +143,28 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   const ScopedTimer timer(timing, "drift correction");
   const bool moves = !AgreesWithNewLoops(state, ledger_);
   std::vector<Pose> before = EndsOfLooks(state.frames);
-  if (moves &&
-      CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise, odometry_factors_))
-    MoveLooks(before, state);
+  const bool placed = PlaceJoined(state);
+  const bool solved = moves && CorrectTrajectory(state, ledger_, scale, options_, whole_map_.noise,
+                                                 odometry_factors_);
+  if (placed || solved) MoveLooks(before, state);
   FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);
   if (!moves) return;
   before = EndsOfLooks(state.frames);
   AdjustAfterLoop(state, scale, options_, whole_map_, odometry_factors_);
   MoveLooks(before, state);
+}
+
+// Places the parts that loops of this search join. False: there are none.
+bool LoopCloser::PlaceJoined(MapState& state) const {
+  if (state.frames.parts().size() < 2) return false;
+  const FrameStore::Revision revision = state.frames.revision();
+  std::vector<LoopEdge> known, found;
+  for (const LoopAttempt& attempt : ledger_.attempts())
+    if (attempt.accepted())
+      (attempt.solved ? known : found)
+          .push_back({attempt.found.loop.match, attempt.found.loop.query, &attempt.row()});
+  PlaceParts(state, std::move(known), found, whole_map_.noise);
+  return state.frames.revision() != revision;
 }
 
 std::vector<Pose> LoopCloser::EndsOfLooks(const FrameStore& frames) const {

@@ -59,6 +59,7 @@ class LoopCloser {
   };
   void SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                         TimingTable& timing);
+  bool PlaceJoined(MapState& state) const;
   void LearnOdometry(const MapState& state, double scale);
   bool Search(const MapState& state, const SearchWindow& window);
   bool SearchesTwice() const;

@@ -4,7 +4,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "closing/parts.h"
+
 namespace sslcd {
+
+std::vector<MapPart> ListParts(const FrameStore& frames, const LoopLedger& ledger) {
+  std::vector<MapPart> parts;
+  for (const int first : frames.parts())
+    parts.push_back({frames[first].frame, frames[first].sequence, 0});
+  if (parts.size() < 2) return parts;
+  const std::vector<int> joined = JoinParts(frames, ledger.AcceptedEdges());
+  for (std::size_t k = 0; k < parts.size(); ++k) parts[k].joined_with = joined[k];
+  return parts;
+}
 
 MapChanges ChangeReporter::Take(const MapState& state, const LoopLedger& ledger) {
   MapChanges changes;
@@ -27,12 +39,15 @@ MapChanges ChangeReporter::Take(const MapState& state, const LoopLedger& ledger)
                      loop.pairs.end());
   }
   revision_ = frames.revision();
+  std::vector<MapPart> parts = ListParts(frames, ledger);
+  if (!(parts == parts_)) changes.parts = parts_ = std::move(parts);
   return changes;
 }
 
 void ChangeReporter::TakeOver(const ChangeReporter& other, const LoopLedger& ledger,
                               int first_new) {
   loops_.TakeOver(other.loops_, ledger, first_new);
+  parts_ = other.parts_;
   revision_ = 0;
 }
 

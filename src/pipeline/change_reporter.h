@@ -7,6 +7,9 @@
 
 namespace sslcd {
 
+/// Mapper::Parts.
+std::vector<MapPart> ListParts(const FrameStore& frames, const LoopLedger& ledger);
+
 /// Remembers what a host has been told of a mapper's results. Copyable.
 class ChangeReporter {
  public:
@@ -19,6 +22,7 @@ class ChangeReporter {
 
  private:
   LoopChanges loops_;
+  std::vector<MapPart> parts_;
   FrameStore::Revision revision_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "closing/loop_closer.h"
+#include "closing/parts.h"
 #include "closing/remeasure.h"
 #include "closing/view_ties.h"
 #include "core/frame_store.h"
@@ -78,7 +79,7 @@ struct SSLCD_HIDDEN Mapper::Impl {
 
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
-  void StampAndStep(const Frame& frame, FrameRecord& record, std::optional<StepUncertainty>& step);
+  StepUncertainty BeginSequence(const Frame& frame);
   void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
   BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
 
@@ -94,6 +95,7 @@ struct SSLCD_HIDDEN Mapper::Impl {
   ImprovementProbability improvement;  // by the last refinement, until the next frame
   ChangeReporter reporter;
   bool starts_sequence = false;  // with the next frame
+  int sequence = 0;              // of the newest frame
   double stamp_shift = 0;        // from the stamps of this sequence to those of the store [s]
   TimingTable timing;
 };
@@ -116,18 +118,18 @@ std::vector<LoopClosure> Mapper::LoopClosures() const { return impl_->loops.ledg
 std::optional<LandmarkId> Mapper::Current(LandmarkId id) const {
   return impl_->state.map.Current(id);
 }
+std::vector<MapPart> Mapper::Parts() const {
+  return ListParts(impl_->state.frames, impl_->loops.ledger());
+}
 void Mapper::StartSequence() { impl_->starts_sequence = true; }
 
-// Sets the stamps, which go on over all sequences, and the step from the sequence before.
-void Mapper::Impl::StampAndStep(const Frame& frame, FrameRecord& record,
-                                std::optional<StepUncertainty>& step) {
-  if (starts_sequence && !state.frames.empty()) {
-    step = StepUncertainty{true};
-    stamp_shift = state.frames.back().stamp + TimeBetweenSequences(options.map) - frame.stamp;
-  }
-  starts_sequence = false;
-  record.input_stamp = frame.stamp;
-  record.stamp = frame.stamp + stamp_shift;
+// Before the first frame of a sequence other than the first: stamps go on over all sequences, its
+// odometry is upright again. Returns the step to it.
+StepUncertainty Mapper::Impl::BeginSequence(const Frame& frame) {
+  stamp_shift = state.frames.back().stamp + TimeBetweenSequences(options.map) - frame.stamp;
+  aligner = GravityAligner(context.gravity, options.level);
+  ++sequence;
+  return StepUncertainty{true};
 }
 
 FrameReport Mapper::AddFrame(const Frame& frame) {
@@ -136,13 +138,18 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   CheckFrame(frame, frames, m.starts_sequence);
   m.improvement = {};
   FrameReport report;
-  const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
-  const Pose T_world_cam =
-      frames.empty() ? T_odom_cam : PredictPose(frames.back(), T_odom_cam, m.log_scale);
-  report.keyframe = m.window.IsKeyframe(frames, T_odom_cam);
-  FrameRecord record;
   std::optional<StepUncertainty> step = frame.step;
-  m.StampAndStep(frame, record, step);
+  const bool begins = std::exchange(m.starts_sequence, false) && !frames.empty();
+  if (begins) step = m.BeginSequence(frame);
+  const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
+  const Pose T_world_cam = frames.empty() ? T_odom_cam
+                           : begins       ? PlaceBeside(m.state, T_odom_cam)
+                                          : PredictPose(frames.back(), T_odom_cam, m.log_scale);
+  report.keyframe = begins || m.window.IsKeyframe(frames, T_odom_cam);
+  FrameRecord record;
+  record.sequence = m.sequence;
+  record.input_stamp = frame.stamp;
+  record.stamp = frame.stamp + m.stamp_shift;
   const bool lost = !frames.empty() && step && step->lost;
   std::vector<Detection> seen = lost ? std::vector<Detection>() : frame.detections;
   {

@@ -17,6 +17,7 @@ void MergeChanges(MapChanges newer, MapChanges& changes) {
     changes.poses.erase(first, changes.poses.end());
     std::move(newer.poses.begin(), newer.poses.end(), std::back_inserter(changes.poses));
   }
+  if (!newer.parts.empty()) changes.parts = std::move(newer.parts);
   for (LoopClosure& loop : newer.loops) {
     const auto known = std::find_if(changes.loops.begin(), changes.loops.end(),
                                     [&](const LoopClosure& old) { return old.id == loop.id; });

@@ -15,10 +15,12 @@ namespace sslcd {
 struct HostCopy {
   std::map<int, FramePose> poses;
   std::map<int, LoopClosure> loops;
+  std::vector<MapPart> parts;
 
   void Apply(const MapChanges& changes) {
     for (const FramePose& pose : changes.poses) poses[pose.frame] = pose;
     for (const LoopClosure& loop : changes.loops) loops[loop.id] = loop;
+    if (!changes.parts.empty()) parts = changes.parts;
   }
 
   void ExpectIsOf(const Mapper& mapper) const {
@@ -29,6 +31,7 @@ struct HostCopy {
       ASSERT_EQ(pose.T_world_cam.matrix(), trajectory.poses[i].matrix()) << "frame " << frame;
       ASSERT_EQ(pose.stamp, trajectory.stamps[i++]);
     }
+    ASSERT_EQ(parts, mapper.Parts());
     const std::vector<LoopClosure> rows = mapper.LoopClosures();
     ASSERT_EQ(rows.size(), loops.size());
     for (const LoopClosure& row : rows) {

@@ -43,6 +43,25 @@ struct FramePose {
   Pose T_world_cam;
 };
 
+/// A part of a run: a stretch of frames between which odometry was never lost, up to the first
+/// frame of the next part. A sequence (Mapper::StartSequence) begins a part, a lost step another.
+/// Until loops join it with other parts, nothing tells where it is in the map: its poses hold among
+/// themselves only. A new sequence stands 5 km beside the map so far, turned as its odometry has
+/// it.
+struct MapPart {
+  int first_frame = 0;  ///< Frame::index
+  int sequence = 0;     ///< number of its sequence, from 0 on
+  /// the earliest part, by number, that accepted loops join it with, maybe over others; its own
+  /// number if there is none. Parts with the same one have a common map. A loop that is taken back
+  /// may part them again.
+  int joined_with = 0;
+
+  bool operator==(const MapPart& other) const {
+    return first_frame == other.first_frame && sequence == other.sequence &&
+           joined_with == other.joined_with;
+  }
+};
+
 /// What has changed since it was last asked for, for hosts that keep a copy of the results.
 struct MapChanges {
   /// T_world_cam T_odom_cam^-1 of the newest frame (ROS: map to odom). Corrects the odometry until
@@ -55,6 +74,8 @@ struct MapChanges {
   /// LoopClosure::id: a loop that is taken back is among them with its new decision. Landmarks have
   /// their current ids; later, see Mapper::Current.
   std::vector<LoopClosure> loops;
+  /// all parts, if one is new or joined with others than before; otherwise empty
+  std::vector<MapPart> parts;
 };
 
 /// The attempts to close a loop so far, and why there are no more loops.
@@ -95,8 +116,8 @@ enum class Refinement {
 };
 
 /// The streaming interface: takes frames and builds a map of objects and a corrected trajectory
-/// (paper III). The world is the odometry's frame with metric scale; the first camera keeps its
-/// odometry pose. Use one mapper per sequence; it is not thread-safe.
+/// (paper III). The world is the first sequence's odometry frame with metric scale; its first
+/// camera keeps its odometry pose. Not thread-safe.
 class Mapper {
  public:
   /// Options: pipeline/options.h. Throws Error(kBadConfig) if they are out of range or contradict
@@ -117,9 +138,11 @@ class Mapper {
   /// step is negative or not finite. Counts invalid detections (FrameReport::filter).
   FrameReport AddFrame(const Frame& frame);
 
-  /// The next frame begins a new sequence on the same map, e.g. after a restart of the odometry.
-  /// Its stamp and its pose may be any, its number must be above those before. Nothing is known of
-  /// the step to it (StepUncertainty::lost); loops join the sequences.
+  /// The next frame begins a new sequence on the same map, e.g. after a restart of the odometry, or
+  /// on another day. Its stamp and its pose may be any, its number must be above those before.
+  /// Nothing is known of the step to it (StepUncertainty::lost), but the up axis and the camera on
+  /// the robot are the same. Loops join the sequences, in any order: see Parts(). A first loop to
+  /// another sequence takes more evidence than others, since no odometry speaks for it.
   void StartSequence();
 
   /// What has changed since the last call, or the last frame's report: e.g. by Refine().
@@ -137,6 +160,9 @@ class Mapper {
   /// told. Attempts that both have made have the same id, and no other id names anything else than
   /// in the original. O(frames) and the time of AddFrame.
   void CatchUp(const Mapper& original, const std::vector<AddedFrame>& since);
+
+  /// The parts of the run, by number, and which of them have a common map. O(parts + loops)
+  std::vector<MapPart> Parts() const;
 
   const GravityFrame& gravity() const;
   NoiseScale noise_scale() const;          ///< learnt factors on the detector's noise
