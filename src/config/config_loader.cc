@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include "formats/text_rows.h"
+#include "formats/yaml_text.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 
@@ -267,7 +266,7 @@ std::string SourceOf(const std::vector<std::string>& keys, const YAML::Node& roo
 void ThrowProblems(const std::vector<FieldProblem>& problems, const std::string& path,
                    const std::vector<std::string>& settings) {
   if (problems.empty()) return;
-  const YAML::Node root = path.empty() ? YAML::Node() : YAML::Load(ReadFileBytes(path));
+  const YAML::Node root = path.empty() ? YAML::Node() : ParseYaml(ReadFileBytes(path));
   std::vector<std::string> lines;
   for (const FieldProblem& problem : problems)
     lines.push_back(SourceOf(problem.keys, root, path, settings) + ": " + problem.message);
@@ -277,7 +276,7 @@ void ThrowProblems(const std::vector<FieldProblem>& problems, const std::string&
 void LoadConfigText(const std::string& text, const std::string& name, const Describe& describe) {
   YAML::Node root;
   try {
-    root = YAML::Load(text);
+    root = ParseYaml(text);
   } catch (const YAML::ParserException& problem) {
     throw Error(ErrorKind::kBadConfig, {name, problem.mark.line + 1, problem.mark.column + 1},
                 problem.msg);

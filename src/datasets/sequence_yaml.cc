@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "datasets/sequence_yaml.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <cmath>
 #include <set>
 
 #include "formats/number_text.h"
 #include "formats/text_rows.h"
+#include "formats/yaml_text.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -21,7 +20,7 @@ class SequenceYamlReader {
     SequenceInfo info;
     YAML::Node root;
     try {
-      root = YAML::Load(ReadFileBytes(path_));
+      root = ParseYaml(ReadFileBytes(path_));
     } catch (const YAML::Exception& error) {
       Fail(error.mark, error.msg);
     }

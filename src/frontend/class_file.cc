@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "frontend/class_file.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <cmath>
 #include <limits>
 
 #include "formats/text_rows.h"
+#include "formats/yaml_text.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 
@@ -38,7 +37,7 @@ class MissingKeys final : public FieldVisitor {
 std::map<std::string, YAML::Mark> Labels(const std::string& text) {
   std::map<std::string, YAML::Mark> labels;
   try {
-    const YAML::Node root = YAML::Load(text);
+    const YAML::Node root = ParseYaml(text);
     if (!root.IsMap()) return labels;
     for (const auto& entry : root)
       if (entry.first.IsScalar()) labels.emplace(entry.first.Scalar(), entry.first.Mark());
