@@ -55,7 +55,21 @@ bool IsFolder(const std::string& path) {
   return fs::is_directory(path, error);
 }
 
-std::string IfFile(const std::string& path) { return IsFile(path) ? path : ""; }
+std::string IfFile(const std::string& path) {
+  std::error_code error;
+  const fs::file_status named = fs::symlink_status(path, error);
+  if (named.type() == fs::file_type::not_found) return "";
+  const auto fail = [&path](const std::string& what) {
+    throw Error(ErrorKind::kBadInput, {path},
+                "is there, but " + what + ": put a file in its place, or remove it");
+  };
+  if (error) fail("cannot be read (" + error.message() + ")");
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) fail("is a link that leads nowhere");
+  if (error) fail("cannot be read (" + error.message() + ")");
+  if (fs::is_directory(status)) fail("is a folder");
+  return path;
+}
 std::string IfFolder(const std::string& path) { return IsFolder(path) ? path : ""; }
 
 std::string LastName(const std::string& folder) {

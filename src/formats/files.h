@@ -21,8 +21,10 @@ std::vector<std::string> FileNames(const std::string& folder);
 bool IsFile(const std::string& path);
 bool IsFolder(const std::string& path);
 
-/// Returns the path if it is a file (or folder), otherwise an empty string.
+/// Returns the path, or an empty string if there is nothing of this name. Throws Error(kBadInput)
+/// if there is something else: a link that leads nowhere is no reason to do without the file.
 std::string IfFile(const std::string& path);
+/// Returns the path if it is a folder, otherwise an empty string.
 std::string IfFolder(const std::string& path);
 
 /// The last name of a path, including paths such as ".", "a/.." and "a/".
