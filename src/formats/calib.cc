@@ -13,6 +13,8 @@
 namespace sslcd {
 namespace {
 
+constexpr double kMostPixels = 1e5;  // of a side of an image
+
 struct Entry {
   int line = 0;
   std::vector<std::string> fields;
@@ -28,7 +30,9 @@ class Entries {
     while (row.Next()) {
       std::string key(row.Text(0));
       const bool named = !ParseNumber(key);
-      if (key.back() == ':') key.pop_back();
+      if (!key.empty() && key.back() == ':') key.pop_back();
+      if (key.empty())
+        throw Error(ErrorKind::kBadInput, row.where(), "a row 'key: numbers' without a key");
       Entry& entry = named ? entries_[key] : nameless["P" + std::to_string(nameless.size())];
       entry.line = row.where().line;
       entry.fields.clear();
@@ -154,6 +158,9 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   }
   calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
   const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
+  for (const double pixels : size)
+    if (!(pixels >= 1 && pixels <= kMostPixels))
+      entries.Fail("S_rect_02: expected the width and the height of the images in pixels");
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
     if (!*camera || size.empty()) continue;
     (*camera)->width = static_cast<int>(size[0]);

@@ -2,7 +2,9 @@
 #include "formats/map_json.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "formats/json.h"
 #include "formats/json_text.h"
@@ -49,6 +51,7 @@ MapObject ObjectOf(const JsonValue& json) {
   std::copy(pose.begin(), pose.end(), object.T_world_object.data());
   object.T_world_object.normalise();
   object.dims = Vec3(json.Child("dimensions_lwh").Numbers(3).data());
+  if (!(object.dims.minCoeff() > 0)) json.Fail("dimensions_lwh: expected lengths above 0");
   for (const JsonValue& pair : json.Child("observations").List()) {
     if (pair.List().size() != 2) pair.Fail("an observation is a pair [frame, detection_row]");
     object.observations.push_back({pair.items[0].Integer(), pair.items[1].Integer()});
@@ -77,8 +80,14 @@ MapFile ReadMapJson(const std::string& path) {
               " of the map format; this program reads version 1");
   MapFile map;
   map.up_axis = Vec3(root.Child("up_axis").Numbers(3).data());
-  for (const JsonValue& object : root.Child("objects").List())
+  if (!(std::abs(map.up_axis.norm() - 1) < 1e-3))
+    root.Child("up_axis").Fail("up_axis: expected a unit vector");
+  std::set<int> ids;
+  for (const JsonValue& object : root.Child("objects").List()) {
     map.objects.push_back(ObjectOf(object));
+    if (!ids.insert(map.objects.back().id.value).second)
+      object.Child("id").Fail("id " + std::to_string(map.objects.back().id.value) + " twice");
+  }
   return map;
 }
 

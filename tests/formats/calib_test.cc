@@ -90,6 +90,9 @@ TEST(CalibReader, RefusesBadEntries) {
   refuse("P2: 0 0 600 70 0 710 180 71 0 0 1 0\n", {"calib.txt:1", "no projection matrix"});
   refuse("P2: nan 0 600 70 0 710 180 71 0 0 1 0\n", {"calib.txt:1", "no projection matrix"});
   refuse(good + "Tr: 2 0 0 0 0 1 0 0 0 0 1 0\n", {"calib.txt:2: not a rotation matrix"});
+  refuse(good + ", 1 2\n", {"calib.txt:2: a row 'key: numbers' without a key"});
+  for (const char* size : {"-5 10", "10 1e300", "10 nan"})
+    refuse(good + "S_rect_02: " + size + "\n", {"calib.txt:2: S_rect_02: expected the width"});
   ExpectError([&] { ReadRawCalibration(folder.path()); }, {"calib_cam_to_cam.txt", "No such file"});
 }
 

@@ -99,6 +99,13 @@ TEST(MapJson, BadMapsAreRefusedWithTheirLine) {
   refuse(head + "[0,-1,0],\n\"objects\":[\n{\"id\":1}]}", "map.json:3: key 'label' is missing");
   refuse(head + "[0,-1,0],\n\"objects\":[{\"id\":1,\"label\":\"a\",\"state\":\"b\"}]}",
          "map.json:2: unknown state 'b'");
+  refuse(head + "[0,-2,0],\n\"objects\":[]}", "map.json:1: up_axis: expected a unit vector");
+  MapFile map = SmallMap();
+  map.objects[1].id = map.objects[0].id;
+  refuse(MapJson(map), "map.json:3: id 7 twice");
+  map = SmallMap();
+  map.objects[1].dims.y() = 0;
+  refuse(MapJson(map), "map.json:3: dimensions_lwh: expected lengths above 0");
   refuse("{\"format\": [", "map.json:1:13: not JSON");
   EXPECT_THROW(ReadMapJson(folder.In("none.json")), Error);
 }
