@@ -2,12 +2,15 @@
 #include "formats/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 
+#include "formats/files.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -19,6 +22,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::kOutput,
               path + ": cannot be written: " + std::strerror(code) + "; " + way_out);
 }
+
+constexpr int kNew = O_CREAT | O_EXCL | O_NOFOLLOW;  // a file that was not there before
 
 // 0, or errno of the first step that failed.
 int WriteAll(const std::string& path, const std::string& content, int flags) {
@@ -37,6 +42,27 @@ int WriteAll(const std::string& path, const std::string& content, int flags) {
   return code;
 }
 
+const std::string kTemporary = ".tmp-";
+
+std::string TemporaryName(const std::string& path) {
+  return path + kTemporary + std::to_string(getpid());
+}
+
+// Removes what killed programs have left of a file: PATH.tmp-PID of a process that is no more.
+void RemoveLitter(const std::string& path) {
+  const std::string name = fs::path(path).filename().string() + kTemporary;
+  const fs::path folder = fs::absolute(path).parent_path();
+  for (const std::string& other : FileNames(folder.string())) {
+    if (other.rfind(name, 0) != 0) continue;
+    pid_t process = 0;
+    const char* const end = other.data() + other.size();
+    const auto [last, error] = std::from_chars(other.data() + name.size(), end, process);
+    if (error != std::errc() || last != end || process <= 0) continue;
+    const bool ends = process == getpid() || (kill(process, 0) != 0 && errno == ESRCH);
+    if (ends) unlink((folder / other).c_str());
+  }
+}
+
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, const std::string& content) {
@@ -51,10 +77,15 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
   for (const auto& [path, content] : files) {
     const fs::file_status status = fs::status(path, ignored);
     const bool special = fs::exists(status) && !fs::is_regular_file(status);
-    const std::string temporary = path + ".tmp-" + std::to_string(getpid());
-    const int code =
-        special ? WriteAll(path, content, 0) : WriteAll(temporary, content, O_CREAT | O_TRUNC);
-    if (!special) waiting.emplace_back(temporary, path);
+    const std::string temporary = TemporaryName(path);
+    int code = 0;
+    if (special) {
+      code = WriteAll(path, content, 0);
+    } else {
+      RemoveLitter(path);
+      code = WriteAll(temporary, content, kNew);
+      if (code != EEXIST) waiting.emplace_back(temporary, path);
+    }
     if (code == 0) continue;
     for (const auto& [name, final_name] : waiting) unlink(name.c_str());
     if (special) Fail(path, code, "name another file");
@@ -74,9 +105,9 @@ void MakeWritableFolder(const std::string& path) {
   fs::create_directories(path, code);
   if (!fs::is_directory(path, unseen))
     Fail(path, code ? code.value() : unseen ? unseen.value() : ENOTDIR, "choose another folder");
-  const std::string probe = fs::path(path) / (".sslcd-probe-" + std::to_string(getpid()));
-  if (const int failed = WriteAll(probe, "", O_CREAT | O_TRUNC))
-    Fail(path, failed, "choose another folder");
+  const std::string probe = TemporaryName(fs::path(path) / ".sslcd-probe");
+  RemoveLitter(fs::path(path) / ".sslcd-probe");
+  if (const int failed = WriteAll(probe, "", kNew)) Fail(path, failed, "choose another folder");
   unlink(probe.c_str());
 }
 

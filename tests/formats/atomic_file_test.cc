@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/atomic_file.h"
 
+#include <unistd.h>
+
 #include "formats/text_rows.h"
 #include "temp_folder.h"
 
@@ -35,6 +37,21 @@ TEST(AtomicFile, OfSeveralFilesAllAreWrittenOrNone) {
   for (const auto& entry : fs::directory_iterator(folder.In("")))
     EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::HasSubstr("tmp")))
         << "nothing is left behind";
+}
+
+TEST(AtomicFile, NoLinkIsFollowedAndNoLitterOfKilledProgramsStays) {
+  const TempFolder folder;
+  const std::string own = std::to_string(getpid()), gone = "4194304";  // above the largest number
+  folder.Write("other", "not to be touched");
+  fs::create_symlink("other", folder.In("a.tmp-" + own));
+  for (const std::string& name : {"a.tmp-" + gone, std::string("a.tmp-1"), std::string("a.tmp-x")})
+    folder.Write(name, "");
+  WriteFileAtomically(folder.In("a"), "new");
+  EXPECT_EQ(ReadFileBytes(folder.In("a")), "new");
+  EXPECT_EQ(ReadFileBytes(folder.In("other")), "not to be touched");
+  EXPECT_FALSE(fs::exists(folder.In("a.tmp-" + gone)));
+  EXPECT_TRUE(fs::exists(folder.In("a.tmp-1"))) << "that one runs";
+  EXPECT_TRUE(fs::exists(folder.In("a.tmp-x"))) << "not ours";
 }
 
 TEST(AtomicFile, FoldersThatCannotBe) {
