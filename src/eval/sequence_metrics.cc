@@ -2,7 +2,9 @@
 #include "eval/sequence_metrics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,6 +17,8 @@
 namespace sslcd {
 namespace {
 
+constexpr int kAnyIdentity = std::numeric_limits<int>::max();
+
 /// Path positions [m] at which an old place should be recognised.
 std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<double>& distance,
                                    const SequenceMetricOptions& options) {
@@ -26,8 +30,17 @@ std::vector<double> RevisitedMarks(const SequenceRun& run, const std::vector<dou
       if (identity >= 0) sightings.emplace_back(distance[frame.index], identity);
     }
   }
+  std::sort(sightings.begin(), sightings.end());
   std::vector<double> marks;
   for (double mark = options.old_m; mark < distance.back(); mark += options.spacing_m) {
+    // a path with a pose far off is endless: goes on at the next sighting, as far as steps count
+    if (mark + options.spacing_m == mark) break;
+    const auto next = std::upper_bound(sightings.begin(), sightings.end(),
+                                       std::pair(mark - options.recent_m, kAnyIdentity));
+    if (next == sightings.end()) break;
+    if (next->first > mark)
+      mark += options.spacing_m * std::ceil((next->first - mark) / options.spacing_m);
+    if (mark >= distance.back()) break;
     std::set<int> recent, old;
     for (const auto& [position, identity] : sightings) {
       if (mark - options.recent_m < position && position <= mark) recent.insert(identity);

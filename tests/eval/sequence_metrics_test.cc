@@ -105,6 +105,14 @@ TEST(SequenceMetricsTest, RevisitedStretches) {
   EXPECT_EQ(metrics.true_landmarks, 0);
 }
 
+TEST(SequenceMetricsTest, APathWithAPoseFarOffHasAnEnd) {
+  for (const double far_m : {1e9, 1e17, 1e300}) {
+    SequenceRun run = OutAndBack();
+    run.reference[100].translation().x() = far_m;
+    EXPECT_LE(ComputeSequenceMetrics(run).revisited_stretches, 3) << far_m;
+  }
+}
+
 TEST(SequenceMetricsTest, MapAgainstIdentities) {
   SequenceRun run = OutAndBack();
   MapObject a, b, c, tentative;
