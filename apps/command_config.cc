@@ -20,6 +20,17 @@ Describe Fields(Configuration& configuration) {
 
 fs::path FolderOf(const std::string& file) { return fs::absolute(file).parent_path(); }
 
+// Whether a file is in the folder or below it, by its name or where links lead.
+bool IsWithin(const fs::path& folder, const fs::path& file) {
+  const auto below = [](const fs::path& root, const fs::path& path) {
+    const fs::path from_root = path.lexically_relative(root);
+    return !from_root.empty() && *from_root.begin() != "..";
+  };
+  std::error_code none;
+  return below(fs::absolute(folder).lexically_normal(), fs::absolute(file).lexically_normal()) ||
+         below(fs::weakly_canonical(folder, none), fs::weakly_canonical(file, none));
+}
+
 // A path that leads to no file stays as it is: it may not be needed.
 void Resolve(const fs::path& folder, std::string& path) {
   if (path.empty()) return;
@@ -98,6 +109,18 @@ void ConfigArguments::CheckPath(const std::string& path) const {
   if (!file.empty())
     message += ", nor in " + FolderOf(file).string() + " if it is " + file + " that names it";
   throw Error(ErrorKind::kBadInput, {path}, message);
+}
+
+void ConfigArguments::RefuseCodeFrom(const std::string& folder) const {
+  if (file.empty()) return;
+  Configuration named;
+  LoadConfigFile(file, Fields(named));
+  if (named.vision.inference.library.empty() || !IsWithin(folder, file)) return;
+  throw Error(ErrorKind::kBadConfig,
+              file +
+                  ": vision.inference.library names code to run, and the file is in the data "
+                  "set: take it out, and if you trust it, give it as --set "
+                  "vision.inference.library=... or in SSLCD_ORT_LIB");
 }
 
 Command AddCheckConfigCommand(CLI::App& app, Console& console) {

@@ -152,6 +152,7 @@ std::string Written(const std::string& out, bool odometry_alone) {
 int Detect(DetectArguments& a, const Console& console) {
   a.images.AddTo(a.config);
   const Configuration given = a.config.Load();  // reports wrong options first
+  a.config.RefuseCodeFrom(a.request.path);
   const bool odometry_alone = MakesOdometryAlone(a, given.vision);
   if (odometry_alone && a.overlays)
     throw Error(ErrorKind::kUsage,

@@ -9,6 +9,7 @@
 #include "formats/atomic_file.h"
 #include "formats/g2o.h"
 #include "formats/metrics_json.h"
+#include "overwriting.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/pose_graph/pose_graph.h"
@@ -96,6 +97,7 @@ Metrics Report(const G2oFile& file, const RobustPoseGraphSummary& summary, bool 
 }
 
 int Graph(const GraphArguments& a, const Console& console) {
+  RefuseOverwriting({a.in}, {a.out});
   const G2oFile file = ReadG2o(a.in);
   if (file.graph.edges.empty()) {
     throw Error(ErrorKind::kBadInput,

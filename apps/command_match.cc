@@ -14,6 +14,7 @@
 #include "loop/layout_index.h"
 #include "loop/layout_likelihood.h"
 #include "loop/paper_match.h"
+#include "overwriting.h"
 #include "sslcd/config/config.h"
 #include "sslcd/loop/layout_match.h"
 #include "threads.h"
@@ -149,6 +150,7 @@ std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>&
 
 int Match(const MatchArguments& a, const Console& console) {
   const MatchConfiguration configuration = Load(a.config);
+  RefuseOverwriting({a.pairs, a.config.file}, {a.out});
   const LayoutPairFile file = ReadLayoutPairFile(a.pairs);
   const std::vector<LayoutPair>& pairs = file.pairs;
   Target target;

@@ -9,6 +9,7 @@
 #include "eval/kitti_ground_truth.h"
 #include "evaluation.h"
 #include "formats/atomic_file.h"
+#include "formats/files.h"
 #include "from_images.h"
 #include "image_loader.h"
 #include "map_run.h"
@@ -90,9 +91,7 @@ std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path detections(dataset.detections_path),
       path = detections.parent_path() / "landmark_ids.txt";
   const bool others = !a.request.detections.empty() && detections.filename() != "detections.txt";
-  if (!dataset.groundtruth || detections.empty() || others ||
-      !std::filesystem::is_regular_file(path))
-    return {};
+  if (!dataset.groundtruth || detections.empty() || others || IfFile(path).empty()) return {};
   std::vector<int> identities = ReadLandmarkIds(path.string());
   if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
   Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) +
@@ -235,8 +234,12 @@ int ReportOpenSession(const RunArguments& a, const Mapped& mapped) {
 int Run(RunArguments& a, const Console& console) {
   if (a.out.empty() && !a.map.given()) a.out = "runs/latest";
   a.images.AddTo(a.config);
-  const Configuration given = a.config.Load();    // reports wrong options first
-  if (!a.out.empty()) MakeWritableFolder(a.out);  // fails before the run, not after it
+  const Configuration given = a.config.Load();  // reports wrong options first
+  a.config.RefuseCodeFrom(a.request.path);
+  if (!a.out.empty()) {
+    RefuseFolder(a.request.path, a.out);
+    MakeWritableFolder(a.out);  // fails before the run, not after it
+  }
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file, a.map.file},

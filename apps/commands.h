@@ -57,6 +57,9 @@ struct ConfigArguments {
   /// Throws Error(kBadInput) with the searched places if a path of the configuration leads to no
   /// file.
   void CheckPath(const std::string& path) const;
+  /// Throws Error(kBadConfig) if the file came with the data in `folder` and names a library, whose
+  /// code would run.
+  void RefuseCodeFrom(const std::string& folder) const;
 
  private:
   void ApplyTo(Configuration& configuration) const;

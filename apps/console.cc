@@ -19,9 +19,12 @@ namespace {
 std::atomic<int> g_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-extern "C" void OnInterrupt(int signal) {
-  g_signal = signal;
-  std::signal(signal, SIG_DFL);
+// ctrl-C, and what batch systems and closing terminals send
+constexpr int kEnding[] = {SIGINT, SIGTERM, SIGHUP};
+
+extern "C" void OnInterrupt(int number) {
+  g_signal = number;
+  for (const int each : kEnding) std::signal(each, SIG_DFL);
 }
 
 }  // namespace
@@ -32,7 +35,8 @@ void Console::InstallLog() const {
   logger->set_level(quiet     ? spdlog::level::err
                     : verbose ? spdlog::level::debug
                               : spdlog::level::warn);
-  SetLogSink([logger](LogLevel level, const std::string& message) {
+  SetLogSink([logger](LogLevel level, const std::string& raw) {
+    const std::string message = Printable(raw);
     switch (level) {
       case LogLevel::kDebug: logger->debug(message); break;
       case LogLevel::kInfo: logger->info(message); break;
@@ -60,6 +64,22 @@ void Console::Say(const std::string& line) const {
   if (quiet) return;
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);  // also in a pipe: whoever waits there wants to know
+}
+
+std::string Printable(const std::string& message) {
+  constexpr std::size_t kLongest = 4000;
+  std::string text;
+  for (const char c : message.substr(0, kLongest)) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 0x20 && c != '\n') || code == 0x7f) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\x%02x", code);
+      text += escaped;
+    } else {
+      text += c;
+    }
+  }
+  return message.size() > kLongest ? text + "..." : text;
 }
 
 std::string AlignedTable(const std::vector<std::vector<std::string>>& rows) {
@@ -97,8 +117,7 @@ std::string TimingText(const TimingTable& timing) {
 }
 
 void CatchInterrupt() {
-  std::signal(SIGINT, OnInterrupt);
-  std::signal(SIGTERM, OnInterrupt);
+  for (const int each : kEnding) std::signal(each, OnInterrupt);
 }
 
 bool Interrupted() { return g_signal != 0; }

@@ -28,14 +28,18 @@ struct Console {
 /// One row per stage: calls, and times in ms.
 std::string TimingText(const TimingTable& timing);
 
+/// A message as a terminal may show it: control characters, which come from files, as \x1b, and of
+/// a long one the beginning.
+std::string Printable(const std::string& message);
+
 /// Rows of cells as aligned columns, the first one left-aligned.
 std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);
 
 /// printf-style number, e.g. Number("%.3f", 1.2).
 std::string Number(const char* format, double value);
 
-/// Installs handlers of SIGINT and SIGTERM that only set a flag; a second one ends the program at
-/// once.
+/// From now on ctrl-C (SIGINT), SIGTERM and SIGHUP only set a flag; a second one ends the program
+/// at once.
 void CatchInterrupt();
 bool Interrupted();
 /// The exit code of a program that was interrupted: 128 and the signal's number.

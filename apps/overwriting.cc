@@ -14,7 +14,16 @@ void RefuseOverwriting(const std::vector<std::string>& read,
     for (const std::string& output : written)
       if (std::filesystem::equivalent(input, output, none))
         throw Error(ErrorKind::kUsage,
-                    input + ": is read, and would be overwritten; name another folder with --out");
+                    input + ": is read, and would be overwritten; name another place with --out");
+}
+
+void RefuseFolder(const std::string& read, const std::string& written) {
+  std::error_code none;
+  if (std::filesystem::equivalent(read, written, none))
+    throw Error(ErrorKind::kUsage,
+                written +
+                    ": is the data set, whose files would be replaced; name another folder "
+                    "with --out");
 }
 
 }  // namespace sslcd::apps

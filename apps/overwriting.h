@@ -11,4 +11,7 @@ namespace sslcd::apps {
 void RefuseOverwriting(const std::vector<std::string>& read,
                        const std::vector<std::string>& written);
 
+/// Throws Error(kUsage) if the folder to write is the folder that is read.
+void RefuseFolder(const std::string& read, const std::string& written);
+
 }  // namespace sslcd::apps

@@ -57,10 +57,10 @@ int main(int argc, char** argv) {
     }
     return code;
   } catch (const sslcd::Error& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    std::fprintf(stderr, "error: %s\n", Printable(error.what()).c_str());
     return ExitCode(error.kind());
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    std::fprintf(stderr, "error: %s\n", Printable(error.what()).c_str());
     return 1;
   }
 }

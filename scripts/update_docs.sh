@@ -29,7 +29,8 @@ defaults, `config/paper.yaml` what `mode: paper` changes. Units are the suffix o
 Paths in a file (`vision.detector`, `vision.embedder`, `vision.lift.classes`,
 `vision.inference.library`) are relative to that file, or else to the current folder; on the command
 line they are relative to the current folder. The `config.yaml` of a run names what was found by its
-absolute path.
+absolute path. A file in the data set must not name a library, whose code would run: give it with
+`--set` or in the environment's `SSLCD_ORT_LIB`.
 
 This page is written by `scripts/update_docs.sh` from the same field tables that load the files.
 

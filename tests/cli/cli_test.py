@@ -249,16 +249,41 @@ class CliTest(CliCase):
         finally:
             subprocess.run(['umount', self.out], check=True)
 
+    def test_code_and_inputs_are_safe_from_a_data_folder(self):
+        write(self.data + '/config.yaml', 'vision: {inference: {library: evil.so}}\n')
+        for config in (self.data + '/config.yaml', self.root + '/link.yaml'):
+            if not os.path.exists(config):
+                os.symlink(self.data + '/config.yaml', config)
+            result = self.run_data('--config', config)
+            self.assertEqual(result.returncode, 4, result.stderr)
+            self.assertIn('vision.inference.library names code to run', result.stderr)
+        shutil.copy(self.data + '/config.yaml', self.root + '/own.yaml')
+        self.assertEqual(self.run_data('--config', self.root + '/own.yaml').returncode, 0)
+        result = call('run', self.data, '--out', self.data + '/')
+        self.assertEqual(result.returncode, 2)
+        self.assertIn('is the data set', result.stderr)
+
+    def test_a_terminal_gets_no_control_characters_of_a_file(self):
+        write(self.data + '/sequence.yaml', '"a\\e[31mb": c\n')
+        result = self.run_data()
+        self.assertEqual(result.returncode, 3)
+        self.assertIn('a\\x1b[31mb', result.stderr)
+
     def test_interrupt_keeps_what_there_is(self):
-        long = self.data + '/long'
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(signal=number):
+                self.interrupt(number)
+
+    def interrupt(self, number):
+        long = f'{self.data}/long{number}'
         subprocess.run([binaries['sim'], 'street', '--out', long, '--seed', '3', '--frames', '6000'], check=True, capture_output=True)
         process = subprocess.Popen([binaries['run'], 'run', long, '--out', self.out, '--set', 'refine.enabled=false'],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         process.stdout.readline()  # the dataset is loaded
         time.sleep(0.5)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(number)
         _, stderr = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130, stderr)
+        self.assertEqual(process.returncode, 128 + number, stderr)
         self.assertIn('interrupted', stderr)
         rows = len(read(self.out + '/trajectory_tum.txt').splitlines())
         self.assertTrue(0 < rows < 6000, rows)

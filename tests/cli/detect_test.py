@@ -183,8 +183,10 @@ class DetectTest(DetectCase):
             self.assertIn(f"detector: '{models}/yolo_v8.yaml'", read(self.out + '/config.yaml'), 'to be found from anywhere')
         shutil.rmtree(self.out, ignore_errors=True)
         write(self.data + '/conf/models/no_library.so', '')
-        write(self.data + '/conf/c.yaml', 'vision: {detector: models/yolo_v8.yaml, inference: {library: models/no_library.so}}\n')
-        result = self.detect('--config', self.data + '/conf/c.yaml', '--force', cwd=here)
+        own = os.path.dirname(self.data) + '/own.yaml'  # a library is not taken from a file of the data set
+        at = 'data/conf/models'
+        write(own, f'vision: {{detector: {at}/yolo_v8.yaml, inference: {{library: {at}/no_library.so}}}}\n')
+        result = self.detect('--config', own, '--force', cwd=here)
         self.refused(result, 3, 'ONNX Runtime')
         if 'this build cannot' not in result.stderr:
             self.assertIn(models + '/no_library.so', result.stderr)
@@ -233,13 +235,16 @@ class DetectTest(DetectCase):
 
     def test_input_is_not_overwritten(self):
         self.detected('--boxes', self.boxes)
+        other = self.out + '_run'
+        os.mkdir(other)
         for option, name in (('--odometry', 'odometry_tum.txt'), ('--groundtruth', 'trajectory_tum.txt')):
-            shutil.copy(self.out + '/odometry.txt', f'{self.out}/{name}')
-            poses = read(f'{self.out}/{name}')
-            run = call('run', self.out, option, name, '--max-frames', 3, '--out', self.out)
+            path = f'{other}/{name}'
+            shutil.copy(self.out + '/odometry.txt', path)
+            poses = read(path)
+            run = call('run', self.out, option, path, '--max-frames', 3, '--out', other)
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn(f'{name}: is read, and would be overwritten', run.stderr)
-            self.assertEqual(read(f'{self.out}/{name}'), poses)
+            self.assertEqual(read(path), poses)
         config = self.out + '/config.yaml'
         self.assertEqual(call('run', self.out, '--config', config, '--out', self.out).returncode, 2)
         self.assertEqual(self.detect('--boxes', self.boxes, '--config', config, '--force').returncode, 2)

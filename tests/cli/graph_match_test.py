@@ -36,7 +36,7 @@ class GraphMatchTest(CliCase):
         self.assertIn('EDGE_SE3:QUAT 0 4 ', written)
         self.assertNotIn('EDGE_SE3:QUAT 1 7 ', written)
         # What was written can be read again, and is a minimum.
-        again = call('graph', self.out + '.g2o', '--out', self.out + '.g2o', '--dof', '3', '--json')
+        again = call('graph', self.out + '.g2o', '--out', self.out + '_again.g2o', '--dof', '3', '--json')
         self.assertAlmostEqual(json.loads(again.stdout)['chi2_before'], robust['chi2_after'], places=4)
 
     def test_graph_says_what_it_did(self):
@@ -81,7 +81,7 @@ class GraphMatchTest(CliCase):
                       'first: line 4', 'smallest eigenvalue -0.02 of the largest', '--strict'):
             self.assertIn(words, result.stderr)
         # What was written holds the projected matrices.
-        again = call('graph', self.out + '.g2o', '--out', self.out + '.g2o', '--dof', '3', '--json', '--strict')
+        again = call('graph', self.out + '.g2o', '--out', self.out + '_again.g2o', '--dof', '3', '--json', '--strict')
         self.assertEqual((again.returncode, again.stderr), (0, ''))
         self.assertAlmostEqual(json.loads(again.stdout)['chi2_before'], figures['chi2_after'], places=6)
 
@@ -95,6 +95,17 @@ class GraphMatchTest(CliCase):
         self.refused(self.graph(text, '--strict'), 3, 'in.g2o:4: the information matrix is not positive definite',
                      'leave out --strict')
         self.assertFalse(os.path.exists(self.out + '.g2o'))
+
+    def test_inputs_are_not_overwritten(self):
+        write(self.data + '/in.g2o', self.square())
+        os.link(self.data + '/in.g2o', self.data + '/same.g2o')
+        pairs = self.strewn_pairs()
+        write(self.data + '/c.yaml', 'mode: robust\n')
+        for args in (('graph', self.data + '/in.g2o', '--out', self.data + '/same.g2o'),
+                     ('match', pairs, '--out', pairs),
+                     ('match', pairs, '--config', self.data + '/c.yaml', '--out', self.data + '/c.yaml')):
+            self.refused(call(*args), 2, 'is read, and would be overwritten')
+        self.assertEqual(read(self.data + '/in.g2o'), self.square())
 
     def test_graph_parts(self):
         result = self.graph(self.square() + 'EDGE_SE2 20 21 1 0 0 1 0 0 1 0 1\n')
