@@ -73,22 +73,6 @@ TEST_F(SequenceFolder, LoadsTheLeastThereCanBe) {
   EXPECT_THAT(dataset.warnings, testing::IsEmpty());
 }
 
-TEST_F(SequenceFolder, WhatIsThereButNoFileIsNotTakenForAbsent) {
-  const std::filesystem::path folder = folder_.path();
-  for (const char* name : {"calib.txt", "sequence.yaml", "groundtruth.txt", "embeddings.npy"}) {
-    SCOPED_TRACE(name);
-    std::filesystem::create_symlink("nowhere", folder / name);
-    Refuse({name, "is a link that leads nowhere"});
-    std::filesystem::remove(folder / name);
-    std::filesystem::create_symlink(name, folder / name);
-    Refuse({name, "cannot be read (Too many levels"});
-    std::filesystem::remove(folder / name);
-    std::filesystem::create_directory(folder / name);
-    Refuse({name, "is a folder: put a file in its place, or remove it"});
-    std::filesystem::remove(folder / name);
-  }
-}
-
 TEST_F(SequenceFolder, LoadsAllParts) {
   folder_.Write("calib.txt", kCalib);
   folder_.Write("groundtruth.txt", Kitti(4));
