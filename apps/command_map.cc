@@ -51,6 +51,7 @@ nlohmann::ordered_json JsonOf(const MapInfo& info, const MapResults& results) {
                         {"ended", session.ended},
                         {"frames", session.frames},
                         {"frame_offset", session.frame_offset},
+                        {"common_map_with", JoinedSessions(info, results, session)},
                         {"loops_to_earlier_sessions", LoopsToEarlierSessions(results, session)},
                         {"checksum", Hexadecimal(session.checksum)},
                         {"dataset", session.dataset},
@@ -59,6 +60,12 @@ nlohmann::ordered_json JsonOf(const MapInfo& info, const MapResults& results) {
                         {"started", session.started}});
   json["sessions"] = sessions;
   return json;
+}
+
+std::string Names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "-" : text;
 }
 
 int PrintInfo(const MapCommandArguments& a, const Console& console) {
@@ -75,10 +82,11 @@ int PrintInfo(const MapCommandArguments& a, const Console& console) {
               Number("%.2f", counts.path_m / 1e3) + " km, " + std::to_string(counts.landmarks) +
               " landmarks, " + std::to_string(counts.loops) + " loops accepted");
   std::vector<std::vector<std::string>> rows = {
-      {"session", "state", "frames", "loops to earlier", "started", "dataset"}};
+      {"session", "state", "frames", "loops to earlier", "common map with", "started", "dataset"}};
   for (const SessionInfo& session : info.sessions)
     rows.push_back({session.name, session.ended ? "ended" : "open", std::to_string(session.frames),
-                    std::to_string(LoopsToEarlierSessions(results, session)), session.started,
+                    std::to_string(LoopsToEarlierSessions(results, session)),
+                    Names(JoinedSessions(info, results, session)), session.started,
                     session.dataset});
   console.Say(AlignedTable(rows));
   return 0;

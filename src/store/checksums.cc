@@ -8,9 +8,13 @@ namespace sslcd {
 
 const std::vector<TableKey> kSiteTables = {
     {"site", "id"}, {"label", "name"}, {"cue", "name"}, {"session", "id"}};
-const std::vector<TableKey> kResultTables = {{"result", "id"},   {"pose", "frame"},
-                                             {"landmark", "id"}, {"sighting", "landmark, position"},
-                                             {"loop", "id"},     {"loop_pair", "loop, position"},
+const std::vector<TableKey> kResultTables = {{"result", "id"},
+                                             {"pose", "frame"},
+                                             {"part", "id"},
+                                             {"landmark", "id"},
+                                             {"sighting", "landmark, position"},
+                                             {"loop", "id"},
+                                             {"loop_pair", "loop, position"},
                                              {"edge", "id"}};
 
 std::string TableChecksum(Database& database, const TableKey& table) {

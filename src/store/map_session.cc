@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <limits>
+#include <numeric>
 
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -19,7 +20,7 @@ namespace {
 
 // A batch ends with a keyframe and has at least so many frames: each waits for the disk.
 constexpr int kFramesPerBatch = 10;
-// Readers get new results when a session has grown by so many frames, and by a tenth.
+// Readers get new results when the map has grown by so many frames, and by a tenth.
 constexpr int kFramesPerResult = 200;
 
 // The name becomes that of a folder (`sslcd_run map export`).
@@ -45,6 +46,7 @@ struct SSLCD_HIDDEN MapSession::Impl {
   void CheckVectors(const Frame& frame) const;
   void Append(InputKind kind, std::string content);
   void Store(bool with_results);
+  int FramesOfMap() const;
   SessionInfo& session() { return map.info.sessions.back(); }
   const SessionInfo& session() const { return map.info.sessions.back(); }
 
@@ -166,7 +168,7 @@ MapSession MapSession::Begin(const std::string& path, const SessionRequest& requ
   }
   impl->MakeMapper(context);
   impl->Replay();
-  impl->frames_of_results = 0;
+  impl->frames_of_results = impl->FramesOfMap();
   info.sessions.push_back(std::move(session));
   impl->views->AskHost(impl->aligner, impl->session().frame_offset);
   MapSession result(std::move(impl));
@@ -183,7 +185,8 @@ MapSession MapSession::Resume(const std::string& path, const MapperContext& cont
   CheckBelongs(info, path, context, std::nullopt);
   impl->MakeMapper(context);
   impl->Replay();
-  impl->stored_frames = impl->frames_of_results = impl->session().frames;
+  impl->stored_frames = impl->session().frames;
+  impl->frames_of_results = impl->FramesOfMap();
   impl->views->AskHost(impl->aligner, impl->session().frame_offset);
   return MapSession(std::move(impl));
 }
@@ -261,7 +264,7 @@ FrameReport MapSession::AddFrame(const Frame& given) {
   ++m.session().frames;
   m.session().last_frame = frame.index;
   if (report.keyframe && m.session().frames - m.stored_frames >= kFramesPerBatch) {
-    const int grown = m.session().frames - m.frames_of_results;
+    const int grown = m.FramesOfMap() - m.frames_of_results;
     m.Store(grown >= kFramesPerResult && 10 * grown >= m.frames_of_results);
   }
   return report;
@@ -278,6 +281,11 @@ BaSummary MapSession::Refine(Refinement when) {
   return summary;
 }
 
+int MapSession::Impl::FramesOfMap() const {
+  return std::accumulate(map.info.sessions.begin(), map.info.sessions.end(), 0,
+                         [](int sum, const SessionInfo& one) { return sum + one.frames; });
+}
+
 // What waits stays if that fails.
 void MapSession::Impl::Store(bool with_results) {
   StoreBatch(map,
@@ -286,7 +294,7 @@ void MapSession::Impl::Store(bool with_results) {
   new_labels = {};
   new_lengths = {};
   stored_frames = session().frames;
-  if (with_results) frames_of_results = stored_frames;
+  if (with_results) frames_of_results = FramesOfMap();
   Log(LogLevel::kDebug, "stored: " + std::to_string(stored_frames) + " frames");
 }
 

@@ -96,6 +96,8 @@ MapResults ReadResults(Database& database) {
   results.scale = row.Real(1);
   results.noise_scale = {row.Real(2), row.Real(3), row.Real(4), row.Real(5)};
   ReadPaths(database, results);
+  Statement part(database, "SELECT first_frame, sequence, joined_with FROM part ORDER BY id");
+  while (part.Step()) results.parts.push_back({part.Int(0), part.Int(1), part.Int(2)});
   ReadLandmarks(database, results);
   ReadLoops(database, results);
   Statement edge(database,

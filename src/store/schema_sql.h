@@ -77,6 +77,15 @@ CREATE TABLE pose (
   x REAL NOT NULL, y REAL NOT NULL, z REAL NOT NULL
 ) STRICT;
 
+-- Stretches between which odometry was lost: sessions, and parts of them. Those with the same
+-- joined_with have a common map, others not: nothing tells where they are to each other.
+CREATE TABLE part (
+  id INTEGER PRIMARY KEY,
+  first_frame INTEGER NOT NULL REFERENCES pose (frame),
+  sequence INTEGER NOT NULL,
+  joined_with INTEGER NOT NULL  -- the first part of the common map
+) STRICT;
+
 -- T_world_object at the cuboid's centre: x along the length, y to the left, z up.
 CREATE TABLE landmark (
   id INTEGER PRIMARY KEY,

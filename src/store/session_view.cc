@@ -2,6 +2,7 @@
 #include "store/session_view.h"
 
 #include <algorithm>
+#include <set>
 
 namespace sslcd {
 namespace {
@@ -78,6 +79,25 @@ int LoopsToEarlierSessions(const MapResults& map, const SessionInfo& session) {
         return loop.decision == LoopDecision::kAccepted && range.Has(loop.query_frame) &&
                loop.match_frame < range.first;
       }));
+}
+
+std::vector<std::string> JoinedSessions(const MapInfo& info, const MapResults& map,
+                                        const SessionInfo& session) {
+  const auto maps_of = [&](const SessionInfo& one) {
+    std::set<int> maps;
+    for (const MapPart& part : map.parts)
+      if (FramesOf(one).Has(part.first_frame)) maps.insert(part.joined_with);
+    return maps;
+  };
+  const std::set<int> own = maps_of(session);
+  std::vector<std::string> names;
+  for (const SessionInfo& other : info.sessions) {
+    const std::set<int> maps = maps_of(other);
+    if (other.id != session.id &&
+        std::any_of(maps.begin(), maps.end(), [&](int number) { return own.count(number) > 0; }))
+      names.push_back(other.name);
+  }
+  return names;
 }
 
 }  // namespace sslcd

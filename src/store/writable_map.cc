@@ -69,6 +69,7 @@ MapResults ResultsOf(const Mapper& mapper, const std::vector<SessionInfo>& sessi
     }
     if (!path.frames.empty()) results.paths.push_back(std::move(path));
   }
+  results.parts = mapper.Parts();
   results.objects = mapper.Objects();
   results.loops = mapper.LoopClosures();
   results.scale = mapper.scale();

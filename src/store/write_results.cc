@@ -16,6 +16,13 @@ void WritePaths(Database& database, const std::vector<SessionPath>& paths) {
     }
 }
 
+void WriteParts(Database& database, const std::vector<MapPart>& parts) {
+  Statement row(database, "INSERT INTO part VALUES (?, ?, ?, ?)");
+  int id = 0;
+  for (const MapPart& part : parts)
+    row.Bind(id++).Bind(part.first_frame).Bind(part.sequence).Bind(part.joined_with).Run();
+}
+
 void WriteLandmarks(Database& database, const std::vector<MapObject>& objects) {
   Statement landmark(database,
                      "INSERT INTO landmark VALUES (?, ?, ?, ?,?,?,?, ?,?,?, ?,?,?, ?, ?, ?)");
@@ -89,6 +96,7 @@ void WriteResults(Database& database, const MapResults& results) {
       .Bind(noise.yaw)
       .Run();
   WritePaths(database, results.paths);
+  WriteParts(database, results.parts);
   WriteLandmarks(database, results.objects);
   WriteLoops(database, results.loops);
   WriteEdges(database, results.graph);

@@ -99,6 +99,9 @@ class MapTest(CliCase):
         self.assertEqual([s['name'] for s in info['sessions']], ['first', 'second'])
         self.assertEqual([s['frame_offset'] for s in info['sessions']], [0, 40])
         self.assertTrue(all(s['ended'] for s in info['sessions']))
+        for session, other in zip(info['sessions'], ('second', 'first')):
+            joined = info['sessions'][1]['loops_to_earlier_sessions'] > 0
+            self.assertEqual(session['common_map_with'], [other] if joined else [])
         self.assertIn('--session second', info['sessions'][1]['command'])
         self.assertEqual(info['sessions'][1]['dataset'], self.data)
         self.sound()

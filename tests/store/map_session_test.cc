@@ -95,6 +95,8 @@ TEST(MapSession, ASecondSessionIsAddedToTheFirst) {
   ASSERT_EQ(results.paths.size(), 2u);
   EXPECT_EQ(results.paths[1].session, 2);
   EXPECT_EQ(results.paths[1].frames.front(), 60);
+  EXPECT_EQ(results.parts, mapper.Parts());
+  EXPECT_EQ(results.parts.size(), 2u);
   EXPECT_EQ(TextOf(results, drive.world.gravity.up), TextOf(mapper));
 }
 

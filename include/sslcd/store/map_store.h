@@ -16,6 +16,7 @@
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose.h"
 #include "sslcd/core/pose_graph.h"
+#include "sslcd/pipeline/mapper.h"
 
 namespace SSLCD_EXPORT sslcd {
 
@@ -57,6 +58,7 @@ struct SessionPath {
 struct MapResults {
   std::int64_t inputs = 0;
   std::vector<SessionPath> paths;
+  std::vector<MapPart> parts;      ///< by number; which of them have a common map
   std::vector<MapObject> objects;  ///< all landmarks by id
   std::vector<LoopClosure> loops;  ///< all attempts in order
   PoseGraph graph;
