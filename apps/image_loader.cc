@@ -3,6 +3,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "datasets/image_size.h"
 #include "sslcd/core/log.h"
 #include "sslcd/perception/opencv_image.h"
 
@@ -10,9 +11,15 @@ namespace sslcd::apps {
 
 namespace {
 
+constexpr double kMostPixels = 1 << 26;  // of an image; a file of 3 MB may claim a thousand million
+
 /// Reads the pixels as stored, since the calibration is for these; a JPEG's orientation tag is
-/// ignored. Empty if the file cannot be read.
+/// ignored. Empty if the file cannot be read, is neither PNG nor JPEG, or is too large: what a file
+/// of any other format holds would go to OpenCV's other decoders.
 cv::Mat Read(const std::string& path, int flags) {
+  const ImageSize size = ReadImageSize(path);
+  const double pixels = static_cast<double>(size[0]) * size[1];
+  if (!(pixels > 0 && pixels <= kMostPixels)) return {};
   try {
     return cv::imread(path, flags | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {  // a header that asks for too much

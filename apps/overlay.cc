@@ -47,7 +47,13 @@ bool IsName(const std::string& name) {
 }  // namespace
 
 void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& camera) {
-  if (written_.empty()) MakeWritableFolder(folder_.string());
+  if (written_.empty()) {
+    if (std::filesystem::is_symlink(folder_))
+      throw Error(ErrorKind::kOutput, folder_.string() +
+                                          ": is a link, and files there would be "
+                                          "replaced; remove it");
+    MakeWritableFolder(folder_.string());
+  }
   const std::string path = (folder_ / *written_.insert(NameOf(frame.index)).first).string();
   cv::Mat image;
   if (left.channels == 3)
@@ -65,12 +71,9 @@ void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& ca
                 top_left + cv::Point(2, -3), cv::FONT_HERSHEY_SIMPLEX, 0.4, box_colour, 1,
                 cv::LINE_AA);
   }
-  bool written = false;
-  try {
-    written = cv::imwrite(path, image);
-  } catch (const cv::Exception&) {
-  }
-  if (!written) throw Error(ErrorKind::kOutput, path + ": cannot be written; is the disk full?");
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", image, bytes);
+  WriteFileAtomically(path, {bytes.begin(), bytes.end()});
 }
 
 void Overlays::RemoveOthers() const {

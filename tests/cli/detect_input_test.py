@@ -40,6 +40,16 @@ class DetectInputTest(DetectCase):
         self.assertEqual(len(read(self.out + '/odometry.txt').splitlines()), FRAMES)
         self.assertAlmostEqual(float(read(self.out + '/odometry.txt').splitlines()[-1].split()[3]), 1.4, delta=0.1)
 
+    def test_neither_other_formats_nor_what_claims_to_be_huge_is_decoded(self):
+        with open(f'{self.data}/image_2/000005.png', 'rb') as file:
+            png = file.read()
+        huge = png[:16] + (30000).to_bytes(4, 'big') * 2 + png[24:]
+        for content in (b'P6 2 1 255\n' + 6 * b'x', huge):
+            with open(f'{self.data}/image_2/000005.png', 'wb') as file:
+                file.write(content)
+            result = self.detect('--boxes', self.boxes, '--force')
+            self.assertIn('image_2/000005.png: no image that can be read', result.stderr)
+
     def test_a_frame_without_images_does_not_shift_the_others(self):
         for folder in ('image_2', 'image_3'):
             os.remove(f'{self.data}/{folder}/000002.png')

@@ -287,6 +287,20 @@ class DetectTest(DetectCase):
         self.detected('--boxes', self.boxes, '--force')
         self.assertEqual(sorted(os.listdir(self.out)), SEQUENCE)
 
+    def test_overlays_follow_no_link(self):
+        others = self.out + '_others'
+        write(others + '/000000.jpg', 'precious')
+        os.makedirs(self.out)
+        os.symlink(others, self.out + '/overlays')
+        result = self.detect('--boxes', self.boxes, '--overlays', '--force')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('overlays: is a link', result.stderr)
+        os.remove(self.out + '/overlays')
+        os.mkdir(self.out + '/overlays')
+        os.symlink(others + '/000000.jpg', self.out + '/overlays/000000.jpg')
+        self.detected('--boxes', self.boxes, '--overlays', '--force')
+        self.assertEqual(read(others + '/000000.jpg'), 'precious')
+
     def test_interrupt_leaves_nothing_half_done(self):
         for folder in ('image_2', 'image_3'):
             for i in range(FRAMES, 400):
