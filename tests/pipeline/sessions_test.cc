@@ -33,7 +33,10 @@ struct Sessions {
   std::vector<int> session;    // of each frame
   std::vector<MapPart> parts;  // what a host knows
 
-  explicit Sessions(const Drives& first) : mapper({}, first.Context()) { Add(first); }
+  explicit Sessions(const Drives& first, const Options& options = {})
+      : mapper(options, first.Context()) {
+    Add(first);
+  }
 
   void Add(const Drives& drives) {
     const int number = truth.empty() ? 0 : session.back() + 1;
@@ -80,6 +83,25 @@ TEST(Sessions, AnyOrderGivesOneMap) {
     EXPECT_LT((all[order[0]].frames[0].T_odom_cam.inverse() * first).Log().norm(), 1e-6)
         << "it defines the world";
   }
+}
+
+// Odometry in parts is no trajectory that stays unless the result is surely better.
+TEST(Sessions, WhatLoopsJoinNeedsNoCertainty) {
+  const Site site = BlockSite(1);
+  std::vector<std::vector<Pose>> results;
+  for (const double least_probability : {0.5, 1 - 1e-15}) {
+    Options options;
+    options.refine.least_probability = least_probability;
+    Sessions sessions(Session(site, 0, 100, 1), options);
+    sessions.Add(Session(site, 40, 140, 2));
+    EXPECT_EQ(sessions.JoinedWith(), (std::vector<int>{0, 0}));
+    sessions.mapper.Refine();
+    EXPECT_GT(sessions.mapper.improvement().horizontal, 0.5);
+    EXPECT_LT(sessions.mapper.improvement().horizontal, 1 - 1e-15);
+    results.push_back(sessions.mapper.CameraTrajectory().poses);
+  }
+  for (std::size_t f = 0; f < results[0].size(); ++f)
+    EXPECT_EQ(results[0][f].matrix(), results[1][f].matrix()) << f;
 }
 
 TEST(Sessions, AnUnrelatedOneStaysApart) {

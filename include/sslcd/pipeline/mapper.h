@@ -151,8 +151,9 @@ class Mapper {
   /// Optimises poses, landmarks and scale over all frames so far and measures accepted loops again.
   /// With a ViewAligner it also aligns images of different passes and optimises again with these.
   /// Where the result is not surely better than the odometry, horizontally or in height, the
-  /// odometry stays (RefineOptions::least_probability). Searches for loops a second time, since the
-  /// prior is narrow now. May be called at any time and repeatedly.
+  /// odometry stays (RefineOptions::least_probability); where loops join sequences, only where it
+  /// is probably not better. Searches for loops a second time, since the prior is narrow now. May
+  /// be called at any time and repeatedly.
   BaSummary Refine(Refinement when = Refinement::kAtEnd);
 
   /// Makes a refined copy the successor of its original, which has got the frames `since` after the
