@@ -182,6 +182,37 @@ def stream(sets):
     return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only stream')
 
 
+def sessions(sets):
+    entries = {name: sets['sessions/' + name.removeprefix('loops/')] for name in LOOPS
+               if 'sessions/' + name.removeprefix('loops/') in sets}
+    orders = [order for order in next(iter(entries.values()))['figures'] if order != '1']
+    rows = []
+    for name, entry in entries.items():
+        f = entry['figures']
+        whole = f['1']
+        ate = [f'{number(f[order]["ATE_m"])} ({number(f[order]["horizontal_m"])})'
+               for order in orders]
+        joined = [f[order]['frames'] == whole['frames'] for order in orders]
+        rows.append([LOOPS[name], role(entry),
+                     f'{number(whole["ATE_m"])} ({number(whole["horizontal_m"])})', *ate,
+                     ', '.join('all' if one else 'some' for one in joined),
+                     sum(round(f[order]['wrong']) for order in orders)])
+    header = ['drive', 'chosen on it', 'whole: ATE (horizontal) [m]',
+              *(f'order {order}' for order in orders), 'joined', 'wrong loops, three orders']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only sessions')
+
+
+def sessions_halv(sets):
+    entries = {title: sets['sessions/HALV-sim ' + which]
+               for which, title in (('halv', 'site'), ('copy', 'site, then its copy'))}
+    rows = [[title, f['sessions'], f'{f["near"]} ({percent(f["near"] / f["sessions"])})',
+             f['wrong'], f['to_copy']]
+            for title, f in ((title, entry['figures']) for title, entry in entries.items())]
+    header = ['in the map', 'sessions', 'a loop within 50 m', 'with a wrong loop',
+              'with a loop to or from the copy']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only sessions')
+
+
 def halv_ate(sets):
     rows = []
     for name, title in ((KNOWN, 'seeds 1-10'), (FRESH, 'seeds 11-20, held out')):
@@ -277,7 +308,8 @@ def bench(set_name, key, sets):
 
 
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
-                                  stream, halv_ate, halv_viewpoints)}
+                                  sessions, sessions_halv, stream, halv_ate,
+                                  halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):
     TABLES['bench_' + bench_key] = functools.partial(bench, 'bench/all', bench_key)
