@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/checksums.h"
 
+#include <algorithm>
+
 #include "store/schema.h"
 #include "store/sha256.h"
 
 namespace sslcd {
+namespace {
+
+std::string OneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+}  // namespace
 
 const std::vector<TableKey> kSiteTables = {
     {"site", "id"}, {"label", "name"}, {"cue", "name"}, {"session", "id"}};
@@ -13,6 +23,7 @@ const std::vector<TableKey> kResultTables = {{"result", "id"},
                                              {"part", "id"},
                                              {"landmark", "id"},
                                              {"sighting", "landmark, position"},
+                                             {"appearance", "landmark, cue"},
                                              {"loop", "id"},
                                              {"loop_pair", "loop, position"},
                                              {"edge", "id"}};
@@ -49,7 +60,7 @@ std::vector<std::string> FileProblems(Database& database, bool thorough) {
   std::vector<std::string> problems;
   Statement check(database, thorough ? "PRAGMA integrity_check" : "PRAGMA quick_check");
   while (check.Step())
-    if (check.Text(0) != "ok") problems.push_back(check.Text(0));
+    if (check.Text(0) != "ok") problems.push_back(OneLine(check.Text(0)));
   if (!problems.empty()) return problems;  // nothing else can be read for sure
   Statement keys(database, "PRAGMA foreign_key_check");
   while (keys.Step())

@@ -48,13 +48,15 @@ FileLength LengthOf(sqlite3* handle) {
 }
 
 ErrorKind ErrorKindOf(int code) {
-  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? ErrorKind::kBadInput
-                                                         : ErrorKind::kOutput;
+  // SQLITE_ERROR: a table or a version that the file should have
+  const bool damaged = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
+  return damaged ? ErrorKind::kBadInput : ErrorKind::kOutput;
 }
 
 std::string WayOut(int code) {
   switch (code) {
     case SQLITE_NOTADB: return "it is not an SQLite file; name a map, or a file that is not there";
+    case SQLITE_ERROR:
     case SQLITE_CORRUPT:
       return "the file is damaged; `sslcd_run map verify` says where. Restore a copy, or build the "
              "map again from its drives";
@@ -88,6 +90,11 @@ bool Database::Open(const std::string& name, int flags) {
 
 Database::Database(const std::string& path, Access access) : path_(path) {
   if (access == Access::kRead) {
+    // Where it may write, the last reader takes the log away when it closes.
+    if (Open(path, SQLITE_OPEN_READWRITE)) {
+      Execute("PRAGMA query_only = ON");
+      return;
+    }
     if (Open(path, SQLITE_OPEN_READONLY)) return;
     // Without a right to write in the folder a reader cannot join the others; if there is no log,
     // there are none.

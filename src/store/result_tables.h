@@ -8,7 +8,8 @@ namespace sslcd {
 
 /// Replaces the tables of results, and their checksums. The odometry of the paths is not written:
 /// it is among the inputs.
-void WriteResults(Database& database, const MapResults& results);
+void WriteResults(Database& database, const MapResults& results,
+                  const std::vector<SessionInfo>& sessions);
 
 /// Reads the tables of results. Paths have no odometry.
 MapResults ReadResults(Database& database);

@@ -107,6 +107,16 @@ CREATE TABLE sighting (
   PRIMARY KEY (landmark, position)
 ) STRICT, WITHOUT ROWID;
 
+-- How a confirmed landmark looks: the mean over the sightings that have this cue, of unit length, as
+-- floats, least significant byte first.
+CREATE TABLE appearance (
+  landmark INTEGER NOT NULL REFERENCES landmark (id),
+  cue TEXT NOT NULL REFERENCES cue (name),
+  sightings INTEGER NOT NULL CHECK (sightings > 0),
+  vector BLOB NOT NULL,
+  PRIMARY KEY (landmark, cue)
+) STRICT, WITHOUT ROWID;
+
 -- Attempts to close a loop, T_match_query and its covariance: of [translation, rotation], the upper
 -- triangle row by row as 21 doubles, least significant byte first.
 CREATE TABLE loop (

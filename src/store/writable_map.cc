@@ -44,7 +44,7 @@ void StoreBatch(WritableMap& map, const StoredBatch& batch) {
   if (batch.results) {
     MapResults results = ResultsOf(*batch.results, map.info.sessions);
     results.inputs = database.Integer("SELECT count(*) FROM input");
-    WriteResults(database, results);
+    WriteResults(database, results, map.info.sessions);
   } else if (map.is_new) {
     UpdateChecksums(database, kResultTables);
   }

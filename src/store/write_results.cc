@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "store/appearance.h"
 #include "store/checksums.h"
 #include "store/result_rows.h"
 #include "store/result_tables.h"
@@ -82,7 +83,8 @@ void WriteEdges(Database& database, const PoseGraph& graph) {
 
 }  // namespace
 
-void WriteResults(Database& database, const MapResults& results) {
+void WriteResults(Database& database, const MapResults& results,
+                  const std::vector<SessionInfo>& sessions) {
   // those that refer to others first
   for (auto table = kResultTables.rbegin(); table != kResultTables.rend(); ++table)
     database.Execute(std::string("DELETE FROM ") + table->name);
@@ -98,6 +100,7 @@ void WriteResults(Database& database, const MapResults& results) {
   WritePaths(database, results.paths);
   WriteParts(database, results.parts);
   WriteLandmarks(database, results.objects);
+  WriteAppearance(database, results.objects, sessions);
   WriteLoops(database, results.loops);
   WriteEdges(database, results.graph);
   UpdateChecksums(database, kResultTables);

@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "sim/random.h"
+#include "store/bytes.h"
 #include "store/checksums.h"
 #include "store/schema.h"
 #include "store/writable_map.h"
@@ -101,6 +103,48 @@ TEST(MapStore, AReaderSeesOneStateBesideAWriter) {
   EXPECT_TRUE(reader.Results().paths.empty()) << "no results yet";
   session.End();
   EXPECT_EQ(reader.Results().paths[0].frames.size(), 60u);
+}
+
+TEST(MapStore, TheAppearanceOfALandmarkIsTheMeanOfItsSightings) {
+  const TempFolder folder;
+  StoreDrive drive = ShortStreet(30);
+  for (Frame& frame : drive.frames)
+    for (Detection& detection : frame.detections)
+      detection.appearance[Cue::kEmbedding] =
+          frame.index % 2 == 0 ? std::vector<float>{1, 0} : std::vector<float>{0, 1};
+  const std::string path = MakeMap(folder, drive);
+  int even = 0, all = 0, id = -1;
+  for (const MapObject& object : MapStore(path).Results().objects) {
+    if (object.state != LandmarkState::kConfirmed || object.observations.size() < 5) continue;
+    id = object.id.value;
+    for (const Observation& seen : object.observations) even += seen.frame % 2 == 0 ? 1 : 0;
+    all = static_cast<int>(object.observations.size());
+    break;
+  }
+  ASSERT_GE(id, 0);
+  Database database(path, Database::Access::kRead);
+  Statement row(database, "SELECT cue, sightings, vector FROM appearance WHERE landmark = ?");
+  ASSERT_TRUE(row.Bind(id).Step());
+  EXPECT_EQ(row.Text(0), "embedding");
+  EXPECT_EQ(row.Int(1), all);
+  const std::string vector = row.Blob(2);
+  ByteReader bytes(vector);
+  const double length = std::hypot(even, all - even);
+  EXPECT_FLOAT_EQ(bytes.Float(), static_cast<float>(even / length));
+  EXPECT_FLOAT_EQ(bytes.Float(), static_cast<float>((all - even) / length));
+  bytes.ExpectEnd();
+  EXPECT_FALSE(row.Step()) << "there is no colour";
+}
+
+TEST(MapStore, AReaderLeavesNothingBehind) {
+  const TempFolder folder;
+  const std::string path = MakeMap(folder, ShortStreet(30));
+  const std::string before = Content(path);
+  { MapStore(path).Results(); }
+  EXPECT_EQ(Content(path), before);
+  for (const char* ending : {"-wal", "-shm", "-lock"}) EXPECT_FALSE(fs::exists(path + ending));
+  Database reader(path, Database::Access::kRead);
+  EXPECT_THROW(reader.Execute("DELETE FROM edge"), Error);
 }
 
 TEST(MapStore, TheSecondWriterIsToldWhoIsTheFirst) {

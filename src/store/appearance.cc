@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "store/appearance.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "store/bytes.h"
+#include "store/frame_bytes.h"
+#include "store/journal.h"
+
+namespace sslcd {
+namespace {
+
+struct VectorSum {
+  std::vector<double> sum;
+  int count = 0;
+
+  void Add(const std::vector<float>& vector) {
+    if (vector.empty()) return;
+    if (sum.empty()) sum.resize(vector.size());
+    for (std::size_t i = 0; i < vector.size(); ++i) sum[i] += vector[i];
+    ++count;
+  }
+
+  // Unit vectors that cancel have no mean.
+  bool HasMean() const { return count > 0 && Length() > 0; }
+  double Length() const {
+    double squares = 0;
+    for (const double value : sum) squares += value * value;
+    return std::sqrt(squares);
+  }
+  std::string MeanBytes() const {
+    const double length = Length();
+    ByteWriter bytes;
+    for (const double value : sum) bytes.Float(static_cast<float>(value / length));
+    return bytes.Take();
+  }
+};
+
+// Sightings by frame of the map and row of the detection.
+using LandmarkOfSighting = std::map<std::pair<int, int>, int>;
+
+LandmarkOfSighting ConfirmedSightings(const std::vector<MapObject>& objects) {
+  LandmarkOfSighting landmarks;
+  for (const MapObject& object : objects)
+    if (object.state == LandmarkState::kConfirmed)
+      for (const Observation& seen : object.observations)
+        landmarks[{seen.frame, seen.detection_row}] = object.id.value;
+  return landmarks;
+}
+
+}  // namespace
+
+void WriteAppearance(Database& database, const std::vector<MapObject>& objects,
+                     const std::vector<SessionInfo>& sessions) {
+  const LandmarkOfSighting landmarks = ConfirmedSightings(objects);
+  std::map<int, int> offsets;
+  for (const SessionInfo& session : sessions) offsets[session.id] = session.frame_offset;
+  std::map<int, PerCue<VectorSum>> sums;
+  ReadInputs(database, sessions, [&](const StoredInput& input) {
+    if (input.kind != InputKind::kFrame) return;
+    const Frame frame = FrameOf(input.content);
+    for (const Detection& detection : frame.detections) {
+      const auto found = landmarks.find({frame.index + offsets[input.session], detection.row});
+      if (found == landmarks.end()) continue;
+      for (const CueRow& row : kCueRows)
+        sums[found->second][row.cue].Add(detection.appearance[row.cue]);
+    }
+  });
+  Statement insert(database, "INSERT INTO appearance VALUES (?, ?, ?, ?)");
+  for (const auto& [landmark, by_cue] : sums)
+    for (const CueRow& row : kCueRows)
+      if (const VectorSum& sum = by_cue[row.cue]; sum.HasMean())
+        insert.Bind(landmark).BindText(row.name).Bind(sum.count).BindBlob(sum.MeanBytes()).Run();
+}
+
+}  // namespace sslcd
