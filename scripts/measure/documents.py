@@ -9,7 +9,7 @@ from store import Store
 from tables import TABLES
 
 FIGURES = 'docs/figures.json'
-DOCUMENTS = ['README.md', 'docs/results.md']
+DOCUMENTS = ['README.md', 'docs/results.md', 'docs/sessions.md']
 MARK = re.compile(r'(<!-- figures (\w+) -->\n)(.*?)(<!-- /figures -->)', re.DOTALL)
 
 

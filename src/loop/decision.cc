@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastHeight = -3;
 // Least lead of a loop that joins two parts of a trajectory: a part is compared with the whole map
 // hundreds of times, without odometry. Of such attempts between quarters of five drives, those at
-// wrong places reach 7.3 (docs/decision.md, "Several sequences"). [nats]
+// wrong places reach 7.3 (docs/decision.md, "Numbers"). [nats]
 constexpr double kLeastLead = 12;
 // Least log likelihood ratio of the looks of its objects: below it, a place that is not in the map
 // but laid out alike (PoseTrackOptions::look_alike) is more probable than the risk allows. [nats]
