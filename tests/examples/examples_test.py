@@ -8,8 +8,10 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../data')
+FOLDER = tempfile.TemporaryDirectory()
 ATE = r'ATE ([\d.]+) m, of the odometry ([\d.]+) m'
 
 
@@ -32,6 +34,9 @@ EXAMPLES = {
     '06_asynchronous': (['sim_rectangle'], r'(\d+) frames, (\d+) loops; ATE ([\d.]+) m',
                         lambda frames, loops, ate:
                         int(frames) == 265 and int(loops) >= 10 and float(ate) < 0.4),
+    '07_map_file': (['sim_rectangle', os.path.join(FOLDER.name, 'site.db')],
+                    r'(\d+) frames before tuesday, (\d+) loops join the sessions',
+                    lambda frames, loops: int(frames) == 265 and int(loops) >= 10),
 }
 
 

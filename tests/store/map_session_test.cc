@@ -100,6 +100,40 @@ TEST(MapSession, ASecondSessionIsAddedToTheFirst) {
   EXPECT_EQ(TextOf(results, drive.world.gravity.up), TextOf(mapper));
 }
 
+// A second session with a restart of its odometry and a refinement on the way, interrupted twice.
+TEST(MapSession, AnInterruptedSecondSessionGoesOn) {
+  const TempFolder folder;
+  const StoreDrive drive = ShortStreet();
+  const std::string path = MakeMap(folder, drive);
+  Mapper mapper({}, drive.Context());
+  for (const Frame& frame : drive.frames) mapper.AddFrame(frame);
+  mapper.Refine();
+  mapper.StartSequence();
+  for (Frame frame : drive.frames) {
+    if (frame.index == 20) mapper.StartSequence();
+    if (frame.index == 40) mapper.Refine(Refinement::kOnTheWay);
+    frame.index += 60;
+    mapper.AddFrame(frame);
+  }
+  for (const int end : {15, 45, 60}) {
+    MapSession session =
+        end == 15 ? BeginSession(path, "two", drive) : MapSession::Resume(path, drive.Context());
+    for (const Frame& frame : drive.frames) {
+      if (frame.index >= end || session.IsStored(frame)) continue;
+      if (frame.index == 20) session.StartSequence();
+      if (frame.index == 40) session.Refine(Refinement::kOnTheWay);
+      session.AddFrame(frame);
+    }
+    if (end == 60)
+      session.End();
+    else
+      session.Save();
+  }
+  EXPECT_EQ(TextOf(MapStore(path).Results(), drive.world.gravity.up), TextOf(mapper));
+  EXPECT_EQ(mapper.Parts().size(), 3u);
+  EXPECT_TRUE(MapStore(path).Verify().empty());
+}
+
 TEST(MapSession, TheAnswersOfAViewAlignerAreStored) {
   const TempFolder folder;
   const StoreDrive drive = ShortStreet();

@@ -25,8 +25,8 @@ struct SessionRequest {
 /// stored_frames() counts survives a killed process and a loss of power. One MapSession at a time
 /// may write to a file; others are refused with the name of the holder.
 ///
-/// All functions throw Error(kOutput) if the file cannot be written, e.g. on a full disk. What was
-/// stored before stays, and Save() or End() may be called again.
+/// Not thread-safe. All functions throw Error(kOutput) if the file cannot be written, e.g. on a
+/// full disk. What was stored before stays, and Save() or End() may be called again.
 class MapSession {
  public:
   /// Adds a session; makes the file if there is none. Options: none stands for those of the map,
