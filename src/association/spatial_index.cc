@@ -7,7 +7,9 @@
 namespace sslcd {
 
 std::int64_t SpatialIndex::Index(double coordinate) const {
-  return static_cast<std::int64_t>(std::floor(coordinate / cell_m_));
+  const double index = std::floor(coordinate / cell_m_);
+  constexpr double kFar = 1e18;  // what is there, or nowhere, shares a cell
+  return static_cast<std::int64_t>(std::abs(index) < kFar ? index : kFar);
 }
 
 std::int64_t SpatialIndex::CellOf(std::int64_t column, std::int64_t row) const {

@@ -92,18 +92,21 @@ std::vector<double> ReadTimestamps(const std::string& path) {
   double first_second = 0;
   TextRows row(path);
   while (row.Next()) {
-    const auto part = [&row](std::size_t field, std::size_t begin, std::size_t length) {
+    const auto part = [&row](std::size_t field, std::size_t begin, std::size_t length, double least,
+                             double end) {
       const std::string_view text = row.Text(field);
       const auto value =
           begin < text.size() ? ParseNumber(text.substr(begin, length)) : std::nullopt;
-      if (!value) row.Fail("expected a stamp like '2011-09-26 13:02:25.964389445'");
+      if (!value || !(*value >= least && *value < end))
+        row.Fail("expected a stamp like '2011-09-26 13:02:25.964389445'");
       return *value;
     };
     if (row.size() != 2) row.Fail("expected date and time, like '2011-09-26 13:02:25.964389445'");
-    const long day = DaysFromCivil(std::lround(part(0, 0, 4)), std::lround(part(0, 5, 2)),
-                                   std::lround(part(0, 8, 2)));
-    const double second =
-        part(1, 0, 2) * 3600 + part(1, 3, 2) * 60 + part(1, 6, std::string_view::npos);
+    const long day =
+        DaysFromCivil(std::lround(part(0, 0, 4, 1, 10000)), std::lround(part(0, 5, 2, 1, 13)),
+                      std::lround(part(0, 8, 2, 1, 32)));
+    const double second = part(1, 0, 2, 0, 24) * 3600 + part(1, 3, 2, 0, 60) * 60 +
+                          part(1, 6, std::string_view::npos, 0, 61);  // a leap second
     if (stamps.empty()) {
       first_day = day;
       first_second = second;

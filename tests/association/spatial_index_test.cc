@@ -46,5 +46,16 @@ TEST(SpatialIndex, EmptyUnknownAndRepeated) {
   EXPECT_EQ(index.size(), 0u);
 }
 
+TEST(SpatialIndex, NowhereAndFarOff) {
+  SpatialIndex index;
+  index.Put(1, std::nan(""), 0);
+  index.Put(2, 1e300, -1e300);
+  index.Put(3, 1, 1);
+  EXPECT_EQ(index.FindWithin(0, 0, 5), std::vector<int>{3});
+  EXPECT_TRUE(index.FindWithin(std::nan(""), 0, 5).empty());
+  index.Put(1, 2, 2);
+  EXPECT_EQ(index.FindWithin(0, 0, 5), (std::vector<int>{1, 3}));
+}
+
 }  // namespace
 }  // namespace sslcd

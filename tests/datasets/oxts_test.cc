@@ -86,8 +86,10 @@ TEST(Oxts, StampsCountFromTheFirst) {
               {"timestamps.txt:2", "does not come after"});
   ExpectError([&] { read("2011-09-26\n"); }, {"timestamps.txt:1", "date and time"});
   ExpectError([&] { read("2011-09-26 13:02\n"); }, {"timestamps.txt:1", "expected a stamp like"});
-  ExpectError([&] { read("2011-09-2x 13:02:25\n"); },
-              {"timestamps.txt:1", "expected a stamp like"});
+  for (const char* stamp : {"2011-09-2x 13:02:25", "1e99-09-26 13:02:25", "2011-99-99 13:02:25",
+                            "2011-09-26 13:02:nan", "2011-09-26 13:02:61"})
+    ExpectError([&] { read(stamp + std::string("\n")); },
+                {"timestamps.txt:1", "expected a stamp like"});
 }
 
 }  // namespace
