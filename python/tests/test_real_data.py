@@ -10,11 +10,11 @@ from conftest import mapper_for
 REAL = Path(os.environ.get("SSLCD_DATA_DIR") or "/none")
 
 
-@pytest.mark.parametrize("name", ["victoria-park", "kitti-odometry-poles/02"])
-def test_streaming_of_real_data_is_the_offline_run_to_the_byte(name):
-    if not (REAL / name).is_dir():
-        pytest.skip(f"SSLCD_DATA_DIR has no {name}")
-    dataset = sslcd.load_dataset(REAL / name)
+def test_streaming_of_real_data_is_the_offline_run_to_the_byte():
+    folder = REAL / "kitti-odometry-poles" / "02"
+    if not folder.is_dir():
+        pytest.skip(f"SSLCD_DATA_DIR has no {folder.relative_to(REAL)}")
+    dataset = sslcd.load_dataset(folder)
     mapper = mapper_for(dataset)
     for frame in dataset:
         mapper.add(frame)
