@@ -168,8 +168,8 @@ class MapTest(CliCase):
     def test_a_killed_session_goes_on(self):
         self.long_drive()
         test = KillTest(binaries['run'], self.data, os.path.dirname(self.data))
-        test.run(4, 1)
-        self.assertEqual(test.kills, 4)
+        test.run(3, 1)
+        self.assertEqual(test.kills, 3)
 
     def test_a_changed_drive_does_not_go_on(self):
         self.long_drive()
