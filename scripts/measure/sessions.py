@@ -8,10 +8,10 @@ from program import rounded
 from store import fingerprint
 
 REAL = [('victoria-park', 'reference.txt'), ('forest-evo-fwd', 'groundtruth.txt'),
-        ('kitti-odometry-poles/00', 'groundtruth.txt')]
-HELD_OUT = [('kitti-odometry-poles/02', 'groundtruth.txt'),
-            ('kitti-odometry-poles/05', 'groundtruth.txt'),
-            ('forest-venman3-fwd', 'groundtruth.txt')]
+        ('kitti-odometry-poles/00', 'groundtruth.txt'),
+        ('kitti-odometry-poles/02', 'groundtruth.txt'),
+        ('kitti-odometry-poles/05', 'groundtruth.txt')]
+HELD_OUT = [('forest-venman3-fwd', 'groundtruth.txt')]
 ORDERS = ['1', '1234', '4321', '2413']  # the first: the whole drive
 HALV = [(str(case), layout) for layout in ('lot', 'street') for case in (1, 2, 3, 4)]
 SEEDS = ['21', '25']  # first and last

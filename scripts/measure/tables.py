@@ -204,7 +204,8 @@ def sessions(sets):
 
 def sessions_halv(sets):
     entries = {title: sets['sessions/HALV-sim ' + which]
-               for which, title in (('halv', 'site'), ('copy', 'site, then its copy'))}
+               for which, title in (('halv', 'site'), ('copy', 'site, then its copy'))
+               if 'sessions/HALV-sim ' + which in sets}
     rows = [[title, f['sessions'], f'{f["near"]} ({percent(f["near"] / f["sessions"])})',
              f['wrong'], f['to_copy']]
             for title, f in ((title, entry['figures']) for title, entry in entries.items())]
