@@ -117,7 +117,8 @@ std::string TimingText(const TimingTable& timing) {
 }
 
 void CatchInterrupt() {
-  for (const int each : kEnding) std::signal(each, OnInterrupt);
+  for (const int each : kEnding)
+    if (std::signal(each, OnInterrupt) == SIG_IGN) std::signal(each, SIG_IGN);  // nohup
 }
 
 bool Interrupted() { return g_signal != 0; }

@@ -39,7 +39,7 @@ std::string AlignedTable(const std::vector<std::vector<std::string>>& rows);
 std::string Number(const char* format, double value);
 
 /// From now on ctrl-C (SIGINT), SIGTERM and SIGHUP only set a flag; a second one ends the program
-/// at once.
+/// at once. A signal that is ignored (nohup) stays ignored.
 void CatchInterrupt();
 bool Interrupted();
 /// The exit code of a program that was interrupted: 128 and the signal's number.

@@ -175,7 +175,7 @@ void StartUpright(const Vec3& up, const Pose& first_of_drive, Session& session) 
     frame.T_odom_cam = Pose(turn, Vec3::Zero()) * frame.T_odom_cam;
 }
 
-// `upright`: the odometry's tilt drifts, so it begins anew with each session.
+// `upright`: each session begins level, because the odometry's tilt has drifted by then.
 std::vector<Session> Cut(const Dataset& data, int count, bool upright) {
   std::vector<double> path_m{0};
   for (std::size_t i = 1; i < data.frames.size(); ++i)

@@ -18,9 +18,9 @@
 namespace sslcd {
 namespace {
 
-// A batch ends with a keyframe and has at least so many frames: each waits for the disk.
+// Smallest number of frames that are stored together. Storing waits for the disk.
 constexpr int kFramesPerBatch = 10;
-// Readers get new results when the map has grown by so many frames, and by a tenth.
+// New results are stored for readers after this many new frames, if they are a tenth of the map.
 constexpr int kFramesPerResult = 200;
 
 // The name becomes that of a folder (`sslcd_run map export`).

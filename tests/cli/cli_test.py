@@ -274,6 +274,14 @@ class CliTest(CliCase):
             with self.subTest(signal=number):
                 self.interrupt(number)
 
+    def test_a_run_under_nohup_outlives_its_terminal(self):
+        process = subprocess.Popen([binaries['run'], 'run', self.data, '--out', self.out], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        while process.poll() is None:
+            process.send_signal(signal.SIGHUP)
+            time.sleep(0.001)
+        self.assertEqual((process.returncode, process.communicate()[1]), (0, ''))
+
     def interrupt(self, number):
         long = f'{self.data}/long{number}'
         subprocess.run([binaries['sim'], 'street', '--out', long, '--seed', '3', '--frames', '6000'], check=True, capture_output=True)
