@@ -155,8 +155,10 @@ Command AddDumpConfigCommand(CLI::App& app, Console&) {
 }
 
 std::string VersionText() {
-  return std::string("sslcd ") + SSLCD_VERSION + " (commit " + SSLCD_COMMIT + ")";
+  return std::string("sslcd ") + SSLCD_VERSION + " (commit " + Commit() + ")";
 }
+
+std::string Commit() { return SSLCD_COMMIT; }
 
 Command AddVersionCommand(CLI::App& app) {
   app.set_version_flag("--version", VersionText());

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "datasets/run_folder.h"
 #include "evaluation.h"
 #include "sslcd/core/error.h"
 #include "sslcd/datasets/dataset.h"
@@ -17,6 +18,7 @@ struct EvalArguments {
 };
 
 int Eval(const EvalArguments& a, const Console& console) {
+  CheckRunFolder(a.run);
   EvaluationInput input;
   input.estimate = ReadTrajectory(a.run + "/trajectory_tum.txt");
   input.odometry = ReadTrajectory(a.run + "/odometry_tum.txt");

@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "core/sha256.h"
 #include "map_export/export_map.h"
 #include "sslcd/core/error.h"
 #include "sslcd/store/map_session.h"
 #include "store/session_view.h"
-#include "store/sha256.h"
 
 namespace sslcd::apps {
 namespace {

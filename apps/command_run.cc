@@ -14,6 +14,7 @@
 #include "image_loader.h"
 #include "map_run.h"
 #include "overwriting.h"
+#include "run_record.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -24,13 +25,15 @@
 namespace sslcd::apps {
 namespace {
 
+constexpr const char* kLatest = "runs/latest";  // holds whatever run was the last
+
 struct RunArguments {
   DatasetRequest request;
   std::string score = "auto", out;
   ConfigArguments config;
   ImageArguments images;
   MapArguments map;
-  bool json = false;
+  bool json = false, force = false;
   int threads = HardwareThreads();
 };
 
@@ -51,7 +54,8 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   a.config.AddTo(command);
   a.map.AddTo(command);
   command.add_option("--out", a.out, "folder to write; default runs/latest, with --map none")
-      ->default_str("runs/latest");
+      ->default_str(kLatest);
+  command.add_flag("--force", a.force, "write into a folder that holds another run");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
   AddThreads(command, a.threads);
@@ -86,15 +90,20 @@ Dataset Load(RunArguments& a, const Console& console) {
   return dataset;
 }
 
-// The true identity of each detection row. Empty without landmark_ids.txt or ground-truth poses.
-std::vector<int> IdentitiesOf(const RunArguments& a, const Dataset& dataset) {
+// The file of the true identities. Empty if there is none, or no ground-truth poses.
+std::string IdentitiesPath(const RunArguments& a, const Dataset& dataset) {
   const std::filesystem::path detections(dataset.detections_path),
       path = detections.parent_path() / "landmark_ids.txt";
   const bool others = !a.request.detections.empty() && detections.filename() != "detections.txt";
-  if (!dataset.groundtruth || detections.empty() || others || IfFile(path).empty()) return {};
-  std::vector<int> identities = ReadLandmarkIds(path.string());
+  return !dataset.groundtruth || detections.empty() || others ? "" : IfFile(path);
+}
+
+// The true identity of each detection row. Empty if they are unknown.
+std::vector<int> IdentitiesOf(const std::string& path, const Dataset& dataset) {
+  if (path.empty()) return {};
+  std::vector<int> identities = ReadLandmarkIds(path);
   if (identities.size() == static_cast<std::size_t>(dataset.rows_read)) return identities;
-  Log(LogLevel::kWarning, path.string() + ": has " + std::to_string(identities.size()) +
+  Log(LogLevel::kWarning, path + ": has " + std::to_string(identities.size()) +
                               " rows, but there are " + std::to_string(dataset.rows_read) +
                               " detections: loops are not judged");
   return {};
@@ -105,20 +114,28 @@ std::string Judged(double probability) {
   return probability > 0 ? Number("%.3f", probability) : "-";
 }
 
-std::string ResultTable(const RunResult& result, const Metrics& metrics) {
+int Landmarks(const RunResult& result) {
   int landmarks = 0;
   for (const MapObject& object : result.objects)
     landmarks += object.state == LandmarkState::kConfirmed;
-  const auto accepted = std::count_if(
-      result.loops.begin(), result.loops.end(),
-      [](const LoopClosure& loop) { return loop.decision == LoopDecision::kAccepted; });
+  return landmarks;
+}
+
+int LoopsOf(const RunResult& result, LoopDecision decision) {
+  int loops = 0;
+  for (const LoopClosure& loop : result.loops) loops += loop.decision == decision;
+  return loops;
+}
+
+std::string ResultTable(const RunResult& result, const Metrics& metrics) {
+  const int accepted = LoopsOf(result, LoopDecision::kAccepted);
   std::vector<std::vector<std::string>> rows = {
       {"frames", std::to_string(result.frames.size())},
       {"detections used", std::to_string(result.filter.kept)},
       {"detections dropped", std::to_string(result.filter.dropped())},
-      {"landmarks", std::to_string(landmarks)},
+      {"landmarks", std::to_string(Landmarks(result))},
       {"loops accepted", std::to_string(accepted)},
-      {"loops refused", std::to_string(result.loops.size() - accepted)},
+      {"loops refused", std::to_string(static_cast<int>(result.loops.size()) - accepted)},
       {"views tied", std::to_string(result.views_tied)},
       {"odometry scale", Number("%.4f", result.scale)},
       {"probability better, horizontally", Judged(result.improvement.horizontal)},
@@ -199,6 +216,7 @@ RunOutputs OutputsOf(const RunResult& result, const Dataset& dataset, Configurat
   RunOutputs outputs;
   outputs.trajectory = result.trajectory;
   outputs.odometry = result.odometry;
+  if (dataset.groundtruth) outputs.groundtruth = *dataset.groundtruth;
   outputs.map = {dataset.up_axis, result.objects};
   outputs.graph = result.graph;
   outputs.loops = result.loops;
@@ -224,6 +242,40 @@ Metrics EvaluateRun(const RunArguments& a, const Dataset& dataset, std::vector<i
   return Evaluate(evaluation);
 }
 
+RunRecord RecordOfRun(const RunArguments& a, const Dataset& dataset, const Mapped& mapped,
+                      const Console& console) {
+  RunRecord record = RecordRun(dataset,
+                               {{"identities", IdentitiesPath(a, dataset)},
+                                {"configuration", a.config.file},
+                                {"2D boxes", a.images.boxes},
+                                {"detector", a.images.detector},
+                                {"embedder", a.images.embedder}},
+                               console);
+  const RunResult& result = mapped.result;
+  record.complete = !result.stopped && !mapped.failure;
+  record.counts = {{"frames", result.frames.size()},
+                   {"detections_used", result.filter.kept},
+                   {"detections_dropped", result.filter.dropped()},
+                   {"landmarks", Landmarks(result)},
+                   {"loops_accepted", LoopsOf(result, LoopDecision::kAccepted)},
+                   {"loops_ambiguous", LoopsOf(result, LoopDecision::kAmbiguous)},
+                   {"loops_none", LoopsOf(result, LoopDecision::kNone)},
+                   {"views_tied", result.views_tied},
+                   {"odometry_scale", result.scale}};
+  return record;
+}
+
+void WarnOfLimits(const Mapped& mapped) {
+  if (const int too_many = mapped.result.filter.too_many; too_many > 0)
+    Log(LogLevel::kWarning, std::to_string(too_many) +
+                                " detections dropped, because a frame has more than "
+                                "filter.max_count: raise it if they are real objects");
+  if (mapped.failure)
+    Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
+  else if (mapped.result.stopped)
+    Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
+}
+
 // A session that can go on.
 int ReportOpenSession(const RunArguments& a, const Mapped& mapped) {
   Log(LogLevel::kWarning, MapLine(a.map) + "; the same command with --resume goes on");
@@ -232,19 +284,20 @@ int ReportOpenSession(const RunArguments& a, const Mapped& mapped) {
 }
 
 int Run(RunArguments& a, const Console& console) {
-  if (a.out.empty() && !a.map.given()) a.out = "runs/latest";
+  if (a.out.empty() && !a.map.given()) a.out = kLatest;
   a.images.AddTo(a.config);
   const Configuration given = a.config.Load();  // reports wrong options first
   a.config.RefuseCodeFrom(a.request.path);
   if (!a.out.empty()) {
     RefuseFolder(a.request.path, a.out);
+    if (!a.force && a.out != kLatest) RefuseOtherRun(a.out);
     MakeWritableFolder(a.out);  // fails before the run, not after it
   }
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file, a.map.file},
                     RunFolderPaths(a.out));
-  std::vector<int> identities = IdentitiesOf(a, dataset);
+  std::vector<int> identities = IdentitiesOf(IdentitiesPath(a, dataset), dataset);
   const ImageRequest request = a.images.RequestFor(dataset, a.images.detects(), given);
   Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
   UseOptionsOfMap(a.map, a.config, configuration);
@@ -252,6 +305,8 @@ int Run(RunArguments& a, const Console& console) {
   if (a.map.given() && mapped.result.stopped) return ReportOpenSession(a, mapped);
   RunOutputs outputs = OutputsOf(mapped.result, dataset, configuration);
   outputs.metrics = EvaluateRun(a, dataset, std::move(identities), mapped, outputs);
+  WarnOfLimits(mapped);
+  outputs.record = RecordOfRun(a, dataset, mapped, console);
   std::vector<std::string> paths;
   if (!a.out.empty()) paths = WriteRunFolder(a.out, outputs);
 
@@ -260,16 +315,7 @@ int Run(RunArguments& a, const Console& console) {
   console.Say("");
   for (const std::string& path : paths) console.Say("wrote " + path);
   if (a.map.given()) console.Say("wrote " + MapLine(a.map));
-  if (const int too_many = mapped.result.filter.too_many; too_many > 0)
-    Log(LogLevel::kWarning, std::to_string(too_many) +
-                                " detections dropped, because a frame has more than "
-                                "filter.max_count: raise it if they are real objects");
-  if (mapped.failure) {
-    Log(LogLevel::kWarning, "stopped by an error: the results are those of the frames before");
-    throw *mapped.failure;
-  }
-  if (mapped.result.stopped)
-    Log(LogLevel::kWarning, "interrupted: the results are those of what was done before");
+  if (mapped.failure) throw *mapped.failure;
   return mapped.result.stopped ? InterruptCode() : 0;
 }
 

@@ -37,6 +37,8 @@ void DescribeFields(FieldVisitor& visitor, Configuration& configuration);
 
 /// "sslcd 1.2.3 (commit 0123456789ab)".
 std::string VersionText();
+/// Of the program: 12 hexadecimal digits, or "unknown" if it was not built in a checkout.
+std::string Commit();
 
 /// "robust" or "paper".
 Mode ParseMode(const std::string& name);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <mutex>
 
 #include "sslcd/core/log.h"
 
@@ -27,7 +28,16 @@ extern "C" void OnInterrupt(int number) {
   for (const int each : kEnding) std::signal(each, SIG_DFL);
 }
 
+// Threads may log at the same time.
+std::mutex g_warnings_mutex;
+std::vector<std::string> g_warnings;
+
 }  // namespace
+
+std::vector<std::string> Console::Warnings() const {
+  const std::lock_guard<std::mutex> lock(g_warnings_mutex);
+  return g_warnings;
+}
 
 void Console::InstallLog() const {
   const auto logger = spdlog::stderr_color_mt("sslcd");
@@ -37,6 +47,10 @@ void Console::InstallLog() const {
                               : spdlog::level::warn);
   SetLogSink([logger](LogLevel level, const std::string& raw) {
     const std::string message = Printable(raw);
+    if (level == LogLevel::kWarning) {
+      const std::lock_guard<std::mutex> lock(g_warnings_mutex);
+      g_warnings.push_back(message);
+    }
     switch (level) {
       case LogLevel::kDebug: logger->debug(message); break;
       case LogLevel::kInfo: logger->info(message); break;

@@ -15,6 +15,8 @@ struct Console {
 
   /// Installs a log sink that follows `quiet` and `verbose`.
   void InstallLog() const;
+  /// All warnings since then, also those that `quiet` has kept from the terminal.
+  std::vector<std::string> Warnings() const;
 
   /// One line that is overwritten; only on a terminal.
   void Progress(const std::string& what, int done, int total) const;

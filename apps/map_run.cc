@@ -2,9 +2,8 @@
 #include "map_run.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "command_line.h"
 #include "pipeline/frame_colours.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
@@ -14,27 +13,13 @@
 namespace sslcd::apps {
 namespace {
 
-// How this program was called, for the map's provenance; words with blanks in quotes.
-std::string CommandLine() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  const std::string words{std::istreambuf_iterator<char>(file), {}};
-  std::string line;
-  for (std::size_t at = 0; at < words.size();) {
-    const std::string word = words.c_str() + at;
-    at += word.size() + 1;
-    const bool plain = !word.empty() && word.find_first_of(" \t\n'\"\\$") == std::string::npos;
-    line += (line.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
-  }
-  return line;
-}
-
 MapSession Open(const MapArguments& map, const MapDrive& drive, const MapperContext& context,
                 const Options& options) {
   const std::string name = map.session.empty() ? drive.name : map.session;
   if (!map.resume) {
     const std::string folder = std::filesystem::absolute(drive.folder).lexically_normal();
-    return MapSession::Begin(map.file, {name, folder, CommandLine(), VersionText()}, context,
-                             options);
+    return MapSession::Begin(map.file, {name, folder, CommandLine(CommandWords()), VersionText()},
+                             context, options);
   }
   MapSession session = MapSession::Resume(map.file, context);
   if (session.info().name != name)

@@ -12,6 +12,7 @@
 #include "results.h"
 #include "sslcd/core/error.h"
 #include "sslcd/pipeline/run.h"
+#include "sslcd/version.h"
 
 namespace sslcd::python {
 namespace {
@@ -89,6 +90,9 @@ struct Run {
     outputs.loops = result.loops;
     outputs.timing = result.timing;
     outputs.config_yaml = config_yaml;
+    outputs.record.version = SSLCD_VERSION;
+    outputs.record.commit = "unknown";
+    outputs.record.complete = !result.stopped;
     const py::gil_scoped_release release;
     return WriteRunFolder(folder, outputs);
   }

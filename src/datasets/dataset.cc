@@ -74,6 +74,7 @@ class DatasetLoader {
   Dataset Load() {
     out_.format = layout_.format;
     out_.name = layout_.name;
+    out_.parts = PartsOf(layout_);
     out_.groundtruth_boxes_path = layout_.groundtruth_boxes;
     if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
     out_.labels = info_.labels;

@@ -160,4 +160,22 @@ DatasetLayout FindDatasetLayout(const DatasetRequest& request) {
   return layout;
 }
 
+std::vector<std::pair<std::string, std::string>> PartsOf(const DatasetLayout& layout) {
+  std::vector<std::pair<std::string, std::string>> parts = {
+      {"odometry", layout.odometry},
+      {"detections", layout.detections},
+      {"ground truth", layout.groundtruth},
+      {"annotated boxes", layout.groundtruth_boxes},
+      {"stamps", layout.times},
+      {"calibration", layout.calib},
+      {"description", layout.sequence_yaml}};
+  for (const CueRow& row : kCueRows) parts.emplace_back(row.name, layout.appearance[row.cue]);
+  parts.emplace_back("left images", layout.images);
+  parts.emplace_back("right images", layout.images_right);
+  parts.erase(std::remove_if(parts.begin(), parts.end(),
+                             [](const auto& part) { return part.second.empty(); }),
+              parts.end());
+  return parts;
+}
+
 }  // namespace sslcd

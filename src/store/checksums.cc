@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "core/sha256.h"
 #include "store/schema.h"
-#include "store/sha256.h"
 
 namespace sslcd {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "store/sha256.h"
+#include "core/sha256.h"
 
 namespace sslcd {
 namespace {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "core/sha256.h"
+#include "core/utc_time.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "store/frame_bytes.h"
-#include "store/sha256.h"
 #include "store/site.h"
-#include "store/utc_time.h"
 #include "store/view_answers.h"
 #include "store/writable_map.h"
 

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/utc_time.h"
 #include "sslcd/core/error.h"
-#include "store/utc_time.h"
 
 namespace sslcd {
 namespace {

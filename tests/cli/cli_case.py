@@ -47,7 +47,8 @@ class CliCase(unittest.TestCase):
                 self.assertNotIn('.tmp-', name, f'half-written file in {folder}')
 
     def run_data(self, *args):
-        return call('run', self.data, '--out', self.out, *args)
+        """Runs it; what an earlier run of the same test has written is replaced."""
+        return call('run', self.data, '--out', self.out, '--force', *args)
 
     def edit(self, name, change):
         """Applies `change` to the list of lines of a file."""

@@ -124,7 +124,7 @@ class DetectInputTest(DetectCase):
         near = [word for setting in settings for word in ('--set', 'loop.views.' + setting)]
 
         def warnings(*options):
-            result = call('run', self.data, '--out', self.out, '--set', 'vision.odometry.window=4', *near, *options)
+            result = call('run', self.data, '--out', self.out, '--force', '--set', 'vision.odometry.window=4', *near, *options)
             self.assertEqual(result.returncode, 0, result.stderr)
             return result.stderr.count('calibration is off')
 

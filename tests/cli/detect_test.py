@@ -241,7 +241,7 @@ class DetectTest(DetectCase):
             path = f'{other}/{name}'
             shutil.copy(self.out + '/odometry.txt', path)
             poses = read(path)
-            run = call('run', self.out, option, path, '--max-frames', 3, '--out', other)
+            run = call('run', self.out, option, path, '--max-frames', 3, '--out', other, '--force')
             self.assertEqual(run.returncode, 2, run.stderr)
             self.assertIn(f'{name}: is read, and would be overwritten', run.stderr)
             self.assertEqual(read(path), poses)

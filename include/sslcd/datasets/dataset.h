@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sslcd/core/camera.h"
@@ -66,6 +67,9 @@ struct Dataset {
   /// annotated boxes of the sequence (ReadKittiTrackingLabels); empty: there are none
   std::string groundtruth_boxes_path;
   PoseFormat odometry_format = PoseFormat::kAuto;  ///< kKitti for GPS/IMU packets
+  /// what a path holds ("odometry", "stamps", ...) and the path, of all files and folders of the
+  /// sequence that were found
+  std::vector<std::pair<std::string, std::string>> parts;
   /// all detection rows, including those counted below
   int rows_read = 0;
   /// rows with values that are not finite or sizes that are not positive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/utc_time.h"
+#include "core/utc_time.h"
 
 #include <ctime>
 

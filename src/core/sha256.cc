@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "store/sha256.h"
+#include "core/sha256.h"
 
 #include <algorithm>
 

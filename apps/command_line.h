@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sslcd::apps {
+
+/// The words with which this program was called, its name first.
+std::vector<std::string> CommandWords();
+
+/// The words as a line for a shell: words with blanks are in quotes.
+std::string CommandLine(const std::vector<std::string>& words);
+
+}  // namespace sslcd::apps
