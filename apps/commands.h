@@ -17,6 +17,7 @@ using Command = std::function<int()>;
 Command AddRunCommand(CLI::App& app, Console& console);
 Command AddDetectCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
+Command AddDrawCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
 Command AddMapCommand(CLI::App& app, Console& console);

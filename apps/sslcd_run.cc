@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
       {"run", AddRunCommand(app, console)},
       {"detect", AddDetectCommand(app, console)},
       {"eval", AddEvalCommand(app, console)},
+      {"draw", AddDrawCommand(app, console)},
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},

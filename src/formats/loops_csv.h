@@ -12,4 +12,8 @@ namespace sslcd {
 /// (docs/formats.md).
 std::string LoopsCsv(const std::vector<LoopClosure>& loops);
 
+/// Reads loops.csv. `id`, `newest_frame` and `covariance` are not in the file. Throws
+/// Error(kBadInput) with file and line.
+std::vector<LoopClosure> ReadLoopsCsv(const std::string& path);
+
 }  // namespace sslcd

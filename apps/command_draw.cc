@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "formats/atomic_file.h"
+#include "png_drawing.h"
+#include "report/draw_run.h"
+#include "sslcd/core/error.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct DrawArguments {
+  std::string run, out = "map.svg", groundtruth;
+  DrawOptions options;
+};
+
+int Draw(const DrawArguments& a, const Console& console) {
+  const std::string extension = std::filesystem::path(a.out).extension();
+  if (extension != ".svg" && extension != ".png")
+    throw Error(ErrorKind::kUsage, a.out + ": the name of a picture ends with .svg or .png");
+  const Drawing drawing = DrawRun(ReadRun(a.run, a.groundtruth), a.options);
+  WriteFileAtomically(a.out, extension == ".svg" ? SvgText(drawing) : PngBytes(drawing));
+  console.Say("wrote " + a.out);
+  return 0;
+}
+
+}  // namespace
+
+Command AddDrawCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand(
+      "draw", "draw a finished run from above: map, loops, trajectory before and after");
+  const auto a = std::make_shared<DrawArguments>();
+  command->add_option("RUN", a->run, "folder written by 'sslcd_run run'")->required();
+  command->add_option("--out", a->out, "picture to write, .svg or .png")->capture_default_str();
+  command->add_option("--groundtruth", a->groundtruth,
+                      "true poses; default: those that the run was compared with");
+  command->add_option("--size", a->options.width, "width of the picture [px]")
+      ->check(CLI::Range(200, 8000))
+      ->capture_default_str();
+  CLI::Option* loops =
+      command
+          ->add_option("--loops", a->options.max_loops, "draw at most so many loops; default all")
+          ->check(CLI::NonNegativeNumber);
+  CLI::Option* loop = command->add_option(
+      "--loop", a->options.loop,
+      "draw one loop with both cameras and its matched objects: that of this query frame");
+  CLI::Option* both =
+      command->add_flag("--before-after", a->options.before_after,
+                        "two maps: the loops on the odometry, and on the corrected trajectory");
+  loop->excludes(loops)->excludes(both);
+  command->footer("Example: sslcd_run draw runs/mine --out map.png --before-after");
+  return [a, &console] {
+    console.InstallLog();
+    return Draw(*a, console);
+  };
+}
+
+}  // namespace sslcd::apps
