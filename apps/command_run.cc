@@ -14,6 +14,8 @@
 #include "image_loader.h"
 #include "map_run.h"
 #include "overwriting.h"
+#include "report/report_page.h"
+#include "report_file.h"
 #include "run_record.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
@@ -33,7 +35,7 @@ struct RunArguments {
   ConfigArguments config;
   ImageArguments images;
   MapArguments map;
-  bool json = false, force = false;
+  bool json = false, force = false, report = false;
   int threads = HardwareThreads();
 };
 
@@ -56,6 +58,7 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--out", a.out, "folder to write; default runs/latest, with --map none")
       ->default_str(kLatest);
   command.add_flag("--force", a.force, "write into a folder that holds another run");
+  command.add_flag("--report", a.report, "and OUT/report.html, see 'sslcd_run report'");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
   AddThreads(command, a.threads);
@@ -290,6 +293,7 @@ int Run(RunArguments& a, const Console& console) {
   a.config.RefuseCodeFrom(a.request.path);
   if (!a.out.empty()) {
     RefuseFolder(a.request.path, a.out);
+    if (a.report) RequireReportLibraries();
     if (!a.force && a.out != kLatest) RefuseOtherRun(a.out);
     MakeWritableFolder(a.out);  // fails before the run, not after it
   }
@@ -309,6 +313,10 @@ int Run(RunArguments& a, const Console& console) {
   outputs.record = RecordOfRun(a, dataset, mapped, console);
   std::vector<std::string> paths;
   if (!a.out.empty()) paths = WriteRunFolder(a.out, outputs);
+  if (a.report && !a.out.empty()) {
+    paths.push_back((std::filesystem::path(a.out) / "report.html").string());
+    WriteReport({a.out}, "", paths.back());
+  }
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
   console.Say(ResultTable(mapped.result, outputs.metrics));

@@ -37,8 +37,8 @@ bool AreImages(const std::string& role) { return role.find("images") != std::str
 
 // The words that make the result.
 std::vector<std::string> Relevant(std::vector<std::string> words) {
-  static const std::set<std::string> kIrrelevant = {"--force", "--json",    "-q",      "--quiet",
-                                                    "-v",      "--verbose", "--resume"};
+  static const std::set<std::string> kIrrelevant = {"--force", "--json",    "-q",       "--quiet",
+                                                    "-v",      "--verbose", "--resume", "--report"};
   if (!words.empty()) words.erase(words.begin());
   words.erase(std::remove_if(words.begin(), words.end(),
                              [](const std::string& word) { return kIrrelevant.count(word) > 0; }),

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
       {"detect", AddDetectCommand(app, console)},
       {"eval", AddEvalCommand(app, console)},
       {"draw", AddDrawCommand(app, console)},
+      {"report", AddReportCommand(app, console)},
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},

@@ -15,7 +15,7 @@ cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=OFF >/dev/null
 cmake --build "$build" -j "$(nproc)" --target sslcd_sim sslcd_run
 
 "$build/apps/sslcd_sim" halv --case 1 --seed 7 --out "$out/halv" --force
-"$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --out "$out/map"
+"$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --report --out "$out/map"
 metric() { sed -n "s/.*\"$1\": *\([0-9.]*\).*/\1/p" "$out/map/metrics.json"; }
 echo
 awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i }
@@ -26,3 +26,4 @@ printf 'ATE:          %.2f m before, %.2f m after (RMSE after Sim(3))\n' \
   "$(metric odometry_ate_sim3_rmse_m)" "$(metric ate_sim3_rmse_m)"
 echo "The sequence: $out/halv"
 echo "The results:  $out/map (map.ply opens in any point cloud viewer, trajectory_tum.txt in evo)"
+echo "The report:   $out/map/report.html (opens in any browser)"

@@ -8,20 +8,20 @@
 #     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
 #             cannot be had
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
-#             NumPy for the Python package, and ROS 1 for sslcd_node: 100 packages, 22 MB (default)
+#             NumPy for the Python package, ROS 1 for sslcd_node, and Chromium for reports (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely
 set -euo pipefail
 
 build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libflann-dev liblz4-dev
        libyaml-cpp-dev libpugixml-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
-       libopencv-features2d-dev libopencv-calib3d-dev)
+       libopencv-features2d-dev libopencv-calib3d-dev libjs-three libjs-chart.js)
 ros=(libroscpp-dev libnav-msgs-dev libstd-srvs-dev libtf2-msgs-dev libvisualization-msgs-dev
      python3-roslaunch rosout python3-rospy python3-nav-msgs python3-std-srvs python3-tf2-msgs
      python3-visualization-msgs)
 python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
-      libembree-dev python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
+      libembree-dev chromium python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 
 what=${1:-test}
@@ -34,10 +34,10 @@ case "$what" in
   *) echo "usage: scripts/install_deps.sh [build|python|vision|test|dev]" >&2; exit 2 ;;
 esac
 
-# Debian 13 has no clang 14, and some releases have no ROS 1: the checks that need them are skipped
-# there.
+# Debian 13 has no clang 14, and some releases have no ROS 1 or no Chromium in their archive: the
+# checks that need them are skipped there.
 in_this_release() {
-  [[ $1 != clang-* && " ${ros[*]} " != *" $1 "* ]] || apt-cache show "$1" >/dev/null 2>&1
+  [[ $1 != clang-* && $1 != chromium && " ${ros[*]} " != *" $1 "* ]] || apt-cache show "$1" >/dev/null 2>&1
 }
 
 missing=()

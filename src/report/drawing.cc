@@ -2,26 +2,10 @@
 #include "report/drawing.h"
 
 #include "formats/number_text.h"
+#include "report/markup.h"
 
 namespace sslcd {
 namespace {
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '&')
-      escaped += "&amp;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      escaped += c;
-  }
-  return escaped;
-}
 
 std::string Attribute(const char* name, const std::string& value) {
   return std::string(" ") + name + "=\"" + value + "\"";
@@ -57,7 +41,7 @@ std::string Element(const Shape& shape) {
       return "<circle" + at("cx", "cy") + Attribute("r", RoundedNumber(shape.radius, 4)) +
              Style(shape.pen) + "/>\n";
     case Shape::Kind::kText:
-      return "<text" + at("x", "y") + Style(shape.pen) + ">" + Escaped(shape.text) + "</text>\n";
+      return "<text" + at("x", "y") + Style(shape.pen) + ">" + MarkupText(shape.text) + "</text>\n";
   }
   return "";
 }

@@ -6,7 +6,7 @@
 namespace sslcd {
 namespace {
 
-constexpr double kMargin = 8;  // around the points [m]
+constexpr double kBorder = 8;  // around the points [m]
 
 }  // namespace
 
@@ -20,8 +20,8 @@ GroundPlan::GroundPlan(const std::vector<Vec2>& points, double width_px) {
     low_ = low_.cwiseMin(p);
     high_ = high_.cwiseMax(p);
   }
-  low_ -= Vec2(kMargin, kMargin);
-  high_ += Vec2(kMargin, kMargin);
+  low_ -= Vec2(kBorder, kBorder);
+  high_ += Vec2(kBorder, kBorder);
   Vec2 extent = high_ - low_;
   turned_ = extent.y() > extent.x();
   if (turned_) std::swap(extent.x(), extent.y());

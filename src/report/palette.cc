@@ -13,8 +13,9 @@ constexpr Colour kCividis[] = {{0, 34, 78},     {18, 53, 112},   {59, 73, 108}, 
                                {112, 113, 115}, {138, 134, 120}, {165, 156, 116}, {195, 179, 105},
                                {225, 204, 85},  {254, 232, 56}};
 
-constexpr Colour kLabels[] = {{86, 180, 233}, {0, 158, 115},   {204, 121, 167}, {240, 190, 60},
-                              {120, 94, 240}, {150, 150, 150}, {190, 120, 70}};
+// apart from those of the lines; muted scheme of Paul Tol, Colour Schemes, 2021
+constexpr Colour kLabels[] = {{68, 170, 153},  {204, 102, 119}, {221, 204, 119}, {136, 104, 200},
+                              {150, 150, 150}, {153, 153, 51},  {170, 110, 60}};
 
 std::uint8_t Between(std::uint8_t a, std::uint8_t b, double share) {
   return static_cast<std::uint8_t>(std::lround(a + (b - a) * share));

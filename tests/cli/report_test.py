@@ -37,5 +37,40 @@ class DrawTest(CliCase):
         self.not_drawn(call(*draw), 3, 'map.json: is not the file')
 
 
+class ReportTest(CliCase):
+    def report(self, *args):
+        result = call('report', *args)
+        if 'libjs-three' in result.stderr:
+            self.skipTest('skipped: built without three.js and Chart.js')
+        return result
+
+    def test_pages(self):
+        truth = self.data + '/true.txt'
+        os.rename(self.data + '/groundtruth.txt', truth)
+        self.run_data('--report')
+        page = self.out + '/report.html'
+        self.assertEqual(self.report(self.out).stdout, f'wrote {page}\n')
+        one = read(page)
+        self.assertIn('<title>data - sslcd</title>', one)
+        both = self.data + '/both.html'
+        self.assertEqual(self.report(self.out, self.out + '/', '--out', both, '--groundtruth', truth).returncode, 0)
+        self.assertIn('<title>2 runs - sslcd</title>', read(both))
+        self.assertTrue('"truth":null' in one and '"truth":null' not in read(both))
+        self.assertEqual(self.run_data('--report').returncode, 0, 'the page is no other run')
+
+    def test_what_has_no_page(self):
+        self.run_data()
+        page = self.data + '/page.html'
+        for folder, message in ((self.data, 'holds no map.json'), (self.root + '/none', 'holds no map.json')):
+            result = self.report(folder, '--out', page)
+            self.assertEqual((result.returncode, os.path.exists(page)), (3, False))
+            self.assertIn(message, result.stderr)
+        self.assertEqual(self.report(self.out, '--out', self.root + '/none/page.html').returncode, 1)
+        write(self.out + '/loops.csv', read(self.out + '/loops.csv').replace('none', 'accepted') + '\n')
+        result = self.report(self.out, '--out', page)
+        self.assertEqual((result.returncode, os.path.exists(page)), (3, False))
+        self.assertIn('loops.csv: is not the file', result.stderr)
+
+
 if __name__ == '__main__':
     main()

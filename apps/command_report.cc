@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <memory>
+
+#include "commands.h"
+#include "formats/atomic_file.h"
+#include "formats/files.h"
+#include "report/report_data.h"
+#include "report/report_page.h"
+#include "report_file.h"
+#include "sslcd/core/error.h"
+
+namespace sslcd::apps {
+namespace {
+
+struct ReportArguments {
+  std::vector<std::string> runs;
+  std::string out, groundtruth;
+};
+
+// The name of the sequence, and of the folder where several have the same.
+std::vector<std::string> NamesOf(const std::vector<RunView>& runs) {
+  std::vector<std::string> names;
+  for (const RunView& run : runs)
+    names.push_back(run.record && !run.record->dataset.empty() ? run.record->dataset
+                                                               : LastName(run.folder));
+  const std::vector<std::string> given = names;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (std::count(given.begin(), given.end(), given[i]) > 1) names[i] += ": " + runs[i].folder;
+  return names;
+}
+
+}  // namespace
+
+void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
+                 const std::string& out) {
+  RequireReportLibraries();
+  std::vector<RunView> views;
+  for (const std::string& run : runs) views.push_back(ReadRun(run, groundtruth));
+  const std::vector<std::string> names = NamesOf(views);
+  const std::string title = views.size() == 1 ? names[0] : std::to_string(views.size()) + " runs";
+  WriteFileAtomically(out, ReportPage(ReportJson(views, names), title + " - sslcd"));
+}
+
+Command AddReportCommand(CLI::App& app, Console& console) {
+  CLI::App* command = app.add_subcommand(
+      "report",
+      "make a page of finished runs: 3D map, loops, errors; any browser opens it offline");
+  const auto a = std::make_shared<ReportArguments>();
+  command->add_option("RUN", a->runs, "folders written by 'sslcd_run run'")->required();
+  command->add_option("--out", a->out, "page to write; default: report.html in the first RUN");
+  command->add_option("--groundtruth", a->groundtruth,
+                      "true poses; default: those that the run was compared with");
+  command->footer("Example: sslcd_run report runs/monday runs/tuesday --out both.html");
+  return [a, &console] {
+    console.InstallLog();
+    const std::string out = a->out.empty() ? a->runs[0] + "/report.html" : a->out;
+    WriteReport(a->runs, a->groundtruth, out);
+    console.Say("wrote " + out);
+    return 0;
+  };
+}
+
+}  // namespace sslcd::apps

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sslcd::apps {
+
+/// Writes a page that shows the run folders. `groundtruth`: see ReadRun. Throws Error if a run
+/// cannot be read, if the libraries of the page were not built in, or if it cannot be written.
+void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
+                 const std::string& out);
+
+}  // namespace sslcd::apps
