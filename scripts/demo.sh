@@ -15,7 +15,7 @@ cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=OFF >/dev/null
 cmake --build "$build" -j "$(nproc)" --target sslcd_sim sslcd_run
 
 "$build/apps/sslcd_sim" halv --case 1 --seed 7 --out "$out/halv" --force
-"$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --report --out "$out/map"
+"$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --report --out "$out/map" --force
 metric() { sed -n "s/.*\"$1\": *\([0-9.]*\).*/\1/p" "$out/map/metrics.json"; }
 echo
 awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i }

@@ -146,7 +146,7 @@ class JudgedRuns:
             return {**result, 'error': f'no {path}'}
         run = self.out / folder / f'{name.replace("/", "-")}-s{seed}'
         sets = [part for setting in settings for part in ('--set', setting)]
-        done = subprocess.run([self.program, 'run', path, '--out', run, '--quiet', *sets],
+        done = subprocess.run([self.program, 'run', path, '--out', run, '--force', '--quiet', *sets],
                               capture_output=True, text=True)
         if done.returncode != 0:
             return {**result, 'error': done.stderr.strip()}

@@ -36,7 +36,7 @@ class Run:
 
     def measure(self, program):
         with tempfile.TemporaryDirectory() as out:
-            text, cost = program.run(['run', *self.arguments, '--out', out, '--json'])
+            text, cost = program.run(['run', *self.arguments, '--out', out, '--force', '--json'])
         figures = {key: rounded(value) for key, value in json.loads(text).items()}
         return {**figures, **cost}
 

@@ -51,7 +51,7 @@ class ReportPage(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(self.page.problems, [], 'errors of the console')
 
-    def open(self, size=SIZES[0]):
+    def open(self, size=(1200, 680)):
         self.page.open(self.run_folder + '/report.html', *size)
 
     def colours(self):

@@ -79,7 +79,7 @@ class SimTest(CliCase):
         self.assertEqual(rendered.returncode, 0, rendered.stderr)
 
         def loop_error(*options):
-            run = call('run', self.out, '--out', self.out + 'run', '--groundtruth', 'groundtruth.txt', *options)
+            run = call('run', self.out, '--out', self.out + 'run', '--force', '--groundtruth', 'groundtruth.txt', *options)
             self.assertEqual(run.returncode, 0, run.stderr)
             edges = sum(row.startswith('EDGE') for row in read(self.out + 'run/graph.g2o').splitlines())
             return json.loads(read(self.out + 'run/metrics.json'))['loop_error_median_m'], edges, run.stderr
