@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "core/sha256.h"
+#include "map_diff.h"
 #include "map_export/export_map.h"
 #include "sslcd/core/error.h"
 #include "sslcd/store/map_session.h"
@@ -16,6 +17,7 @@ namespace {
 struct MapCommandArguments {
   std::string file, out, origin;
   bool json = false;
+  MapDiffArguments diff;
 };
 
 struct MapCounts {
@@ -137,6 +139,11 @@ int End(const MapCommandArguments& a, const Console& console) {
   return 0;
 }
 
+int Diff(const MapCommandArguments& a, const Console& console) {
+  PrintMapDiff(a.file, a.diff, console);
+  return 0;
+}
+
 using MapFunction = int (*)(const MapCommandArguments&, const Console&);
 struct MapSubcommand {
   const char *name, *meaning;
@@ -146,6 +153,7 @@ constexpr MapSubcommand kMapSubcommands[] = {
     {"info", "what a map holds", PrintInfo},
     {"verify", "read all of a map and compare it with its checksums", Verify},
     {"export", "write the results as the files of a run folder", Export},
+    {"diff", "what has changed between two sessions", Diff},
     {"compact", "update an older schema and return unused space to the disk", Compact},
     {"end", "end a session that was interrupted, with the frames that it has", End}};
 
@@ -164,6 +172,15 @@ Command AddMapCommand(CLI::App& app, Console& console) {
       one->add_option("--origin", arguments->origin,
                       "LATITUDE,LONGITUDE,HEADING of the first camera, degrees: writes "
                       "map.geojson, too");
+    }
+    if (row.run == Diff) {
+      MapDiffArguments& diff = arguments->diff;
+      one->add_option("--from", diff.from,
+                      "name of the earlier session; default: the last before --to that has seen "
+                      "common ground");
+      one->add_option("--to", diff.to, "name of the later session; default: the last one");
+      one->add_option("--csv", diff.csv, "file to write with a row per change");
+      one->add_flag("--json", diff.json, "print JSON");
     }
     if (row.run == PrintInfo) one->add_flag("--json", arguments->json, "print JSON");
   }

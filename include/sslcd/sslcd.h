@@ -5,6 +5,7 @@
 /// pipeline/mapper.h and pipeline/options.h. The headers of sslcd::vision are not here.
 #include "sslcd/association/options.h"
 #include "sslcd/bundle/options.h"
+#include "sslcd/change/map_history.h"
 #include "sslcd/closing/options.h"
 #include "sslcd/closing/place_matcher.h"
 #include "sslcd/closing/view_aligner.h"

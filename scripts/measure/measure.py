@@ -6,6 +6,7 @@ import datetime
 import os
 
 from bench import bench_sets
+from change import change_sets
 from halv import halv_sets
 from pairs import city_sets, pair_sets
 from program import Program, processor
@@ -15,7 +16,8 @@ from stream import stream_sets
 from store import Store, last_code_commit, same_code
 
 PARTS = {'loops': loop_sets, 'kitti': kitti_sets, 'pairs': pair_sets, 'city': city_sets,
-         'halv': halv_sets, 'sessions': session_sets, 'stream': stream_sets,
+         'halv': halv_sets, 'sessions': session_sets, 'change': change_sets,
+         'stream': stream_sets,
          'bench': bench_sets}
 USUAL = ['loops', 'kitti', 'pairs']  # what takes seconds a set
 

@@ -76,6 +76,10 @@ struct HalvWorld {
 /// layout file.
 HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene = {});
 
+/// Replaces the share `scene.churn` of the vehicles in the parking spaces from a frame on by
+/// others, each at the same place or at a free one.
+void ReplaceVehicles(const HalvScene& scene, std::uint64_t seed, int frame, HalvWorld& world);
+
 /// A complete sequence for WriteSequence.
 struct HalvSequence {
   HalvWorld scene;

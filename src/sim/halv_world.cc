@@ -103,15 +103,19 @@ std::vector<int> Draw(Random& random, int size, int count) {
   return numbers;
 }
 
-/// Replaces some vehicles before the second pass by others, at the same place or at a free one.
-void Churn(const HalvScene& scene, std::uint64_t seed, int frame, std::vector<Slot> parked,
+struct Parked {
+  int id = 0;  ///< WorldObject::id
+  Slot slot;
+};
+
+/// Replaces some vehicles from a frame on by others, at the same place or at a free one.
+void Churn(const HalvScene& scene, std::uint64_t seed, int frame, const std::vector<Parked>& parked,
            std::vector<Slot> free, World& world) {
   Random random(seed, kChurnStream);
   const int count = static_cast<int>(std::lround(scene.churn * static_cast<double>(parked.size())));
-  for (int id : Draw(random, static_cast<int>(parked.size()),
-                     count)) {  // parked vehicles are the first objects
-    world.objects[id].end_frame = frame;
-    Slot slot = parked[id];
+  for (int number : Draw(random, static_cast<int>(parked.size()), count)) {
+    world.objects[parked[number].id].end_frame = frame;
+    Slot slot = parked[number].slot;
     if (!free.empty() && random.Chance(0.5)) {
       std::swap(free[static_cast<std::size_t>(random.Uniform() * static_cast<double>(free.size()))],
                 free.back());
@@ -182,8 +186,31 @@ HalvWorld MakeHalvWorld(std::uint64_t seed, const HalvScene& scene) {
     AddDrivingCar(world, random, course.path, start, oncoming ? -2.5 : 0, oncoming ? -speed : speed)
         .paint = DrawPaint(random);
   }
-  Churn(scene, seed, result.return_frame, parked, free, world);
+  std::vector<Parked> vehicles;  // the first objects
+  for (const Slot& slot : parked) vehicles.push_back({static_cast<int>(vehicles.size()), slot});
+  Churn(scene, seed, result.return_frame, vehicles, free, world);
   return result;
+}
+
+void ReplaceVehicles(const HalvScene& scene, std::uint64_t seed, int frame, HalvWorld& world) {
+  constexpr double kInSpace = 1.5;  // a vehicle parks nearer to the centre than this [m]
+  std::vector<Parked> parked;
+  std::vector<Slot> free;
+  for (const ParkingSpace& space : world.spaces) {
+    const Slot slot{space.x, space.z, space.heading, ""};
+    const auto there = std::find_if(
+        world.world.objects.begin(), world.world.objects.end(), [&](const WorldObject& object) {
+          const Vec3& p = object.T_world_object[0].translation();
+          return !object.driving() && object.IsThereAt(frame - 1) &&
+                 world.world.labels[object.label].symmetry == Symmetry::kNone &&
+                 std::hypot(p.x() - space.x, p.z() - space.z) < kInSpace;
+        });
+    if (there == world.world.objects.end())
+      free.push_back(slot);
+    else
+      parked.push_back({there->id, slot});
+  }
+  Churn(scene, seed, frame, parked, free, world.world);
 }
 
 void DescribeFields(FieldVisitor& visitor, HalvScene& scene) {

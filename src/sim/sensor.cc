@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/silhouette.h"
 #include "perception/projection.h"
 #include "sim/check_fields.h"
 #include "sim/random.h"
 #include "sim/streams.h"
-#include "sim/visibility.h"
 
 namespace sslcd::sim {
 namespace {

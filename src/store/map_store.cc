@@ -8,6 +8,7 @@
 #include "store/checksums.h"
 #include "store/frame_bytes.h"
 #include "store/journal.h"
+#include "store/read_history.h"
 #include "store/result_tables.h"
 #include "store/schema.h"
 #include "store/site.h"
@@ -30,6 +31,12 @@ OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& s
   return poses;
 }
 
+void CheckResults(Database& database) {
+  const std::vector<std::string> problems = ChecksumProblems(database, kResultTables);
+  if (!problems.empty())
+    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+}
+
 }  // namespace
 
 struct SSLCD_HIDDEN MapStore::Impl {
@@ -50,9 +57,7 @@ MapInfo MapStore::Describe() const {
 MapResults MapStore::Results() const {
   Database& database = impl_->database;
   const Transaction one_state(database, Transaction::Kind::kRead);
-  const std::vector<std::string> problems = ChecksumProblems(database, kResultTables);
-  if (!problems.empty())
-    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+  CheckResults(database);
   MapResults results = ReadResults(database);
   const OdometryPoses odometry = ReadOdometry(database, ReadInfo(database).sessions);
   for (SessionPath& path : results.paths) {
@@ -60,6 +65,12 @@ MapResults MapStore::Results() const {
     for (const int frame : path.frames) path.odometry.poses.push_back(odometry.at(frame));
   }
   return results;
+}
+
+MapHistory MapStore::History() const {
+  const Transaction one_state(impl_->database, Transaction::Kind::kRead);
+  CheckResults(impl_->database);
+  return ReadHistory(impl_->database);
 }
 
 std::vector<std::string> MapStore::Verify() const {

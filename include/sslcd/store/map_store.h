@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sslcd/change/map_history.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/cue.h"
 #include "sslcd/core/detection_noise.h"
@@ -80,6 +81,9 @@ class MapStore {
   MapInfo Describe() const;
   /// Throws Error(kBadInput) if a checksum of the results is wrong.
   MapResults Results() const;
+  /// What was there when; sessions in the order of MapInfo::sessions. Throws as Results does.
+  /// O(inputs + frames * (objects in sight)^2)
+  MapHistory History() const;
 
   /// Reads the whole file: SQLite's own check, the schema, foreign keys and all checksums. One
   /// sentence per problem; empty: the file is sound.
