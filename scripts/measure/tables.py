@@ -214,6 +214,33 @@ def sessions_halv(sets):
     return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only sessions')
 
 
+def change(sets):
+    rows = []
+    for churn in ('0.3', '0.6'):
+        entry = sets.get(f'change/HALV-sim {churn}')
+        for layout, f in (entry['figures'] if entry else {}).items():
+            row = [percent(float(churn)), layout, f'{f["joined"]} of {f["maps"]}']
+            for what in ('departures', 'arrivals'):
+                found, wrong = f[f'{what}_found'], f[f'wrong_{what}']
+                row += [f[what], number(found / (found + wrong), 3), number(found / f[what], 3)]
+            rows.append(row)
+    header = ['replaced', 'layout', 'maps with all sessions joined', 'departures', 'precision',
+              'recall', 'arrivals', 'precision', 'recall']
+    entries = [entry for name, entry in sets.items() if name.startswith('change/HALV-sim')]
+    return table(header, rows) + note(entries, 'scripts/measure.sh --only change')
+
+
+def change_still(sets):
+    entries = {name: sets['change/' + name.removeprefix('loops/')] for name in LOOPS
+               if 'change/' + name.removeprefix('loops/') in sets}
+    rows = [[LOOPS[name], role(entry), entry['figures']['places'], entry['figures']['in_view_twice'],
+             entry['figures']['departures'], entry['figures']['arrivals']]
+            for name, entry in entries.items()]
+    header = ['drive', 'chosen on it', 'places', 'in view of two successive sessions',
+              'false departures', 'false arrivals']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only change')
+
+
 def halv_ate(sets):
     rows = []
     for name, title in ((KNOWN, 'seeds 1-10'), (FRESH, 'seeds 11-20, held out')):
@@ -309,7 +336,7 @@ def bench(set_name, key, sets):
 
 
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
-                                  sessions, sessions_halv, stream, halv_ate,
+                                  sessions, sessions_halv, change, change_still, stream, halv_ate,
                                   halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):

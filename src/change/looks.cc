@@ -48,6 +48,7 @@ std::optional<LookPair::Similarity> Compare(const Gallery& a, const Gallery& b, 
 // 1: as the landmark, -1: against it, 0: unclear
 int HeadingOf(const SessionLooks& looks) {
   const double all = looks.ahead + looks.reversed;
+  if (all == 0) return 0;
   if (looks.ahead >= kAgree * all) return 1;
   return looks.reversed >= kAgree * all ? -1 : 0;
 }

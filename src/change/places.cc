@@ -55,7 +55,7 @@ class Grouping {
       groups[GroupOf(static_cast<int>(i))].push_back(static_cast<int>(i));
     const auto is_no_place = [&](const std::vector<int>& group) {
       return std::none_of(group.begin(), group.end(), [&](int i) {
-        return world_.objects[i].state == LandmarkState::kConfirmed;
+        return Stands(i) && world_.objects[i].state == LandmarkState::kConfirmed;
       });
     };
     groups.erase(std::remove_if(groups.begin(), groups.end(), is_no_place), groups.end());
@@ -69,7 +69,7 @@ class Grouping {
   }
 
  private:
-  bool Stands(std::size_t i) const {
+  bool Stands(int i) const {
     return world_.objects[i].state != LandmarkState::kDynamic && !seen_[i].frames.empty();
   }
 
@@ -80,11 +80,11 @@ class Grouping {
       return {p.dot(world_.gravity.forward), p.dot(world_.gravity.left)};
     };
     for (std::size_t i = 0; i < seen_.size(); ++i)
-      if (Stands(i)) index.Put(static_cast<int>(i), level(i).x(), level(i).y());
+      if (Stands(static_cast<int>(i))) index.Put(static_cast<int>(i), level(i).x(), level(i).y());
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
-      if (!Stands(i)) continue;
       const int a = static_cast<int>(i);
+      if (!Stands(a)) continue;
       for (const int b : index.FindWithin(level(i).x(), level(i).y(), kFar))
         if (a < b && IsOnePlace(a, b)) pairs.push_back({Apart(a, b).norm(), a, b});
     }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTail = 0.005;  // share of the detections beyond the limits of the detector
 constexpr double kStorey = 1;    // tolerance of heights [m]; set by hand
-constexpr int kSectors = 72;     // of bearing
+constexpr int kBearings = 72;    // sectors of bearing
 
 struct Sight {
   Vec3 in_camera;
@@ -31,7 +31,7 @@ class Limits {
  public:
   Limits(const std::vector<FrameSightings>& frames, const std::vector<std::vector<int>>& seen,
          const std::vector<Place>& places, const GravityFrame& gravity)
-      : sectors_(kSectors) {
+      : sectors_(kBearings) {
     std::vector<double> ranges, heights;
     for (std::size_t f = 0; f < frames.size(); ++f) {
       for (const int number : seen[f]) {
@@ -41,7 +41,7 @@ class Limits {
         ++sectors_[SectorOf(sight)];
       }
     }
-    least_ = kTail * static_cast<double>(ranges.size()) / kSectors;
+    least_ = kTail * static_cast<double>(ranges.size()) / kBearings;
     range_m = Quantile(ranges, 1 - kTail);
     low_ = Quantile(heights, kTail) - kStorey;
     high_ = Quantile(heights, 1 - kTail) + kStorey;
@@ -57,7 +57,7 @@ class Limits {
  private:
   static int SectorOf(const Sight& sight) {
     const double turns = sight.Bearing() / (2 * M_PI) + 0.5;
-    return std::clamp(static_cast<int>(turns * kSectors), 0, kSectors - 1);
+    return std::clamp(static_cast<int>(turns * kBearings), 0, kBearings - 1);
   }
   static double Quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;

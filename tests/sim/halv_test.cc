@@ -182,6 +182,35 @@ TEST(Halv, ChurnReplacesThatShareOfTheVehicles) {
   }
 }
 
+TEST(Halv, VehiclesAreReplacedAgainAndAgain) {
+  HalvScene scene = Case(2);
+  scene.driving_cars = 0;
+  HalvWorld halv = MakeHalvWorld(3, scene);
+  const int frames = static_cast<int>(halv.world.truth.size());
+  scene.churn = 0.3;
+  for (const int change : {1, 2}) ReplaceVehicles(scene, change, change * frames, halv);
+  const auto there = [&](int session, const WorldObject& object) {
+    return IsVehicle(object) && object.IsThereAt(session * frames);
+  };
+  const std::vector<WorldObject>& objects = halv.world.objects;
+  for (const int change : {1, 2}) {
+    int before = 0, after = 0, stayed = 0;
+    for (const WorldObject& object : objects) {
+      before += there(change - 1, object);
+      after += there(change, object);
+      stayed += there(change - 1, object) && there(change, object);
+      if (!there(change, object)) continue;
+      for (const WorldObject& other : objects) {  // each has a space of its own
+        const double apart =
+            (other.PoseAt(0).translation() - object.PoseAt(0).translation()).norm();
+        EXPECT_TRUE(!there(change, other) || other.id == object.id || apart > 1.5);
+      }
+    }
+    EXPECT_EQ(before, after);
+    EXPECT_NEAR(1 - static_cast<double>(stayed) / before, 0.3, 0.5 / before + 1e-9);
+  }
+}
+
 TEST(Halv, DriftIsAsLargeAsTold) {
   const Trajectory truth = MakeHalvWorld(1, Case(2)).world.truth;
   for (double ate : {0.3, 2.}) {

@@ -201,6 +201,25 @@ TEST(MapStore, AFullDiskLosesNothing) {
   EXPECT_TRUE(MapStore(path).Verify().empty());
 }
 
+TEST(MapStore, TellsWhatWasThereWhen) {
+  const TempFolder folder;
+  const StoreDrive drive = ShortStreet(100);
+  const std::string path = MakeMap(folder, drive);
+  MapSession again = BeginSession(path, "two", drive);
+  Finish(drive, again);
+  const MapHistory history = MapStore(path).History();
+  ASSERT_GT(history.places().size(), 10u);
+  for (std::size_t i = 0; i < history.places().size(); ++i) {
+    const PlaceHistory& place = history.places()[i];
+    ASSERT_EQ(place.sessions.size(), 2u);
+    EXPECT_NEAR(place.sessions[0].seen, place.sessions[1].seen, 3) << "the same detections";
+    EXPECT_GT(place.sessions[1].probability, 0.9);
+    EXPECT_GT(history.Between(static_cast<int>(i), 0, 1).stayed, 0.9);
+  }
+  Database(path, Database::Access::kWrite).Execute("UPDATE landmark SET x = x + 1");
+  ExpectError([&] { MapStore(path).History(); }, {path, "is damaged"});
+}
+
 TEST(MapStore, CompactingKeepsTheMap) {
   const TempFolder folder;
   const StoreDrive drive = ShortStreet(60);
