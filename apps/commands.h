@@ -16,6 +16,7 @@ namespace sslcd::apps {
 using Command = std::function<int()>;
 Command AddRunCommand(CLI::App& app, Console& console);
 Command AddDetectCommand(CLI::App& app, Console& console);
+Command AddCheckCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddDrawCommand(CLI::App& app, Console& console);
 Command AddReportCommand(CLI::App& app, Console& console);

@@ -31,11 +31,12 @@ int main(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad "
       "configuration, "
-      "5 no solution, 130 and 143 interrupted.");
+      "5 no solution, 6 a mistake in the data, 130 and 143 interrupted.");
   Console console;
   const std::map<std::string, Command> commands = {
       {"run", AddRunCommand(app, console)},
       {"detect", AddDetectCommand(app, console)},
+      {"check", AddCheckCommand(app, console)},
       {"eval", AddEvalCommand(app, console)},
       {"draw", AddDrawCommand(app, console)},
       {"report", AddReportCommand(app, console)},

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Writes config/default.yaml and docs/configuration.md from the field tables of the program, and the
-# schema of docs/store.md from its source. With --check it only compares them (exit code 1 if they
+# schema of docs/store.md and the table of docs/check.md from their sources. With --check it only compares them (exit code 1 if they
 # are out of date).
 #   scripts/update_docs.sh SSLCD_RUN [--check]
 set -euo pipefail
@@ -51,13 +51,21 @@ store() {
   sed -n '/^<!-- \/schema -->$/,$p' docs/store.md
 }
 
+mistakes() {
+  sed '/^<!-- mistakes -->$/q' docs/check.md
+  "$run" check --mistakes
+  sed -n '/^<!-- \/mistakes -->$/,$p' docs/check.md
+}
+
 if [[ ${2:-} == --check ]]; then
   diff <(configuration) docs/configuration.md && diff <(defaults) config/default.yaml &&
-    diff <(store) docs/store.md ||
+    diff <(store) docs/store.md && diff <(mistakes) docs/check.md ||
     { echo "out of date: run scripts/update_docs.sh"; exit 1; }
   exit 0
 fi
 configuration >docs/configuration.md
 page=$(store)
 echo "$page" >docs/store.md
+page=$(mistakes)
+echo "$page" >docs/check.md
 defaults >config/default.yaml

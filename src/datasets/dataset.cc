@@ -266,6 +266,7 @@ int DatasetLoader::AddVectors(const std::string& path, Cue cue) {
 void DatasetLoader::AddAppearance() {
   for (const CueRow& row : kCueRows) {
     const std::string& path = layout_.appearance[row.cue];
+    out_.appearance_paths[row.cue] = path;
     const int unusable = path.empty() ? 0 : AddVectors(path, row.cue);
     if (unusable == 0) continue;
     const std::string count = std::to_string(unusable), name = row.name;

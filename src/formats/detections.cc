@@ -16,14 +16,14 @@ namespace {
 
 /// The columns of a row format; -1: it has no such column.
 struct Columns {
-  int frame, label, box, dims, location, yaw, score;
+  int frame, label, alpha, box, dims, location, yaw, score;
 };
 
 Columns ColumnsOf(DetectionFormat format, std::size_t row_size) {
   switch (format) {
-    case DetectionFormat::kAb3dmotCsv: return {0, 1, 2, 7, 10, 13, 6};
-    case DetectionFormat::kKittiTracking: return {0, 2, 6, 10, 13, 16, row_size == 18 ? 17 : -1};
-    default: return {-1, 0, 4, 8, 11, 14, row_size == 16 ? 15 : -1};
+    case DetectionFormat::kAb3dmotCsv: return {0, 1, 14, 2, 7, 10, 13, 6};
+    case DetectionFormat::kKittiTracking: return {0, 2, 5, 6, 10, 13, 16, row_size == 18 ? 17 : -1};
+    default: return {-1, 0, 3, 4, 8, 11, 14, row_size == 16 ? 15 : -1};
   }
 }
 
@@ -65,9 +65,10 @@ lie::SO3<double> RotationFromYaw(double rotation_y) {
   return lie::SO3<double>::FromMatrix(R);
 }
 
-/// None: the row is unusable (a value is not finite or a size is not positive).
+/// None: the row is unusable (a value is not finite or a size is not positive). Fills `written` but
+/// for the frame.
 std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
-                                  const Columns& columns) {
+                                  const Columns& columns, DetectionColumns& written) {
   bool finite = true;
   std::array<double, 18> value{};
   for (int i = 0; i < static_cast<int>(row.size()); ++i) {
@@ -75,6 +76,11 @@ std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
     value[i] = row.Number(i);
     finite = finite && std::isfinite(value[i]);
   }
+  const double* box = &value[columns.box];
+  written.box = {box[0], box[1], box[2], box[3]};
+  written.alpha = value[columns.alpha];
+  written.rotation_y = value[columns.yaw];
+  if (columns.score >= 0) written.score = value[columns.score];
   Detection detection;
   detection.label = LabelOf(row, format, columns.label);
   const double h = value[columns.dims], w = value[columns.dims + 1], l = value[columns.dims + 2];
@@ -83,10 +89,8 @@ std::optional<Detection> ParseRow(const TextRows& row, DetectionFormat format,
   detection.dims = Vec3(l, w, h);
   detection.T_cam_object = Pose(RotationFromYaw(value[columns.yaw]),
                                 Vec3(location[0], location[1] - h / 2, location[2]));
-  const double* box = &value[columns.box];
-  const Box2d box_2d{box[0], box[1], box[2], box[3]};
-  if (box_2d.Area() > 0) detection.box = box_2d;
-  detection.score = columns.score >= 0 ? value[columns.score] : 1.;
+  if (written.box.Area() > 0) detection.box = written.box;
+  detection.score = written.score;
   return detection;
 }
 
@@ -144,7 +148,9 @@ void DetectionReader::ReadFile(const std::string& path, int frame) {
     const Columns columns = ColumnsOf(out_.format, row_size_);
     const int row_frame = columns.frame >= 0 ? row.Integer(columns.frame) : frame;
     if (row_frame < 0) row.Fail("negative frame number " + std::to_string(row_frame));
-    std::optional<Detection> detection = ParseRow(row, out_.format, columns);
+    DetectionColumns& written = out_.columns.emplace_back();
+    written.frame = row_frame;
+    std::optional<Detection> detection = ParseRow(row, out_.format, columns, written);
     const int row_number = out_.rows++;
     if (!detection) {
       ++out_.dropped;

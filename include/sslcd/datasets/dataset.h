@@ -64,6 +64,7 @@ struct Dataset {
   std::optional<Trajectory> groundtruth;
   /// resolved paths; empty: there is none
   std::string odometry_path, detections_path, groundtruth_path;
+  PerCue<std::string> appearance_paths;  ///< the files of cues that were read, likewise
   /// annotated boxes of the sequence (ReadKittiTrackingLabels); empty: there are none
   std::string groundtruth_boxes_path;
   PoseFormat odometry_format = PoseFormat::kAuto;  ///< kKitti for GPS/IMU packets

@@ -33,6 +33,13 @@ enum class DetectionFormat {
 };
 const char* ToString(DetectionFormat format);
 
+/// Columns of a row as they are in the file, where reading changes or leaves out what they say.
+struct DetectionColumns {
+  int frame = 0;
+  double alpha = 0, rotation_y = 0, score = 1;
+  Box2d box;  ///< any four numbers
+};
+
 /// Detections of a whole sequence. Every non-blank line has a row number, including the lines that
 /// are left out.
 struct DetectionFile {
@@ -43,6 +50,7 @@ struct DetectionFile {
   int dont_care = 0;    ///< rows of class DontCare, left out
   int dropped = 0;      ///< rows with NaN, infinities, or sizes that are not positive, left out
   bool logits = false;  ///< the scores were logits
+  std::vector<DetectionColumns> columns;  ///< of all rows, by row number
   std::vector<std::string> warnings;
 };
 
