@@ -9,7 +9,7 @@ from store import Store
 from tables import TABLES
 
 FIGURES = 'docs/figures.json'
-DOCUMENTS = ['README.md', 'docs/results.md', 'docs/hosts.md', 'docs/sessions.md']
+DOCUMENTS = ['README.md', 'docs/results.md', 'docs/hosts.md', 'docs/sessions.md', 'docs/change.md']
 MARK = re.compile(r'(<!-- figures (\w+) -->\n)(.*?)(<!-- /figures -->)', re.DOTALL)
 
 

@@ -218,7 +218,11 @@ def change(sets):
     rows = []
     for churn in ('0.3', '0.6'):
         entry = sets.get(f'change/HALV-sim {churn}')
-        for layout, f in (entry['figures'] if entry else {}).items():
+        layouts = dict(entry['figures']) if entry else {}
+        if layouts:
+            layouts['both'] = {key: sum(f[key] for f in layouts.values())
+                               for key in next(iter(layouts.values()))}
+        for layout, f in layouts.items():
             row = [percent(float(churn)), layout, f'{f["joined"]} of {f["maps"]}']
             for what in ('departures', 'arrivals'):
                 found, wrong = f[f'{what}_found'], f[f'wrong_{what}']

@@ -10,8 +10,8 @@ namespace {
 
 // Share of the detections of a session that agree on the heading. Set by hand.
 constexpr double kAgree = 0.75;
-// Probability that the sightings of a session with one are those of a neighbour; it decreases with
-// their number. Chosen on HALV-sim (docs/change.md).
+// The n sightings of a session are those of a neighbour with probability kStrange / (1 + n). Chosen
+// on HALV-sim (docs/change.md).
 constexpr double kStrange = 0.2;
 // Weight of the priors, in pairs, and smallest standard deviation of a cosine. Set by hand.
 constexpr double kPrior = 4, kLeastSigma = 0.01;

@@ -18,7 +18,7 @@ struct View {
 using Views = std::vector<View>;
 
 /// The views of each place in each session: `[place][session]`. What the session has seen at other
-/// places hides a place, and so do detections of no place. Views are left out where the detector
+/// places hides a place, and so do detections of no landmark. Views are left out where the detector
 /// hardly ever sees anything: beyond its range, beside its field of view, on other storeys.
 /// O(frames * n^2) with n places in range.
 std::vector<std::vector<Views>> CollectViews(const Sightings& sightings,
