@@ -29,15 +29,16 @@ STEPS = '''(() => {
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
-    browser = Browser(find_chromium() or sys.exit('no Chromium: install the package chromium'))
+    program = find_chromium() or sys.exit('no Chromium: install the package chromium')
     first, steps = [], []
-    try:
-        for _ in range(int(sys.argv[2]) if len(sys.argv) == 3 else 5):
+    for _ in range(int(sys.argv[2]) if len(sys.argv) == 3 else 5):
+        browser = Browser(program)
+        try:
             browser.open(sys.argv[1], 1920, 1080)
             first.append(browser.run('report.world.first_frame_ms'))
             steps += browser.run(STEPS)
-    finally:
-        browser.close()
+        finally:
+            browser.close()
     print(f'size         {os.path.getsize(sys.argv[1]) / 1e6:.2f} MB')
     for name, times in (('first frame', first), ('slider step', steps)):
         print(f'{name}  {statistics.median(times):.0f} ms (median), {max(times):.0f} ms (longest)')

@@ -75,7 +75,7 @@ class Browser:
         if self.session:
             request['sessionId'] = self.session
         os.write(self.to, json.dumps(request).encode() + b'\0')
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + 60
         while True:
             message = self.message(deadline)
             if message.get('id') == self.count:
@@ -86,7 +86,7 @@ class Browser:
     def open(self, path, width, height):
         self.call('Emulation.setDeviceMetricsOverride', width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
         self.call('Page.navigate', url='file://' + os.path.abspath(path))
-        self.wait('window.report && window.report.world.first_frame_ms')
+        self.wait('window.report && window.report.world.first_frame_ms', 60)
 
     def run(self, script):
         """The value of a JavaScript expression; a promise is awaited."""
