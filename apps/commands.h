@@ -20,6 +20,7 @@ Command AddCheckCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddDrawCommand(CLI::App& app, Console& console);
 Command AddReportCommand(CLI::App& app, Console& console);
+Command AddCompareCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
 Command AddMapCommand(CLI::App& app, Console& console);

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
       {"eval", AddEvalCommand(app, console)},
       {"draw", AddDrawCommand(app, console)},
       {"report", AddReportCommand(app, console)},
+      {"compare", AddCompareCommand(app, console)},
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""sslcd_run draw and report: what they write, and what goes wrong. usage: see cli_case.main"""
+"""sslcd_run draw, report and compare: what they write, and what goes wrong. usage: see cli_case.main"""
 import os
 
 from cli_case import CliCase, call, read, write, main
@@ -35,6 +35,32 @@ class DrawTest(CliCase):
         self.not_drawn(call(*draw, '--groundtruth', self.data + '/none.txt'), 3, 'none.txt')
         write(self.out + '/map.json', read(self.out + '/map.json') + ' ')
         self.not_drawn(call(*draw), 3, 'map.json: is not the file')
+
+
+class CompareTest(CliCase):
+    def test_results_and_what_differs(self):
+        self.run_data()
+        other = self.out + '_other'
+        self.assertEqual(call('run', self.data, '--out', other, '--max-frames', 20, '--set', 'ba.max_iterations=3').returncode, 0)
+        result = call('compare', self.out, other)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        results, differs = [{line.split()[0]: line.split()[1:] for line in part.splitlines() if line.strip()}
+                            for part in result.stdout.split('what differs')]
+        self.assertEqual((results['run'], results['frames']), ([self.out, other], ['40', '20']))
+        self.assertIn('ate_se3_rmse_m', results)
+        self.assertEqual(set(differs), {'run', 'ba.max_iterations'})
+        self.assertEqual(differs['ba.max_iterations'][1], '3')
+        self.assertIn('the same configuration', call('compare', self.out, self.out).stdout)
+
+    def test_what_cannot_be_compared(self):
+        self.run_data()
+        result = call('compare', self.out, self.data)
+        self.assertEqual((result.returncode, result.stdout), (3, ''))
+        self.assertIn('metrics.json', result.stderr)
+        write(self.out + '/metrics.json', '{}')
+        result = call('compare', self.out)
+        self.assertEqual((result.returncode, result.stdout), (3, ''))
+        self.assertIn('metrics.json: is not the file', result.stderr)
 
 
 class ReportTest(CliCase):
