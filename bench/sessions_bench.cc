@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/halv.h"
+#include "recorded_sessions.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "sslcd/pipeline/mapper.h"
@@ -31,12 +31,6 @@
 
 namespace sslcd {
 namespace {
-
-struct Session {
-  std::vector<Frame> frames;
-  std::vector<Pose> truth;
-  bool copy = false;  // of another place
-};
 
 // A frame that the mapper has got.
 struct Given {
@@ -163,34 +157,15 @@ class Drive {
   std::vector<Given> frames_;
 };
 
-// Odometry that starts upright: its first camera is as level as that of the whole drive.
-void StartUpright(const Vec3& up, const Pose& first_of_drive, Session& session) {
-  const Vec3 up_in_cam = first_of_drive.so3().inverse() * up;
-  const Vec3 now = session.frames.front().T_odom_cam.so3() * up_in_cam;
-  const Vec3 axis = now.cross(up);
-  if (axis.norm() < 1e-9) return;
-  const auto turn =
-      lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), now.dot(up)) * axis.normalized()));
-  for (Frame& frame : session.frames)
-    frame.T_odom_cam = Pose(turn, Vec3::Zero()) * frame.T_odom_cam;
-}
-
 // `upright`: each session begins level, because the odometry's tilt has drifted by then.
 std::vector<Session> Cut(const Dataset& data, int count, bool upright) {
-  std::vector<double> path_m{0};
-  for (std::size_t i = 1; i < data.frames.size(); ++i)
-    path_m.push_back(path_m.back() + (data.frames[i].T_odom_cam.translation() -
-                                      data.frames[i - 1].T_odom_cam.translation())
-                                         .norm());
-  const std::vector<double>& stamps = data.groundtruth->stamps;
+  const Session drive = WithTruth(data);
+  const std::vector<double> path_m = PathOf(drive);
   std::vector<Session> sessions(count);
-  for (std::size_t i = 0; i < data.frames.size(); ++i) {
+  for (std::size_t i = 0; i < drive.frames.size(); ++i) {
     const int number = std::min(count - 1, static_cast<int>(count * path_m[i] / path_m.back()));
-    const auto nearest = std::min_element(stamps.begin(), stamps.end(), [&](double a, double b) {
-      return std::abs(a - data.frames[i].stamp) < std::abs(b - data.frames[i].stamp);
-    });
-    sessions[number].frames.push_back(data.frames[i]);
-    sessions[number].truth.push_back(data.groundtruth->poses[nearest - stamps.begin()]);
+    sessions[number].frames.push_back(drive.frames[i]);
+    sessions[number].truth.push_back(drive.truth[i]);
   }
   const Vec3 up = GravityFrame::FromUp(data.up_axis).up;
   if (upright)
@@ -222,55 +197,16 @@ void RunOrders(const DatasetRequest& request, const std::vector<std::string>& or
   }
 }
 
-// The cars before or after the change; driving ones are there both times. Backward: the way back.
-sim::World WorldAt(const sim::World& all, bool after) {
-  sim::World world = all;
-  const int frames = static_cast<int>(all.truth.size());
-  for (sim::WorldObject& object : world.objects) {
-    const bool there =
-        object.driving() || (after ? object.end_frame > frames : object.first_frame == 0);
-    object.first_frame = there ? 0 : frames;
-    object.end_frame = there ? std::numeric_limits<int>::max() : frames;
-    if (after) std::reverse(object.T_world_object.begin(), object.T_world_object.end());
-  }
-  if (!after) return world;
-  std::reverse(world.truth.poses.begin(), world.truth.poses.end());
-  for (Pose& pose : world.truth.poses) pose = pose * Pose::RotY(M_PI);
-  return world;
-}
-
-// `looks`: seed of the looks of the cars.
-Session Record(const sim::World& world, int halv_case, std::uint64_t seed, std::uint64_t looks) {
-  const sim::HalvDrift drift;
-  const Trajectory odometry =
-      sim::SimulateOdometryWithAte(world.truth, drift.shape, sim::HalvAte(halv_case),
-                                   drift.ate_spread, seed)
-          .odometry;
-  sim::SimulatedDetections detections = sim::SimulateDetections(world, sim::HalvDetector(), seed);
-  sim::AddAppearance(world, {}, looks, detections);
-  return {sim::MakeFrames(odometry, detections), world.truth.poses};
-}
-
 void RunHalv(bool copy, int halv_case, const std::string& layout, int first, int last) {
   constexpr double kChurn = 0.3;
-  constexpr std::uint64_t kAgain = 1000, kCopy = 500;  // other seeds
   PrintHeader();
   for (int number = first; number <= last; ++number) {
-    const auto seed = static_cast<std::uint64_t>(number);
-    sim::HalvScene scene;
-    scene.case_number = halv_case;
-    scene.layout = layout;
-    scene.churn = kChurn;
-    const sim::World all = sim::MakeHalvWorld(seed, scene).world;
-    const sim::World before = WorldAt(all, false);
-    Drive drive({all.gravity, all.labels, all.camera});
-    drive.Give(Record(before, halv_case, seed, seed));
-    if (copy) {
-      Session twin = Record(before, halv_case, seed + kCopy, seed + kCopy);
-      twin.copy = true;
-      drive.Give(twin);
-    }
-    drive.Give(Record(WorldAt(all, true), halv_case, seed + kAgain, seed));
+    const TwoVisits visits =
+        RecordHalvTwice(halv_case, layout, static_cast<std::uint64_t>(number), kChurn);
+    Drive drive({visits.gravity, visits.labels, visits.camera});
+    drive.Give(visits.first);
+    if (copy) drive.Give(visits.copy);
+    drive.Give(visits.second);
     Print(
         drive.Finish(layout + " " + std::to_string(halv_case) + " seed " + std::to_string(number)));
   }
