@@ -98,7 +98,7 @@ TrackVerdict DecideTrack(const TrackEvidence& track, const LoopAcceptanceOptions
   verdict.confirmed = weakness.empty();
   std::string doubt;  // about a loop for which no odometry speaks
   if (track.joins && track.lead < kLeastLead)
-    doubt = "too few objects agree to join parts of the trajectory";
+    doubt = "too few objects agree where odometry says nothing";
   else if (track.joins && track.appearance < kLeastAppearance)
     doubt = "the objects look different";
   const bool sure = Sigmoid(-track.margin) <= options.max_risk;

@@ -98,6 +98,16 @@ struct PoseTracks::Attempt {
   }
 };
 
+// mean(score) (different objects in all local maps) / (mean objects in one)
+double PoseTracks::SumVotes(const std::vector<PoseTrack::Vote>& votes, Attempt& attempt) {
+  double scores = 0, objects = 0;
+  for (const PoseTrack::Vote& vote : votes) {
+    scores += vote.score;
+    objects += static_cast<double>(vote.objects.size());
+  }
+  return scores * attempt.Different(votes) / objects;
+}
+
 void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit,
                          Attempt& attempt) const {
   track.pose = pose;
@@ -105,13 +115,16 @@ void PoseTracks::AddVote(PoseTrack track, const YawShift& pose, const LayoutFit&
   track.votes.push_back({attempt.path_m, fit.score, attempt.objects});
   while (attempt.path_m - track.votes.front().path_m > options_.agree_m)
     track.votes.erase(track.votes.begin());
-  double scores = 0, objects = 0;
-  for (const PoseTrack::Vote& vote : track.votes) {
-    scores += vote.score;
-    objects += static_cast<double>(vote.objects.size());
+  // The drive may have entered the map on the way: votes from before speak of another place.
+  double best = SumVotes(track.votes, attempt);
+  if (track.prior.joins) {
+    const double choice = std::log(static_cast<double>(track.votes.size()));
+    for (auto votes = track.votes; votes.size() > 1;) {
+      votes.erase(votes.begin());
+      best = std::max(best, SumVotes(votes, attempt) - choice);
+    }
   }
-  track.evidence = track.prior.level + track.prior.height + fit.evidence - fit.score +
-                   scores * attempt.Different(track.votes) / objects;
+  track.evidence = track.prior.level + track.prior.height + fit.evidence - fit.score + best;
   attempt.tracks.push_back(std::move(track));
 }
 

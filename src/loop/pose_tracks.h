@@ -38,7 +38,9 @@ struct PoseTrack {
 ///   evidence = prior + layout, layout = volume + mean(score) (different objects in all local maps)
 ///   / (mean objects in one)
 /// with score and volume of LayoutFit (evidence = score + volume). For one attempt this is
-/// LayoutFit's evidence. A new pose that odometry favours is followed back through the attempts so
+/// LayoutFit's evidence. Where nothing leads from there to here (PosePrior::joins), the camera may
+/// have entered the map at any attempt: the votes since the best one count, less the log of the
+/// number of choices. A new pose that odometry favours is followed back through the attempts so
 /// far, since the search may not have found it there: otherwise older tracks would win by their
 /// age.
 class PoseTracks {
@@ -80,6 +82,7 @@ class PoseTracks {
     double path_m, map_end_m;
     std::vector<LayoutObject> objects;
   };
+  static double SumVotes(const std::vector<PoseTrack::Vote>& votes, Attempt& attempt);
   /// Continues or starts a track at `pose`. Its prior is set.
   void AddVote(PoseTrack track, const YawShift& pose, const LayoutFit& fit, Attempt& attempt) const;
   void FollowBack(const LayoutLikelihood& likelihood, const YawShift& pose, int min_matches,

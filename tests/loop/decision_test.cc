@@ -166,7 +166,7 @@ TEST(DecideTrack, ALoopWithoutOdometryNeedsALeadAndTheLooks) {
   const TrackVerdict verdict = DecideTrack(track, Acceptance());
   EXPECT_EQ(verdict.loop.decision, LoopDecision::kAmbiguous);
   EXPECT_TRUE(verdict.confirmed) << "accepted as soon as its track is";
-  EXPECT_EQ(verdict.loop.reason, "too few objects agree to join parts of the trajectory");
+  EXPECT_EQ(verdict.loop.reason, "too few objects agree where odometry says nothing");
   track.margin = 4;
   EXPECT_EQ(DecideTrack(track, Acceptance()).loop.reason, "another pose fits nearly as well");
   track.margin = 20;
