@@ -25,13 +25,19 @@ RunResult RunInMap(const MapArguments&, const MapDrive&, const MapperContext&, c
 
 std::string MapLine(const MapArguments&) { FailWithoutStore(); }
 
-Command AddMapCommand(CLI::App& app, Console&) {
-  CLI::App* command = app.add_subcommand("map", "maps in files (not in this build)");
-  command->allow_extras();
+namespace {
+
+Command AddWithoutStore(CLI::App& app, const char* name) {
+  app.add_subcommand(name, "maps in files (not in this build)")->allow_extras();
   return [] {
     FailWithoutStore();
     return 0;
   };
 }
+
+}  // namespace
+
+Command AddMapCommand(CLI::App& app, Console&) { return AddWithoutStore(app, "map"); }
+Command AddRelocaliseCommand(CLI::App& app, Console&) { return AddWithoutStore(app, "relocalise"); }
 
 }  // namespace sslcd::apps

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},
+      {"relocalise", AddRelocaliseCommand(app, console)},
       {"bench", AddBenchCommand(app, console)},
       {"check-config", AddCheckConfigCommand(app, console)},
       {"dump-config", AddDumpConfigCommand(app, console)},

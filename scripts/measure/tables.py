@@ -245,6 +245,37 @@ def change_still(sets):
     return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only change')
 
 
+def relocalise(sets):
+    entries = {name: sets['relocalise/' + name.removeprefix('loops/')] for name in LOOPS
+               if 'relocalise/' + name.removeprefix('loops/') in sets}
+    rows = []
+    for name, entry in entries.items():
+        f = entry['figures']
+        rows.append([LOOPS[name], role(entry), round(f['landmarks']),
+                     f'{f["found"]:.0f} of {f["sharing"]:.0f}',
+                     f'{f["found_elsewhere"]:.0f} of {f["elsewhere"]:.0f}', round(f['wrong']),
+                     number(f['path_m'], 0), number(f['error_m']), number(f['p95_ms'], 1)])
+    header = ['drive', 'chosen on it', 'landmarks', 'stretches in the map: found',
+              'stretches elsewhere: found', 'wrong answers', 'path to the answer, median [m]',
+              'its error, median [m]', 'an attempt, p95 [ms]']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only relocalise')
+
+
+def relocalise_halv(sets):
+    entries = {(title, churn): sets[f'relocalise/HALV-sim {which} {churn}']
+               for which, title, churn in (('halv', 'site', '0.3'), ('halv', 'site', '0.6'),
+                                           ('copy', 'site and its copy', '0.3'))
+               if f'relocalise/HALV-sim {which} {churn}' in sets}
+    rows = []
+    for (title, churn), entry in entries.items():
+        f = entry['figures']
+        rows.append([title, percent(float(churn)), f['sessions'], f['found'],
+                     f'{f["near"]} ({percent(f["near"] / f["sessions"])})', f['wrong']])
+    header = ['in the map', 'cars replaced', 'sessions', 'found', 'found within 50 m',
+              'with a wrong answer']
+    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only relocalise')
+
+
 def halv_ate(sets):
     rows = []
     for name, title in ((KNOWN, 'seeds 1-10'), (FRESH, 'seeds 11-20, held out')):
@@ -340,7 +371,8 @@ def bench(set_name, key, sets):
 
 
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
-                                  sessions, sessions_halv, change, change_still, stream, halv_ate,
+                                  sessions, sessions_halv, relocalise, relocalise_halv,
+                                  change, change_still, stream, halv_ate,
                                   halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):

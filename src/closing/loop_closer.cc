@@ -12,12 +12,6 @@
 namespace sslcd {
 namespace {
 
-std::unique_ptr<LoopFinder> MakeFinder(const LoopOptions& options, const PlaceMatcher& matcher) {
-  if (matcher) return MakeHostFinder(options, matcher);
-  return options.finder == LoopOptions::Finder::kPrinted ? MakePrintedFinder(options)
-                                                         : MakeTrackFinder(options);
-}
-
 // Sightings of the matched objects, the nearest ones to the two cameras.
 std::vector<MatchedSightings> SightingsOf(const FrameStore& frames, const PassMap& passes,
                                           const LoopMeasurement& loop) {
@@ -32,12 +26,18 @@ std::vector<MatchedSightings> SightingsOf(const FrameStore& frames, const PassMa
 
 }  // namespace
 
+std::unique_ptr<LoopFinder> MakeFinder(const LoopOptions& options, const PlaceMatcher& matcher) {
+  if (matcher) return MakeHostFinder(options, matcher);
+  return options.finder == LoopOptions::Finder::kPrinted ? MakePrintedFinder(options)
+                                                         : MakeTrackFinder(options);
+}
+
 LoopCloser::LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_map,
-                       Gallery::Mode galleries, const PlaceMatcher& matcher)
+                       Gallery::Mode galleries, std::unique_ptr<LoopFinder> finder)
     : options_(options),
       whole_map_(whole_map),
       passes_(whole_map.noise, options.layout.split_m, galleries),
-      first_{MakeFinder(options, matcher)},
+      first_{std::move(finder)},
       second_{first_.finder->Clone()} {}
 
 LoopCloser::LoopCloser(const LoopCloser& other)
@@ -58,8 +58,14 @@ void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing)
   const double end_m = state.frames.back().travelled;
   if (end_m - last_attempt_m_ < options_.layout.every_m) return;
   last_attempt_m_ = end_m;
-  SearchAndCorrect(state, {end_m, options_.lag_m, options_.layout.local_m, 0.}, scale, timing);
+  SearchNow(state, scale, timing);
   LookBack(state, scale, timing);
+}
+
+void LoopCloser::SearchNow(MapState& state, double scale, TimingTable& timing) {
+  SearchAndCorrect(state,
+                   {state.frames.back().travelled, options_.lag_m, options_.layout.local_m, 0.},
+                   scale, timing);
 }
 
 void LoopCloser::SearchAtEnd(MapState& state, double scale, TimingTable& timing) {

@@ -15,9 +15,8 @@ namespace sslcd {
 /// finder to the ledger and the corrector. Has no reference to the map; copyable.
 class LoopCloser {
  public:
-  /// `matcher` is the host's matcher; none: the finder of `options.finder`.
   LoopCloser(const LoopOptions& options, const WholeMapOptions& whole_map, Gallery::Mode galleries,
-             const PlaceMatcher& matcher);
+             std::unique_ptr<LoopFinder> finder);
   LoopCloser(const LoopCloser& other);
   LoopCloser(LoopCloser&&) = default;
 
@@ -29,6 +28,9 @@ class LoopCloser {
   /// Searches for a loop if the camera has moved far enough since the last attempt, and corrects
   /// trajectory and map. `scale` is metres per odometry metre.
   void AddKeyframe(MapState& state, double scale, TimingTable& timing);
+
+  /// Searches for a loop from the newest frame.
+  void SearchNow(MapState& state, double scale, TimingTable& timing);
 
   /// Searches a second time along the whole run. The first loops have corrected the trajectory, so
   /// the prior is narrow and few objects suffice. AddKeyframe makes such searches, too, near the

@@ -73,4 +73,7 @@ std::unique_ptr<LoopFinder> MakePrintedFinder(const LoopOptions& options);
 /// The host's matcher finds the place and decides; sslcd measures the loop.
 std::unique_ptr<LoopFinder> MakeHostFinder(const LoopOptions& options, PlaceMatcher matcher);
 
+/// The host's matcher; none: the finder of `options.finder`.
+std::unique_ptr<LoopFinder> MakeFinder(const LoopOptions& options, const PlaceMatcher& matcher);
+
 }  // namespace sslcd

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_meter.h"
-#include "odometry/odometry_noise.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
+#include "closing/local_map_errors.h"
+
 namespace sslcd {
 namespace {
 
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 // All set by hand without a recorded search. Standard deviation between the headings that two
 // passes give one object. [rad]
 constexpr double kYawSigma = 0.2;
 // Path between two query cameras that are tried if the heading is too uncertain. [m]
 constexpr int kCamerasTried = 3;
 constexpr double kFurtherBack = 10.;
-// Typical range of an object, by which a rotation of the odometry moves it. [m]
-constexpr double kSeenFrom = 10.;
 // Path on either side of a camera over which cameras are upright on average. [m]
 constexpr double kLevelReach = 20.;
 constexpr double kLeastTilt = 1e-9;  // a smaller tilt is rounding error [rad]
@@ -78,13 +76,14 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
                                                          const CommonObjects& common) const {
   const Pose level_query = LevelFrame(query), level_match = LevelFrame(match);
   std::vector<DriftPair> pairs = Pairs(common);
+  const OdometryModel odometry{options_.odometry, factors_};
   LoopMeasurement loop;
   LoopClosure& row = loop.row;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto& [i, old] = common.pairs[k];
     const double old_seen_m = passes_.NearestPass(frames_, old, frames_[match].travelled);
-    const double bent =
-        std::hypot(OdometrySigma(query, common.local.seen_m[i]), OdometrySigma(match, old_seen_m));
+    const double bent = std::hypot(OdometrySigma(frames_, query, common.local.seen_m[i], odometry),
+                                   OdometrySigma(frames_, match, old_seen_m, odometry));
     pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(common.sigma_m, bent);
     pairs[k].T_world_local = level_query * pairs[k].T_world_local;
     pairs[k].T_world_global = level_match * pairs[k].T_world_global;
@@ -102,19 +101,15 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   row.match_frame = frames_[match].frame;
   row.T_match_query = T_world_match.inverse() * corrected;
   row.viewpoint_change_rad = ViewpointChange(T_world_match, corrected, gravity_);
-  const Mat6 to_query = (level_query * T_world_query).inverse().Adj();
-  row.covariance = to_query * Mat6(drift.covariance) * to_query.transpose();
-  row.covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
-  row.covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
+  const Pose::Matrix6 to_query = (level_query * T_world_query).inverse().Adj();
+  Pose::Matrix6 covariance = to_query * Pose::Matrix6(drift.covariance) * to_query.transpose();
+  covariance.diagonal().head<3>().array() += options_.sigma_m * options_.sigma_m;
+  covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
-  loop.heading_sigma = std::sqrt(up.dot(Mat6(row.covariance).bottomRightCorner<3, 3>() * up));
-  // Outside of the range of the common objects the camera pose depends on odometry.
+  loop.heading_sigma = std::sqrt(up.dot(covariance.bottomRightCorner<3, 3>() * up));
   const auto [first_m, last_m] = SeenBetween(common);
-  const int in_sight = frames_.AtPath(std::clamp(frames_[query].travelled, first_m, last_m));
-  if (query != in_sight)
-    row.covariance +=
-        InformationOf(SigmasBetween(frames_, in_sight, query, options_.odometry), up, factors_)
-            .inverse();
+  AddOdometryBeyond(frames_, query, first_m, last_m, up, odometry, covariance);
+  row.covariance = covariance;
   return loop;
 }
 
@@ -134,22 +129,6 @@ int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& com
   };
   return *std::min_element(candidates.begin(), candidates.end(),
                            [&](int a, int b) { return distance(a) < distance(b); });
-}
-
-// Standard deviation of the odometry drift between a frame and an object seen at `seen_m` of path.
-// [m]
-double LoopMeter::OdometrySigma(int frame, double seen_m) const {
-  const int seen = frames_.AtPath(seen_m);
-  const OdometrySigmas sigmas = SigmasBetween(frames_, frame, seen, options_.odometry);
-  const double step =
-      (frames_[frame].T_odom_cam.translation() - frames_[seen].T_odom_cam.translation()).norm();
-  // The local map is short, and the caution of the factors is for long paths.
-  OdometryFactors factors;
-  factors.horizontal = std::min(1., factors_.horizontal);
-  factors.heading = std::min(1., factors_.heading);
-  factors = FactorsWithFailures(factors, sigmas);
-  return std::hypot(factors.horizontal * sigmas.horizontal,
-                    factors.heading * sigmas.rotation * (0.5 * step + kSeenFrom));
 }
 
 // Rotates the world about a camera so that the cameras around it are upright on average.

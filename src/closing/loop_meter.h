@@ -67,7 +67,6 @@ class LoopMeter {
  private:
   std::vector<DriftPair> Pairs(const CommonObjects& common) const;
   int NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const;
-  double OdometrySigma(int frame, double seen_m) const;
   Pose LevelFrame(int frame) const;
 
   const MapState& state_;

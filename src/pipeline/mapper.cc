@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "closing/loop_closer.h"
+#include "closing/loop_finder.h"
 #include "closing/parts.h"
 #include "closing/remeasure.h"
 #include "closing/view_ties.h"
@@ -68,14 +69,14 @@ std::vector<Detection> WithoutAppearance(std::vector<Detection> detections) {
 }  // namespace
 
 struct SSLCD_HIDDEN Mapper::Impl {
-  Impl(const Options& all, const MapperContext& world)
+  Impl(const Options& all, const MapperContext& world, std::unique_ptr<LoopFinder> finder)
       : options(all),
         context(world),
         state{ObjectMap(world.gravity, world.labels, all.noise, all.association, all.map),
               FrameStore(PathOfLostStep(all))},
         aligner(world.gravity, all.level),
         window(all.window, all.ba, all.noise),
-        loops(all.loop, WholeMap(all), GalleryMode(all.association), world.place_matcher) {}
+        loops(all.loop, WholeMap(all), GalleryMode(all.association), std::move(finder)) {}
 
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
@@ -101,7 +102,10 @@ struct SSLCD_HIDDEN Mapper::Impl {
 };
 
 Mapper::Mapper(const Options& options, const MapperContext& context)
-    : impl_(std::make_unique<Impl>(Checked(options), Checked(context))) {}
+    : Mapper(options, context, MakeFinder(Checked(options).loop, context.place_matcher)) {}
+Mapper::Mapper(const Options& options, const MapperContext& context,
+               std::unique_ptr<LoopFinder> finder)
+    : impl_(std::make_unique<Impl>(Checked(options), Checked(context), std::move(finder))) {}
 Mapper::~Mapper() = default;
 Mapper::Mapper(const Mapper& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Mapper& Mapper::operator=(const Mapper& other) { return *this = Mapper(other); }
@@ -178,6 +182,8 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   report.changes = TakeChanges();
   return report;
 }
+
+void Mapper::SearchNow() { impl_->loops.SearchNow(impl_->state, scale(), impl_->timing); }
 
 MapChanges Mapper::TakeChanges() {
   Impl& m = *impl_;

@@ -52,21 +52,27 @@ LandmarkOfSighting ConfirmedSightings(const std::vector<MapObject>& objects) {
 
 }  // namespace
 
-void WriteAppearance(Database& database, const std::vector<MapObject>& objects,
-                     const std::vector<SessionInfo>& sessions) {
+void ForEachSighting(Database& database, const std::vector<MapObject>& objects,
+                     const std::vector<SessionInfo>& sessions,
+                     const std::function<void(int, const Detection&)>& take) {
   const LandmarkOfSighting landmarks = ConfirmedSightings(objects);
   std::map<int, int> offsets;
   for (const SessionInfo& session : sessions) offsets[session.id] = session.frame_offset;
-  std::map<int, PerCue<VectorSum>> sums;
   ReadInputs(database, sessions, [&](const StoredInput& input) {
     if (input.kind != InputKind::kFrame) return;
     const Frame frame = FrameOf(input.content);
     for (const Detection& detection : frame.detections) {
       const auto found = landmarks.find({frame.index + offsets[input.session], detection.row});
-      if (found == landmarks.end()) continue;
-      for (const CueRow& row : kCueRows)
-        sums[found->second][row.cue].Add(detection.appearance[row.cue]);
+      if (found != landmarks.end()) take(found->second, detection);
     }
+  });
+}
+
+void WriteAppearance(Database& database, const std::vector<MapObject>& objects,
+                     const std::vector<SessionInfo>& sessions) {
+  std::map<int, PerCue<VectorSum>> sums;
+  ForEachSighting(database, objects, sessions, [&sums](int landmark, const Detection& seen) {
+    for (const CueRow& row : kCueRows) sums[landmark][row.cue].Add(seen.appearance[row.cue]);
   });
   Statement insert(database, "INSERT INTO appearance VALUES (?, ?, ?, ?)");
   for (const auto& [landmark, by_cue] : sums)

@@ -9,6 +9,7 @@
 #include "store/frame_bytes.h"
 #include "store/journal.h"
 #include "store/read_history.h"
+#include "store/reference_map.h"
 #include "store/result_tables.h"
 #include "store/schema.h"
 #include "store/site.h"
@@ -71,6 +72,13 @@ MapHistory MapStore::History() const {
   const Transaction one_state(impl_->database, Transaction::Kind::kRead);
   CheckResults(impl_->database);
   return ReadHistory(impl_->database);
+}
+
+ReferenceMap MapStore::Reference() const {
+  Database& database = impl_->database;
+  const Transaction one_state(database, Transaction::Kind::kRead);
+  CheckResults(database);
+  return ReferenceOf(database, ReadInfo(database), ReadResults(database));
 }
 
 std::vector<std::string> MapStore::Verify() const {

@@ -173,6 +173,37 @@ class MapTest(CliCase):
         self.assertEqual(self.add('--session', 'blind').returncode, 0)
         self.refused(call('map', 'diff', self.map), 5, 'no place was in view of both', 'map info')
 
+    def relocalise(self, *args):
+        return call('relocalise', self.data, '--map', self.made, *args)
+
+    def test_a_drive_is_found_in_a_map(self):
+        with open(self.made, 'rb') as file:
+            before = file.read()
+        out = os.path.dirname(self.data) + '/answers.csv'
+        done = self.relocalise('--from', '10', '--out', out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('first: frame ', done.stdout)
+        rows = read(out).strip().split('\n')
+        self.assertTrue(rows[0].startswith('frame,stamp,path_m,decision,probability,'))
+        self.assertIn('accepted', rows[-1])
+        told = self.relocalise('--from', '10', '--json', '--first')
+        answers = json.loads(told.stdout)
+        self.assertEqual([one['decision'] for one in answers].count('accepted'), 1)
+        self.assertEqual(answers[-1]['decision'], 'accepted')
+        self.assertGreater(answers[-1]['probability'], .99)
+        with open(self.made, 'rb') as file:
+            self.assertEqual(file.read(), before, 'the map is only read')
+
+    def test_a_drive_is_not_found(self):
+        done = self.relocalise('--frames', '2')
+        self.assertEqual(done.returncode, 5, done.stdout)
+        self.assertRegex(done.stdout, 'not found: .*too few')
+        for args, text in ((['--from', '9999'], '--from 9999: the last frame is '),
+                           (['--map', self.data + '/none.db'], 'no such map')):
+            refused = call('relocalise', self.data, *(args if '--map' in args else ['--map', self.made, *args]))
+            self.assertIn(refused.returncode, (2, 3))
+            self.assertIn(text, refused.stderr)
+
     def test_wrong_requests(self):
         self.copy()
         self.refused(self.add('--session', 'first'), 2, "a session 'first' already", '--session')

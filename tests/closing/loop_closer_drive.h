@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "closing/loop_closer.h"
+#include "closing/loop_finder.h"
 #include "two_passes.h"
 
 namespace sslcd {
@@ -34,7 +35,8 @@ class LoopCloserDrive : public ::testing::Test {
   void Start(const Pose& drift, const LoopOptions& options, const PlaceMatcher& matcher) {
     world_ = TwoPasses(drift);
     state_ = MapState{world_.state.map, {}};
-    closer_.emplace(options, WholeMapOptions(), Gallery::Mode::kByViewpoint, matcher);
+    closer_.emplace(options, WholeMapOptions(), Gallery::Mode::kByViewpoint,
+                    MakeFinder(options, matcher));
   }
 
   // The next frame continues from the current estimate of the previous one, by odometry.

@@ -37,12 +37,19 @@ EXAMPLES = {
     '07_map_file': (['sim_rectangle', os.path.join(FOLDER.name, 'site.db')],
                     r'(\d+) frames before tuesday, (\d+) loops join the sessions',
                     lambda frames, loops: int(frames) == 265 and int(loops) >= 10),
+    '08_relocalise': (['sim_rectangle', os.path.join(FOLDER.name, 'site.db')],
+                      r'frame (\d+) is at .*', lambda frame: int(frame) < 150),
 }
+# an example that makes the input of another one
+BEFORE = {'08_relocalise': '07_map_file'}
 
 
 def problem_of(program):
     """None, or why the example is wrong."""
-    arguments, pattern, is_right = EXAMPLES[os.path.basename(program)]
+    name = os.path.basename(program)
+    arguments, pattern, is_right = EXAMPLES[name]
+    if name in BEFORE and problem_of(os.path.join(os.path.dirname(program), BEFORE[name])):
+        return f'{BEFORE[name]} fails'
     run = subprocess.run([program] + [os.path.join(DATA, name) for name in arguments],
                          stdout=subprocess.PIPE, text=True, timeout=60, check=False)
     print(run.stdout, end='')

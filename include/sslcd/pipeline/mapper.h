@@ -24,6 +24,7 @@
 
 namespace SSLCD_EXPORT sslcd {
 
+class LoopFinder;
 class TimingTable;
 struct Options;
 
@@ -184,6 +185,10 @@ class Mapper {
   TimingTable& timing();  ///< core/timing.h
 
  private:
+  friend class Localiser;
+  Mapper(const Options& options, const MapperContext& context, std::unique_ptr<LoopFinder> finder);
+  void SearchNow();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

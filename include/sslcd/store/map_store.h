@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sslcd/change/map_history.h"
+#include "sslcd/closing/localisation.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/cue.h"
 #include "sslcd/core/detection_noise.h"
@@ -84,6 +85,9 @@ class MapStore {
   /// What was there when; sessions in the order of MapInfo::sessions. Throws as Results does.
   /// O(inputs + frames * (objects in sight)^2)
   MapHistory History() const;
+
+  /// The confirmed landmarks, to localise in (pipeline/localiser.h). Throws as Results() does.
+  ReferenceMap Reference() const;
 
   /// Reads the whole file: SQLite's own check, the schema, foreign keys and all checksums. One
   /// sentence per problem; empty: the file is sound.
