@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "sslcd/core/export.h"
 #include "sslcd/core/layout.h"
 
 namespace sslcd {
@@ -13,7 +14,7 @@ namespace sslcd {
 /// The average of dot products equals the dot product with the average, so `kMean` keeps only the
 /// average (same value, O(1)). `kByViewpoint` keeps one average per viewing direction and compares
 /// with the bin nearest to the current one.
-class Gallery {
+class SSLCD_EXPORT Gallery {
  public:
   enum class Mode { kMean, kByViewpoint };
 

@@ -27,13 +27,12 @@ double OdometrySigma(const FrameStore& frames, int frame, double seen_m,
                     factors.heading * sigmas.rotation * (0.5 * step + kSeenFrom));
 }
 
-void AddOdometryBeyond(const FrameStore& frames, int query, double first_m, double last_m,
-                       const Vec3& up, const OdometryModel& odometry, Pose::Matrix6& covariance) {
+Pose::Matrix6 OdometryBeyond(const FrameStore& frames, int query, double first_m, double last_m,
+                             const Vec3& up, const OdometryModel& odometry) {
   const int in_sight = frames.AtPath(std::clamp(frames[query].travelled, first_m, last_m));
-  if (query != in_sight)
-    covariance +=
-        InformationOf(SigmasBetween(frames, in_sight, query, odometry.noise), up, odometry.factors)
-            .inverse();
+  if (query == in_sight) return Pose::Matrix6::Zero();
+  return InformationOf(SigmasBetween(frames, in_sight, query, odometry.noise), up, odometry.factors)
+      .inverse();
 }
 
 }  // namespace sslcd

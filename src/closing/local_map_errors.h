@@ -11,9 +11,10 @@ namespace sslcd {
 double OdometrySigma(const FrameStore& frames, int frame, double seen_m,
                      const OdometryModel& odometry);
 
-/// Adds to `covariance`, of a pose of the camera `query` that objects seen between two path lengths
-/// measure, what odometry is off by from there to the camera. `up` is in the frame of the camera.
-void AddOdometryBeyond(const FrameStore& frames, int query, double first_m, double last_m,
-                       const Vec3& up, const OdometryModel& odometry, Pose::Matrix6& covariance);
+/// Covariance of the camera `query` to the nearest one between two path lengths, by odometry; zero
+/// between them. Adds to that of a pose measured by objects seen there. `up` is in the frame of the
+/// camera.
+Pose::Matrix6 OdometryBeyond(const FrameStore& frames, int query, double first_m, double last_m,
+                             const Vec3& up, const OdometryModel& odometry);
 
 }  // namespace sslcd

@@ -108,7 +108,7 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(covariance.bottomRightCorner<3, 3>() * up));
   const auto [first_m, last_m] = SeenBetween(common);
-  AddOdometryBeyond(frames_, query, first_m, last_m, up, odometry, covariance);
+  covariance += OdometryBeyond(frames_, query, first_m, last_m, up, odometry);
   row.covariance = covariance;
   return loop;
 }

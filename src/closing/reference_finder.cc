@@ -154,7 +154,7 @@ class ReferenceFinder : public LoopFinder {
       first_m = std::min(first_m, local.seen_m[match.first]);
       last_m = std::max(last_m, local.seen_m[match.first]);
     }
-    AddOdometryBeyond(frames, frames.size() - 1, first_m, last_m, up, odometry, covariance);
+    covariance += OdometryBeyond(frames, frames.size() - 1, first_m, last_m, up, odometry);
     return covariance;
   }
 

@@ -7,11 +7,13 @@
 #include <string>
 #include <string_view>
 
+#include "sslcd/core/export.h"
+
 namespace sslcd {
 
 /// SHA-256 (FIPS 180-4), so that other programs can check a store's checksums, e.g. by Python's
 /// hashlib.
-class Sha256 {
+class SSLCD_EXPORT Sha256 {
  public:
   Sha256& Add(std::string_view bytes);
   /// The 32 bytes of the hash of all that was added. Ends the computation.
@@ -30,6 +32,6 @@ class Sha256 {
 inline constexpr std::size_t kSha256Bytes = 32;
 
 /// Lower-case hexadecimal digits of bytes.
-std::string Hexadecimal(std::string_view bytes);
+SSLCD_EXPORT std::string Hexadecimal(std::string_view bytes);
 
 }  // namespace sslcd
