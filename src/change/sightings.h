@@ -10,6 +10,7 @@
 #include "sslcd/core/cue.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
+#include "sslcd/core/export.h"
 #include "sslcd/core/label.h"
 #include "sslcd/core/landmark.h"
 
@@ -64,7 +65,7 @@ struct LandmarkSightings {
 };
 
 /// Collects what each session has seen. One AddFrame per frame of the map, in order.
-class Sightings {
+class SSLCD_EXPORT Sightings {
  public:
   explicit Sightings(HistoryWorld world);
 
