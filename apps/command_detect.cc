@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "check_dataset.h"
 #include "commands.h"
 #include "datasets/sequence_writer.h"
 #include "from_images.h"
@@ -24,7 +25,7 @@ struct DetectArguments {
   std::string out;
   ConfigArguments config;
   ImageArguments images;
-  bool force = false, overlays = false;
+  bool force = false, overlays = false, no_check = false;
   int threads = HardwareThreads();
 };
 
@@ -48,6 +49,8 @@ void AddOptions(CLI::App& command, DetectArguments& a) {
                    "and OUT/overlays: the left images with boxes and cuboids");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--no-check", a.no_check,
+                   "do not test the dataset for mistakes (sslcd_run check)");
   AddThreads(command, a.threads);
 }
 
@@ -159,6 +162,7 @@ int Detect(DetectArguments& a, const Console& console) {
                 "--overlays show detections: name a detector (--detector) or boxes (--boxes), or "
                 "leave it out");
   Dataset dataset = LoadWithoutDetections(a.request);
+  if (!a.no_check) WarnOfMistakes(a.request, dataset);
   CheckOutput(a, dataset);
   const fs::path out = a.out;
   PrepareSequenceFolder(out, a.force);

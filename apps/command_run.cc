@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "check_dataset.h"
 #include "commands.h"
 #include "datasets/run_folder.h"
 #include "eval/kitti_ground_truth.h"
@@ -35,7 +36,7 @@ struct RunArguments {
   ConfigArguments config;
   ImageArguments images;
   MapArguments map;
-  bool json = false, force = false, report = false;
+  bool no_check = false, json = false, force = false, report = false;
   int threads = HardwareThreads();
 };
 
@@ -61,6 +62,8 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_flag("--report", a.report, "and OUT/report.html, see 'sslcd_run report'");
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--no-check", a.no_check,
+                   "do not test the dataset for mistakes (sslcd_run check)");
   AddThreads(command, a.threads);
   command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
 }
@@ -79,6 +82,7 @@ Dataset Load(RunArguments& a, const Console& console) {
                                                                  : ScoreKind::kLogit;
   Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
+  if (!a.no_check) WarnOfMistakes(a.request, dataset);
   std::string line = dataset.name + ": " + dataset.format +
                      (a.request.format == "auto" ? " (guessed), " : ", ") +
                      std::to_string(dataset.frames.size()) + " frames, " +

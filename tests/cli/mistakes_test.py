@@ -100,6 +100,19 @@ class Mistakes(unittest.TestCase):
             simulate(folder, kind, '--seed', str(seed), *(['--case', str(seed)] if kind == 'halv' else []))
             self.assertEqual(check(folder), [], folder)
 
+    def test_a_run_warns_and_is_otherwise_the_same(self):
+        simulate(self.root + '/sound', 'halv', '--case', '4', '--seed', '7')
+        sequence = Sequence(self.root + '/sound')
+        MISTAKES['inverse poses'][1](sequence)
+        sequence.write(self.root + '/data')
+        warned = call('run', self.root + '/data', '--out', self.root + '/a')
+        silent = call('run', self.root + '/data', '--out', self.root + '/b', '--no-check')
+        self.assertEqual((warned.returncode, silent.returncode), (0, 0), warned.stderr + silent.stderr)
+        self.assertIn('check: inverse_poses', warned.stderr)
+        self.assertNotIn('check:', silent.stderr)
+        for name in ['trajectory_tum.txt', 'map.json', 'loops.csv', 'metrics.json']:
+            self.assertEqual(read(f'{self.root}/a/{name}'), read(f'{self.root}/b/{name}'), name)
+
     def test_says_what_cannot_be_tested(self):
         os.makedirs(self.root + '/data')
         with open(self.root + '/data/odometry.txt', 'w') as file:
