@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kUnknownShare = 0.9;  // of rows with one and the same alpha
 constexpr int kMostRows = 1000;
-constexpr double kNear = 0.5;  // [m] in front of the camera
-constexpr double kBorder = 2;  // [px] boxes that end here are cut
+constexpr double kNearPlane = 0.5;  // [m] in front of the camera
+constexpr double kBorder = 2;       // [px] boxes that end here are cut
 
 /// Whether a box is cut by the image, or may be where its size is unknown.
 bool IsCut(const Box2d& box, const Camera& camera) {
@@ -65,7 +65,7 @@ std::optional<double> MedianIou(const Sequence& sequence, const CuboidChange& ch
   const std::size_t stride = 1 + sequence.rows.size() / kMostRows;
   std::vector<double> ious;
   for (std::size_t i = 0; i < sequence.rows.size(); i += stride) {
-    if (!(sequence.rows[i].detection.T_cam_object.translation().z() > kNear)) continue;
+    if (!(sequence.rows[i].detection.T_cam_object.translation().z() > kNearPlane)) continue;
     Row row = sequence.rows[i];
     Camera camera = *sequence.camera;
     if (change) change(row, camera);

@@ -12,10 +12,10 @@
 namespace sslcd::check {
 namespace {
 
-constexpr std::size_t kLeastSized = 20, kLeastPlaced = 50, kLeastNumbered = 10;
-constexpr double kLargestSide = 100;   // [m]
-constexpr double kLargestInCm = 1000;  // a car of 4.5 m is 450 cm or 4500 mm long
-constexpr double kFarthest = 300;      // sides
+constexpr std::size_t kLeastSized = 20, kLeastCuboids = 50, kLeastNumbered = 10;
+constexpr double kLargestSide = 100;     // [m]
+constexpr double kLargestInCm = 1000;    // a car of 4.5 m is 450 cm or 4500 mm long
+constexpr double kFarthestCuboid = 300;  // sides
 constexpr double kFlat = 0.3, kHeight = 3, kWide = 5, kLow = 1;  // of coordinates [m]
 
 Vec3 Placed(const Row& row) { return ReadCuboid(row.detection).bottom; }
@@ -97,7 +97,7 @@ Outcome CheckCuboidUnits(const Sequence& sequence) {
   const std::string measured =
       "cuboids of " + Metres(side) + " at " + Metres(range) + " from the camera (medians)";
   const double size_factor = side <= kLargestSide ? 1 : side <= kLargestInCm ? 0.01 : 0.001;
-  const double farthest = kFarthest * std::max(1., side * size_factor);
+  const double farthest = kFarthestCuboid * std::max(1., side * size_factor);
   double factor = 1;  // of places
   if (range > farthest) factor = size_factor < 1 ? size_factor : 0.01;
   if (range * factor > farthest) factor = 0.001;
@@ -118,8 +118,8 @@ Outcome CheckCuboidUnits(const Sequence& sequence) {
 }
 
 Outcome CheckDetectionAxes(const Sequence& sequence) {
-  if (sequence.rows.size() < kLeastPlaced)
-    return NotTestable("fewer than " + std::to_string(kLeastPlaced) + " detections");
+  if (sequence.rows.size() < kLeastCuboids)
+    return NotTestable("fewer than " + std::to_string(kLeastCuboids) + " detections");
   const double z = Coordinate(sequence, 2, 0.5), deep = Spread(sequence, 2),
                wide = Spread(sequence, 0);
   const std::string measured =

@@ -12,7 +12,7 @@
 namespace sslcd::check {
 namespace {
 
-constexpr std::size_t kLeastRows = 30;
+constexpr std::size_t kLeastHeadings = 30;
 constexpr int kLeastTurned = 30;
 constexpr double kBeyondATurn = 2 * M_PI + 0.1, kDegreesShare = 0.1;
 constexpr double kOneValue = 0.95;                       // share of rows
@@ -141,8 +141,8 @@ double Rank(const Support& s) {
 Outcome CheckHeadings(const Sequence& sequence) {
   const HeadingJudge judge(sequence);
   const std::vector<Row>& rows = judge.elongated().rows;
-  if (rows.size() < kLeastRows)
-    return NotTestable("fewer than " + std::to_string(kLeastRows) +
+  if (rows.size() < kLeastHeadings)
+    return NotTestable("fewer than " + std::to_string(kLeastHeadings) +
                        " elongated objects whose label has a heading");
   const auto count = static_cast<double>(rows.size());
   const auto share = [&](auto condition) {

@@ -16,7 +16,7 @@ constexpr double kNoLogit = 30, kMostPercent = 100;
 constexpr int kLeastOfLabel = 10, kLeastRound = 30;
 constexpr double kRound = 0.02, kRoundShare = 0.95;
 constexpr double kAnyHeading = 1.2, kSameObject = 2;  // [rad], [m]
-constexpr int kLeastSeenAgain = 20, kMostPairs = 2000;
+constexpr int kLeastSeenAgain = 20, kMostLabelPairs = 2000;
 
 std::map<std::string, std::vector<const Row*>> RowsByLabel(const Sequence& sequence) {
   std::map<std::string, std::vector<const Row*>> rows;
@@ -59,7 +59,7 @@ std::map<std::string, double> HeadingChanges(const Sequence& sequence) {
   std::map<std::string, std::pair<double, int>> sums;
   if (sequence.has_odometry)
     for (const SameObject& same :
-         SameObjects(sequence, PairsAtLag(sequence, 1, kMostPairs), kSameObject)) {
+         SameObjects(sequence, PairsAtLag(sequence, 1, kMostLabelPairs), kSameObject)) {
       auto& [sum, count] = sums[same.before->detection.label];
       sum += std::abs(
           WorldTurn(same, same.before->written.rotation_y, same.after->written.rotation_y));

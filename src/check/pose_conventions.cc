@@ -109,10 +109,10 @@ class Conventions {
 };
 
 // Set on the sequences of tests/cli/mistakes_test.py.
-constexpr double kLeastGain = 0.04;  // of the scatter's share
-constexpr double kBelowStill = 0.1;  // the other convention has to explain the motion
-constexpr double kForward = 0.9;     // mean cosine of a camera that looks ahead
-constexpr double kTie = 0.02;        // of the share: the convention that comes first is named
+constexpr double kLeastGain = 0.04;    // of the scatter's share
+constexpr double kBelowStill = 0.1;    // the other convention has to explain the motion
+constexpr double kForwardShare = 0.9;  // mean cosine of a camera that looks ahead
+constexpr double kTie = 0.02;          // of the share: the convention that comes first is named
 constexpr double kUpsideDown = 0.03;
 constexpr std::size_t kMostSteps = 400;
 
@@ -134,7 +134,8 @@ Candidate BestConvention(const Sequence& sequence, const StaticObjects& objects,
   Candidate best;
   for (const PoseConvention& convention : PoseConventions()) {
     // traffic that overtakes looks like a camera that moves backward
-    if (forward > kForward && ForwardShare(sequence, convention.correct).value_or(0) < kForward)
+    if (forward > kForwardShare &&
+        ForwardShare(sequence, convention.correct).value_or(0) < kForwardShare)
       continue;
     Scatter scatter =
         ScatterOf(objects.pairs, MotionsOf(sequence.poses, convention.correct), objects.cap_m);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kNanoStep = 1e7, kMicroStep = 1e4, kMilliStep = 15;  // of stamps
 constexpr double kStill = 0.03, kFastest = 150, kUsual = 60;          // [m/s]
 constexpr int kLeastSteps = 15;
-constexpr double kMostRatio = 0.6, kFar = 0.6;  // as in pose_conventions.cc
+constexpr double kMostRatio = 0.6, kFar = 0.6;  // of shares of the scatter
 
 double MedianStep(const Sequence& sequence) {
   std::vector<double> steps;

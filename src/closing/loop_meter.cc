@@ -19,7 +19,7 @@ constexpr int kCamerasTried = 3;
 constexpr double kFurtherBack = 10.;
 // Path on either side of a camera over which cameras are upright on average. [m]
 constexpr double kLevelReach = 20.;
-constexpr double kLeastTilt = 1e-9;  // a smaller tilt is rounding error [rad]
+constexpr double kRoundingTilt = 1e-9;  // a smaller tilt is rounding error [rad]
 
 // Path lengths of the first and the last common object. [m]
 std::pair<double, double> SeenBetween(const CommonObjects& common) {
@@ -141,7 +141,7 @@ Pose LoopMeter::LevelFrame(int frame) const {
       up += frames_[f].T_world_cam.so3() * up_in_cam;
     }
   const Vec3 axis = up.cross(gravity_.up);
-  if (axis.norm() < kLeastTilt) return {};
+  if (axis.norm() < kRoundingTilt) return {};
   const auto turn =
       lie::SO3<double>::Exp(Vec3(std::atan2(axis.norm(), up.dot(gravity_.up)) * axis.normalized()));
   const Vec3 pivot = frames_[frame].T_world_cam.translation();
