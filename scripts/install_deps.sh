@@ -16,9 +16,9 @@ build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libfl
        libyaml-cpp-dev libpugixml-dev libsqlite3-dev nlohmann-json3-dev libcli11-dev libspdlog-dev
        libopencv-core-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libopencv-video-dev
        libopencv-features2d-dev libopencv-calib3d-dev libjs-three libjs-chart.js)
-ros=(libroscpp-dev libnav-msgs-dev libstd-srvs-dev libtf2-msgs-dev libvisualization-msgs-dev
-     python3-roslaunch rosout python3-rospy python3-nav-msgs python3-std-srvs python3-tf2-msgs
-     python3-visualization-msgs)
+ros=(libroscpp-dev libnav-msgs-dev libsensor-msgs-dev libstd-srvs-dev libtf2-msgs-dev
+     libvisualization-msgs-dev python3-roslaunch rosout python3-rospy python3-nav-msgs
+     python3-std-srvs python3-tf2-msgs python3-visualization-msgs)
 python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
       libembree-dev chromium python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
