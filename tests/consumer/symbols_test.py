@@ -10,6 +10,8 @@ from pathlib import Path
 
 # Private functions of sslcd::sslcd that sslcd::vision calls.
 FOR_VISION = {"ProjectCuboid", "ReadBoxes", "ReadFileBytes", "ReadNpy"}
+# Private functions and classes of sslcd::sslcd that sslcd::store uses.
+FOR_STORE = {"Explain", "Gallery", "Hexadecimal", "Sha256", "Sightings", "UtcTime"}
 OURS = re.compile(r"_Z(N|NK|TIN|TSN|TVN)5sslcd")  # the symbol's name: in namespace sslcd, or typeinfo or vtable of it
 
 
@@ -20,7 +22,7 @@ def output(*command, **options):
 def is_declared(mangled, plain):
     """Whether the headers have the names of a symbol: its class, if any, and its own."""
     names = set(re.findall(r"\w+", re.search(r"sslcd::(\w+(::[\w~]+)?)", plain).group(1))) if OURS.match(mangled) else ()
-    return bool(names) and (names <= DECLARED or names <= FOR_VISION)
+    return bool(names) and (names <= DECLARED or names <= FOR_VISION or bool(names & FOR_STORE))
 
 
 headers = "\n".join(path.read_text(encoding="utf-8") for path in sorted(Path(sys.argv[1]).rglob("*.h")))
