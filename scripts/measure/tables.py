@@ -3,11 +3,11 @@
 import functools
 import math
 
+from cells import LOOPS, arrow, mean, note, number, percent, role, table
 from pairs import CITY_OBJECTS
+from session_tables import (change, change_still, relocalise, relocalise_halv, sessions,
+                            sessions_halv)
 
-LOOPS = {'loops/victoria-park': 'Victoria Park', 'loops/kitti-odometry-poles/00': 'poles 00',
-         'loops/kitti-odometry-poles/02': 'poles 02', 'loops/kitti-odometry-poles/05': 'poles 05',
-         'loops/forest-evo-fwd': 'forest Evo', 'loops/forest-venman3-fwd': 'forest Venman'}
 LIDAR, STEREO = 'kitti/det_pointrcnn_car/', 'kitti/det_stereo_grade_car/'
 SCENES = ['street', 'lot']
 CASES = [1, 2, 3, 4]
@@ -16,38 +16,6 @@ PAPER_ATE = {'case 1': 0.501, 'case 2': 0.550, 'case 3': 0.368, 'case 4': 0.161}
 KNOWN, FRESH = 'halv/seeds 1-10', 'halv/seeds 11-20'
 BENCH = {'bench/all': 'sslcd_run bench all',
          'bench/images': 'sslcd_run bench viewpoint --images IMAGES'}
-
-
-def table(header, rows):
-    lines = [header, ['---'] * len(header), *rows]
-    return ''.join('| ' + ' | '.join(str(cell) for cell in line) + ' |\n' for line in lines)
-
-
-def number(value, digits=2):
-    return '-' if value is None else f'{value:.{digits}f}'
-
-
-def percent(value):
-    return '-' if value is None else f'{100 * value:.1f} %'
-
-
-def arrow(before, after, digits=2):
-    return '-' if after is None else f'{number(before, digits)} -> {number(after, digits)}'
-
-
-def mean(values):
-    values = list(values)
-    return sum(values) / len(values)
-
-
-def note(entries, command='scripts/measure.sh'):
-    """The commit and date of the figures of a table."""
-    commits = sorted({f'{entry["commit"]}, {entry["date"]}' for entry in entries})
-    return '\nCommit ' + '; '.join(commits) + f': `{command}`.\n'
-
-
-def role(entry):
-    return {'development': 'yes', 'held-out': 'no'}[entry['role']]
 
 
 def loops(sets):
@@ -180,100 +148,6 @@ def stream(sets):
               'longest [ms]', 'frames dropped', 'loops and ATE [m] after the last frame',
               'after a last Refine()', 'memory per frame [KiB]']
     return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only stream')
-
-
-def sessions(sets):
-    entries = {name: sets['sessions/' + name.removeprefix('loops/')] for name in LOOPS
-               if 'sessions/' + name.removeprefix('loops/') in sets}
-    orders = [order for order in next(iter(entries.values()))['figures'] if order != '1']
-    rows = []
-    for name, entry in entries.items():
-        f = entry['figures']
-        whole = f['1']
-        ate = [f'{number(f[order]["ATE_m"])} ({number(f[order]["horizontal_m"])})'
-               for order in orders]
-        joined = [f[order]['frames'] == whole['frames'] for order in orders]
-        rows.append([LOOPS[name], role(entry),
-                     f'{number(whole["ATE_m"])} ({number(whole["horizontal_m"])})', *ate,
-                     ', '.join('all' if one else 'some' for one in joined),
-                     sum(round(f[order]['wrong']) for order in orders)])
-    header = ['drive', 'chosen on it', 'whole: ATE (horizontal) [m]',
-              *(f'order {order}' for order in orders), 'joined', 'wrong loops, three orders']
-    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only sessions')
-
-
-def sessions_halv(sets):
-    entries = {title: sets['sessions/HALV-sim ' + which]
-               for which, title in (('halv', 'site'), ('copy', 'site, then its copy'))
-               if 'sessions/HALV-sim ' + which in sets}
-    rows = [[title, f['sessions'], f'{f["near"]} ({percent(f["near"] / f["sessions"])})',
-             f['wrong'], f['to_copy']]
-            for title, f in ((title, entry['figures']) for title, entry in entries.items())]
-    header = ['in the map', 'sessions', 'a loop within 50 m', 'with a wrong loop',
-              'with a loop to or from the copy']
-    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only sessions')
-
-
-def change(sets):
-    rows = []
-    for churn in ('0.3', '0.6'):
-        entry = sets.get(f'change/HALV-sim {churn}')
-        layouts = dict(entry['figures']) if entry else {}
-        if layouts:
-            layouts['both'] = {key: sum(f[key] for f in layouts.values())
-                               for key in next(iter(layouts.values()))}
-        for layout, f in layouts.items():
-            row = [percent(float(churn)), layout, f'{f["joined"]} of {f["maps"]}']
-            for what in ('departures', 'arrivals'):
-                found, wrong = f[f'{what}_found'], f[f'wrong_{what}']
-                row += [f[what], number(found / (found + wrong), 3), number(found / f[what], 3)]
-            rows.append(row)
-    header = ['replaced', 'layout', 'maps with all sessions joined', 'departures', 'precision',
-              'recall', 'arrivals', 'precision', 'recall']
-    entries = [entry for name, entry in sets.items() if name.startswith('change/HALV-sim')]
-    return table(header, rows) + note(entries, 'scripts/measure.sh --only change')
-
-
-def change_still(sets):
-    entries = {name: sets['change/' + name.removeprefix('loops/')] for name in LOOPS
-               if 'change/' + name.removeprefix('loops/') in sets}
-    rows = [[LOOPS[name], role(entry), entry['figures']['places'], entry['figures']['in_view_twice'],
-             entry['figures']['departures'], entry['figures']['arrivals']]
-            for name, entry in entries.items()]
-    header = ['drive', 'chosen on it', 'places', 'in view of two successive sessions',
-              'false departures', 'false arrivals']
-    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only change')
-
-
-def relocalise(sets):
-    entries = {name: sets['relocalise/' + name.removeprefix('loops/')] for name in LOOPS
-               if 'relocalise/' + name.removeprefix('loops/') in sets}
-    rows = []
-    for name, entry in entries.items():
-        f = entry['figures']
-        rows.append([LOOPS[name], role(entry), round(f['landmarks']),
-                     f'{f["found"]:.0f} of {f["sharing"]:.0f}',
-                     f'{f["found_elsewhere"]:.0f} of {f["elsewhere"]:.0f}', round(f['wrong']),
-                     number(f['path_m'], 0), number(f['error_m']), number(f['p95_ms'], 1)])
-    header = ['drive', 'chosen on it', 'landmarks', 'stretches in the map: found',
-              'stretches elsewhere: found', 'wrong answers', 'path to the answer, median [m]',
-              'its error, median [m]', 'an attempt, p95 [ms]']
-    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only relocalise')
-
-
-def relocalise_halv(sets):
-    entries = {(title, churn): sets[f'relocalise/HALV-sim {which} {churn}']
-               for which, title, churn in (('halv', 'site', '0.3'), ('halv', 'site', '0.6'),
-                                           ('copy', 'site and its copy', '0.3'))
-               if f'relocalise/HALV-sim {which} {churn}' in sets}
-    rows = []
-    for (title, churn), entry in entries.items():
-        f = entry['figures']
-        rows.append([title, percent(float(churn)), f['sessions'], f['found'],
-                     f'{f["near"]} ({percent(f["near"] / f["sessions"])})', f['wrong']])
-    header = ['in the map', 'cars replaced', 'sessions', 'found', 'found within 50 m',
-              'with a wrong answer']
-    return table(header, rows) + note(entries.values(), 'scripts/measure.sh --only relocalise')
 
 
 def halv_ate(sets):

@@ -12,7 +12,8 @@ import tempfile
 import unittest
 
 from cli_case import binaries, call, main, read
-from mistakes import KITTI_MISTAKES, MISTAKES, SIMULATED_MISTAKES, Sequence, quaternion
+from mistakes import KITTI_MISTAKES, MISTAKES, SIMULATED_MISTAKES
+from sequence_numbers import Sequence, quaternion
 
 FOUND = 6
 DATA = os.environ.get('SSLCD_DATA_DIR', os.path.join(os.path.dirname(__file__), '../../../shared/data'))
