@@ -12,9 +12,22 @@
 namespace sslcd::apps {
 namespace {
 
+// Whether row i of the true poses is that of frame i, as far as there are rows: then frames and
+// rows can be compared.
+bool IsByFrame(const EvaluationInput& input) {
+  if (!input.groundtruth_has_stamps) return true;
+  const std::vector<double>& stamps = input.groundtruth->stamps;
+  for (std::size_t i = 0; i < input.estimate.size(); ++i) {
+    const std::size_t row = input.frames.empty() ? i : static_cast<std::size_t>(input.frames[i]);
+    if (row >= stamps.size()) break;
+    if (!(std::abs(stamps[row] - input.estimate.stamps[i]) < 1e-3)) return false;
+  }
+  return true;
+}
+
 // Pairs an estimate with the ground truth: by stamp if both have stamps, otherwise by frame number.
 MatchedPoses Pair(const Trajectory& estimate, const EvaluationInput& input) {
-  if (input.groundtruth_has_stamps) return MatchByStamp(estimate, *input.groundtruth);
+  if (!IsByFrame(input)) return MatchByStamp(estimate, *input.groundtruth);
   MatchedPoses matched;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
     const std::size_t row = input.frames.empty() ? i : static_cast<std::size_t>(input.frames[i]);
@@ -81,14 +94,6 @@ void AddMapErrors(const EvaluationInput& input, Metrics& metrics) {
   metrics.emplace_back("driving_in_map", map.driving_in_map);
 }
 
-// Whether row i is the pose of frame i. Only then the true pose of a loop is known.
-bool IsByFrame(const Trajectory& groundtruth, const std::vector<Frame>& frames) {
-  if (groundtruth.size() < frames.size()) return false;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    if (!(std::abs(groundtruth.stamps[i] - frames[i].stamp) < 1e-3)) return false;
-  return true;
-}
-
 void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
   SequenceRun run;
   run.estimate = ByFrame(input.estimate, input.frames);
@@ -120,17 +125,18 @@ void AddSequenceErrors(const EvaluationInput& input, Metrics& metrics) {
 Metrics Evaluate(const EvaluationInput& input) {
   Metrics metrics;
   if (input.groundtruth) AddTrajectoryErrors(input, metrics);
-  if (!input.labels_path.empty() && input.map != nullptr && input.detections != nullptr) {
-    if (input.groundtruth)
+  const bool has_map = input.map != nullptr && input.detections != nullptr;
+  if (!input.labels_path.empty() && has_map) {
+    if (input.groundtruth && IsByFrame(input))
       AddMapErrors(input, metrics);
     else
-      Log(LogLevel::kWarning, input.labels_path +
-                                  ": no ground-truth poses, so the map is not compared with these "
-                                  "labels (--groundtruth)");
+      Log(LogLevel::kWarning,
+          input.labels_path +
+              ": no ground-truth poses of the frames, so the map is not compared "
+              "with these labels (--groundtruth)");
   }
-  if (!input.identities.empty() && input.groundtruth && input.odometry && input.map != nullptr &&
-      input.detections != nullptr) {
-    if (IsByFrame(*input.groundtruth, *input.detections))
+  if (!input.identities.empty() && input.groundtruth && input.odometry && has_map) {
+    if (IsByFrame(input) && input.groundtruth->size() >= input.detections->size())
       AddSequenceErrors(input, metrics);
     else
       Log(LogLevel::kWarning, "the ground truth has no pose for each frame: loops are not judged");

@@ -9,6 +9,7 @@
 #include "core/turning_axis.h"
 #include "datasets/dataset_images.h"
 #include "datasets/dataset_layout.h"
+#include "datasets/groundtruth.h"
 #include "datasets/oxts.h"
 #include "datasets/sequence_yaml.h"
 #include "datasets/stamps.h"
@@ -301,20 +302,9 @@ void DatasetLoader::AddGroundtruth() {
          "camera");
     return;
   }
-  PoseFile file = ReadPoses(layout_.groundtruth, calibration_);
-  Trajectory& trajectory = file.trajectory;
-  if (file.format == PoseFormat::kKitti) {
-    if (trajectory.size() != frames_in_file_) {
-      Warn(layout_.groundtruth + ": " + std::to_string(trajectory.size()) +
-           " ground-truth poses for " + std::to_string(frames_in_file_) +
-           " frames; row i is taken as frame i");
-    }
-    trajectory.poses.resize(std::min(trajectory.size(), out_.frames.size()));
-    trajectory.stamps.clear();
-    for (std::size_t i = 0; i < trajectory.size(); ++i)
-      trajectory.stamps.push_back(out_.frames[i].stamp);
-  }
-  out_.groundtruth = std::move(trajectory);
+  out_.groundtruth =
+      GroundtruthOfFrames(ReadPoses(layout_.groundtruth, calibration_), layout_.groundtruth,
+                          out_.frames, frames_in_file_, out_.warnings);
   out_.groundtruth_path = layout_.groundtruth;
 }
 

@@ -60,7 +60,8 @@ struct Dataset {
   /// csv
   Vec3 up_axis{0, -1, 0};
   LabelTable labels;
-  /// T_world_cam; poses without stamps get those of the frames
+  /// T_world_cam, with stamps of the frames' clock (poses without stamps get those of the frames);
+  /// none: there is no file, or its stamps are of another clock (a warning)
   std::optional<Trajectory> groundtruth;
   /// resolved paths; empty: there is none
   std::string odometry_path, detections_path, groundtruth_path;
