@@ -2,8 +2,6 @@
 #include "bench_tables.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -12,6 +10,7 @@
 #include "benchmark/foreign.h"
 #include "benchmark/halv_tables.h"
 #include "benchmark/results.h"
+#include "progress.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
@@ -237,18 +236,10 @@ class Bench {
   std::vector<TrialResult> RunAll(const std::vector<Trial>& trials, int threads) {
     benchmark::TrialHooks hooks;
     hooks.stop = Interrupted;
-    const auto start = std::chrono::steady_clock::now();
-    int first = -1;
-    hooks.progress = [&](int done, int total) {
-      if (first < 0) first = done - 1;
-      const double passed =
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      const double left = passed / (done - first) * (total - done);
-      console_.Status("run " + std::to_string(done) + "/" + std::to_string(total) + ", " +
-                      Number("%.0f", std::ceil(left / 60)) + " min left");
-    };
+    Progress runs(console_, "run");
+    hooks.progress = [&runs](int done, int total) { runs.Report(done, total); };
     auto results = RunTrials(trials, folder_, threads, hooks);
-    console_.EndProgress();
+    console_.EndStatus();
     if (!results) throw BenchStopped();
     return std::move(*results);
   }

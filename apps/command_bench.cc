@@ -4,6 +4,7 @@
 
 #include "bench_tables.h"
 #include "commands.h"
+#include "examples.h"
 #include "threads.h"
 
 namespace sslcd::apps {
@@ -18,7 +19,7 @@ int RunBench(BenchArguments& arguments, const Console& console) {
   try {
     RunBenchTables(arguments, console);
   } catch (const BenchStopped&) {
-    console.EndProgress();
+    console.EndStatus();
     console.Say("interrupted: the same command goes on from here");
     return InterruptCode();
   }
@@ -103,6 +104,8 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
   AddThreads(*command, a->threads, 0,
              "runs at a time; the figures but times do not depend on it; 0: all cores");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  command->footer(Examples({"bench table2 --seeds 2 --cases 1,2 --methods sslcd,paper",
+                            "bench viewpoint --viewpoints 150-180 --out runs/viewpoint"}));
   return [a, &console] {
     console.InstallLog();
     return RunBench(*a, console);

@@ -7,6 +7,7 @@
 #include "check_dataset.h"
 #include "commands.h"
 #include "datasets/sequence_writer.h"
+#include "examples.h"
 #include "overwriting.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -36,12 +37,10 @@ void AddOptions(CLI::App& command, CheckArguments& a) {
                      "cannot be corrected");
   command.add_flag("--json", a.json, "print JSON");
   command.add_flag("--mistakes", a.mistakes, "print what is tested as a Markdown table, and end");
-  command.footer(
-      "Exit code 6: a mistake was found.\n\n"
-      "Examples:\n"
-      "  sslcd_run check my_sequence\n"
-      "  sslcd_run check kitti --sequence 0007 --detections det --odometry poses\n"
-      "  sslcd_run check my_sequence --fix corrected && sslcd_run run corrected");
+  command.footer("Exit code 6: a mistake was found.\n\n" +
+                 Examples({"check my_sequence",
+                           "check kitti/training --sequence 0007 --detections det --odometry poses",
+                           "check my_sequence --fix corrected"}));
 }
 
 int Check(CheckArguments& a, const Console& console) {

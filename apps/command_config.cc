@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "examples.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/version.h"
@@ -128,6 +129,7 @@ Command AddCheckConfigCommand(CLI::App& app, Console& console) {
       app.add_subcommand("check-config", "check a configuration file; all problems at once");
   const auto file = std::make_shared<std::string>();
   command->add_option("FILE", *file, "YAML file")->required();
+  command->footer(Examples({"check-config mine.yaml", "check-config runs/monday/config.yaml"}));
   return [file, &console] {
     ConfigArguments arguments;
     arguments.file = *file;
@@ -145,6 +147,8 @@ Command AddDumpConfigCommand(CLI::App& app, Console&) {
   arguments->AddTo(*command);
   command->add_flag("--markdown", *markdown, "as the tables of docs/configuration.md");
   command->add_flag("--everyday", *everyday, "only the keys that users turn every day");
+  command->footer(
+      Examples({"dump-config --everyday", "dump-config --mode paper --set ba.max_iterations=5"}));
   return [arguments, markdown, everyday] {
     Configuration all = arguments->Load();
     const std::string text =
@@ -162,9 +166,15 @@ std::string Commit() { return SSLCD_COMMIT; }
 
 Command AddVersionCommand(CLI::App& app) {
   app.set_version_flag("--version", VersionText());
-  app.add_subcommand("version", "print the version and the commit");
-  return [] {
-    std::printf("%s\n", VersionText().c_str());
+  CLI::App* command = app.add_subcommand("version", "print the version and the commit");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "print JSON");
+  command->footer(Examples({"version", "version --json"}));
+  return [json] {
+    if (*json)
+      std::printf("{\"version\": \"%s\", \"commit\": \"%s\"}\n", SSLCD_VERSION, SSLCD_COMMIT);
+    else
+      std::printf("%s\n", VersionText().c_str());
     return 0;
   };
 }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "check_dataset.h"
 #include "commands.h"
 #include "datasets/sequence_writer.h"
+#include "examples.h"
 #include "from_images.h"
 #include "image_loader.h"
 #include "overlay.h"
 #include "overwriting.h"
+#include "progress.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -25,7 +28,7 @@ struct DetectArguments {
   std::string out;
   ConfigArguments config;
   ImageArguments images;
-  bool force = false, overlays = false, no_check = false;
+  bool force = false, overlays = false, no_check = false, json = false;
   int threads = HardwareThreads();
 };
 
@@ -123,6 +126,7 @@ void CheckOutput(const DetectArguments& a, const Dataset& dataset) {
 std::optional<Error> CollectFrames(ImageFrontend& frontend, int total, const Console& console,
                                    SequenceFiles& files) {
   std::optional<Error> failure;
+  Progress progress(console, "frame");
   CatchInterrupt();
   while (!Interrupted()) {
     std::optional<Frame> frame = NextFrame(frontend, files.detections.size(), failure);
@@ -130,9 +134,9 @@ std::optional<Error> CollectFrames(ImageFrontend& frontend, int total, const Con
     files.odometry.stamps.push_back(frame->stamp);
     files.odometry.poses.push_back(frame->T_odom_cam);
     files.detections.push_back(std::move(frame->detections));
-    console.Progress("frame", static_cast<int>(files.detections.size()), total);
+    progress.Report(static_cast<int>(files.detections.size()), total);
   }
-  console.EndProgress();
+  console.EndStatus();
   return failure;
 }
 
@@ -200,6 +204,8 @@ int Detect(DetectArguments& a, const Console& console) {
   files.config_yaml = ResolvedConfig(configuration, request);
   WriteSequenceFiles(out, files);
   overlays.RemoveOthers();
+  WarnOfFrontend(report);
+  if (a.json) std::fputs(FrontendJson(report).c_str(), stdout);
   console.Say(FrontendTable(report) + "\n\n" + TimingText(report.timing) + "\n\n" +
               Written(a.out, odometry_alone));
   if (failure) {
@@ -219,7 +225,12 @@ Command AddDetectCommand(CLI::App& app, Console& console) {
   AddOptions(*command, *arguments);
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
   command->add_flag("-v,--verbose", console.verbose, "print more");
+  command->add_flag("--json", arguments->json, "print the counts as JSON and nothing else");
+  command->footer(Examples({"detect my_images --detector yolo11.yaml --out found",
+                            "detect my_images --boxes boxes.txt --overlays --out found",
+                            "detect my_images --odometry stereo --out odometry"}));
   return [arguments, &console] {
+    if (arguments->json) console.quiet = true;
     console.InstallLog();
     return Detect(*arguments, console);
   };

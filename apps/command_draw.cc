@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
 #include "png_drawing.h"
 #include "report/draw_run.h"
@@ -50,7 +51,9 @@ Command AddDrawCommand(CLI::App& app, Console& console) {
       command->add_flag("--before-after", a->options.before_after,
                         "two maps: the loops on the odometry, and on the corrected trajectory");
   loop->excludes(loops)->excludes(both);
-  command->footer("Example: sslcd_run draw runs/mine --out map.png --before-after");
+  command->footer(
+      Examples({"draw runs/monday --out map.svg", "draw runs/monday --out map.png --before-after",
+                "draw runs/monday --loop 380 --out loop.svg"}));
   return [a, &console] {
     console.InstallLog();
     return Draw(*a, console);

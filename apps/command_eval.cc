@@ -5,6 +5,7 @@
 #include "commands.h"
 #include "datasets/run_folder.h"
 #include "evaluation.h"
+#include "examples.h"
 #include "sslcd/core/error.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/formats/poses.h"
@@ -70,6 +71,8 @@ Command AddEvalCommand(CLI::App& app, Console& console) {
   labels->needs(detections);
   detections->needs(labels);
   command->add_flag("--json", arguments->json, "print JSON");
+  command->footer(Examples({"eval runs/monday --groundtruth my_sequence/groundtruth.txt",
+                            "eval runs/monday --groundtruth my_sequence/groundtruth.txt --json"}));
   return [arguments, &console] {
     console.InstallLog();
     return Eval(*arguments, console);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
 #include "formats/g2o.h"
 #include "formats/metrics_json.h"
@@ -166,6 +167,8 @@ Command AddGraphCommand(CLI::App& app, Console& console) {
   AddThreads(*command, arguments->threads);
   command->add_flag("--json", arguments->json, "print JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  command->footer(Examples({"graph runs/monday/graph.g2o --out optimised.g2o",
+                            "graph sphere.g2o --out kept.g2o --robust --json"}));
   return [arguments, &console] {
     console.InstallLog();
     return Graph(*arguments, console);

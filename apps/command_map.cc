@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "core/sha256.h"
+#include "examples.h"
 #include "map_diff.h"
 #include "map_export/export_map.h"
 #include "sslcd/core/error.h"
@@ -96,12 +97,18 @@ int PrintInfo(const MapCommandArguments& a, const Console& console) {
 
 int Verify(const MapCommandArguments& a, const Console& console) {
   const std::vector<std::string> problems = MapStore(a.file).Verify();
-  for (const std::string& problem : problems) console.Say(problem);
+  if (a.json) {
+    const nlohmann::ordered_json json = {{"ok", problems.empty()}, {"problems", problems}};
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    std::printf("%s\n", json.dump(2, ' ', false, replace).c_str());
+  }
+  for (const std::string& problem : problems)
+    if (!a.json) console.Say(problem);
   if (!problems.empty())
     throw Error(ErrorKind::kBadInput,
                 a.file + ": is damaged: " + problems.front() +
                     "; restore a copy, or build the map again from its drives");
-  console.Say(a.file + ": ok");
+  if (!a.json) console.Say(a.file + ": ok");
   return 0;
 }
 
@@ -148,24 +155,35 @@ using MapFunction = int (*)(const MapCommandArguments&, const Console&);
 struct MapSubcommand {
   const char *name, *meaning;
   MapFunction run;
+  std::string examples;
 };
-constexpr MapSubcommand kMapSubcommands[] = {
-    {"info", "what a map holds", PrintInfo},
-    {"verify", "read all of a map and compare it with its checksums", Verify},
-    {"export", "write the results as the files of a run folder", Export},
-    {"diff", "what has changed between two sessions", Diff},
-    {"compact", "update an older schema and return unused space to the disk", Compact},
-    {"end", "end a session that was interrupted, with the frames that it has", End}};
+const MapSubcommand kMapSubcommands[] = {
+    {"info", "what a map holds", PrintInfo,
+     Examples({"map info site.db", "map info site.db --json"})},
+    {"verify", "read all of a map and compare it with its checksums", Verify,
+     Examples({"map verify site.db", "map verify site.db --json"})},
+    {"export", "write the results as the files of a run folder", Export,
+     Examples({"map export site.db --out site",
+               "map export site.db --out site --origin 49.01,8.43,120"})},
+    {"diff", "what has changed between two sessions", Diff,
+     Examples(
+         {"map diff site.db", "map diff site.db --from monday --to tuesday --csv changes.csv"})},
+    {"compact", "update an older schema and return unused space to the disk", Compact,
+     Examples({"map compact site.db"})},
+    {"end", "end a session that was interrupted, with the frames that it has", End,
+     Examples({"map end site.db"})}};
 
 }  // namespace
 
 Command AddMapCommand(CLI::App& app, Console& console) {
   CLI::App* command = app.add_subcommand("map", "look at a map in a file, check and export it");
   command->require_subcommand(1);
+  command->footer(Examples({"map info site.db", "map diff site.db --json"}));
   const auto arguments = std::make_shared<MapCommandArguments>();
   for (const MapSubcommand& row : kMapSubcommands) {
     CLI::App* one = command->add_subcommand(row.name, row.meaning);
     one->add_option("MAP", arguments->file, "file of the map")->required();
+    one->footer(row.examples);
     one->add_flag("-q,--quiet", console.quiet, "print errors only");
     if (row.run == Export) {
       one->add_option("--out", arguments->out, "folder to write")->required();
@@ -182,7 +200,8 @@ Command AddMapCommand(CLI::App& app, Console& console) {
       one->add_option("--csv", diff.csv, "file to write with a row per change");
       one->add_flag("--json", diff.json, "print JSON");
     }
-    if (row.run == PrintInfo) one->add_flag("--json", arguments->json, "print JSON");
+    if (row.run == PrintInfo || row.run == Verify)
+      one->add_flag("--json", arguments->json, "print JSON");
   }
   return [command, arguments, &console] {
     console.InstallLog();

@@ -4,17 +4,21 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.h"
 #include "core/for_each.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
+#include "formats/json_text.h"
 #include "formats/pairs.h"
 #include "loop/indexed_match.h"
 #include "loop/layout_index.h"
 #include "loop/layout_likelihood.h"
 #include "loop/paper_match.h"
 #include "overwriting.h"
+#include "progress.h"
 #include "sslcd/config/config.h"
 #include "sslcd/loop/layout_match.h"
 #include "threads.h"
@@ -44,6 +48,7 @@ struct MatchArguments {
   std::string pairs, out;
   ConfigArguments config;
   int threads = 1;
+  bool json = false;
 };
 
 MatchConfiguration Load(const ConfigArguments& arguments) {
@@ -124,11 +129,12 @@ std::vector<Answer> MatchAll(const std::vector<LayoutPair>& pairs, const Target&
                              const MatchConfiguration& configuration, int threads,
                              const Console& console) {
   std::vector<Answer> answers(pairs.size());
+  Progress progress(console, "pair");
   ForEach(
       pairs.size(), threads,
       [&](std::size_t i) { answers[i] = TimedMatch(pairs[i], target, configuration); },
-      [&](int done, int total) { console.Progress("pair", done, total); });
-  console.EndProgress();
+      [&](int done, int total) { progress.Report(done, total); });
+  console.EndStatus();
   return answers;
 }
 
@@ -148,6 +154,24 @@ std::string Csv(const std::vector<LayoutPair>& pairs, const std::vector<Answer>&
   return text;
 }
 
+std::string Json(const std::vector<LayoutPair>& pairs, const std::vector<Answer>& answers) {
+  auto list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Answer& a = answers[i];
+    list.push_back({{"pair", pairs[i].id},
+                    {"decision", ToString(a.decision)},
+                    {"yaw_rad", a.pose.yaw},
+                    {"t", {a.pose.t.x(), a.pose.t.y(), a.pose.t.z()}},
+                    {"score", a.score},
+                    {"second_score", a.second_score},
+                    {"matches", a.matches},
+                    {"looked_at", a.looked_at},
+                    {"left_out", a.left_out},
+                    {"ms", a.ms}});
+  }
+  return JsonText(list, list);
+}
+
 int Match(const MatchArguments& a, const Console& console) {
   const MatchConfiguration configuration = Load(a.config);
   RefuseOverwriting({a.pairs, a.config.file}, {a.out});
@@ -160,11 +184,11 @@ int Match(const MatchArguments& a, const Console& console) {
       target.index.emplace(*file.map, configuration.match.max_pair_m, configuration.match.reach_m);
   }
   const std::vector<Answer> answers = MatchAll(pairs, target, configuration, a.threads, console);
-  if (a.out.empty()) {
-    std::fputs(Csv(pairs, answers).c_str(), stdout);
+  if (!a.out.empty()) WriteFileAtomically(a.out, Csv(pairs, answers));
+  if (a.json || a.out.empty()) {
+    std::fputs((a.json ? Json(pairs, answers) : Csv(pairs, answers)).c_str(), stdout);
     return 0;
   }
-  WriteFileAtomically(a.out, Csv(pairs, answers));
   int count[3] = {0, 0, 0};
   for (const Answer& answer : answers) ++count[static_cast<int>(answer.decision)];
   console.Say(std::to_string(pairs.size()) + " pairs: " + std::to_string(count[2]) + " accepted, " +
@@ -184,7 +208,10 @@ Command AddMatchCommand(CLI::App& app, Console& console) {
   command->add_option("--out", arguments->out, "CSV file to write; default: standard output");
   arguments->config.AddTo(*command);
   AddThreads(*command, arguments->threads);
+  command->add_flag("--json", arguments->json, "print the answers as JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print the answers and errors only");
+  command->footer(
+      Examples({"match pairs.txt --out answers.csv", "match pairs.txt --mode paper --json"}));
   return [arguments, &console] {
     console.InstallLog();
     return Match(*arguments, console);

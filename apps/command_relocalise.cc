@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "commands.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
 #include "image_loader.h"
 #include "overwriting.h"
 #include "pipeline/frame_colours.h"
+#include "progress.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/datasets/dataset.h"
@@ -131,19 +133,20 @@ std::vector<Attempt> Localise(const RelocaliseArguments& a, const Dataset& datas
   hooks.with_image = WithImage;
   CatchInterrupt();
   std::vector<Attempt> attempts;
+  Progress progress(console, "frame");
   int done = 0;
   for (Frame frame : stretch) {
     if (Interrupted()) break;
     if (LacksColour(frame)) AddColours(frame, options.colour, hooks);
     CheckLengths(info, a.map, frame);
     std::optional<Localisation> found = localiser.AddFrame(frame);
-    console.Progress("frame", ++done, static_cast<int>(stretch.size()));
+    progress.Report(++done, static_cast<int>(stretch.size()));
     // a short stretch, or what came after the last attempt
     if (!found && done == static_cast<int>(stretch.size())) found = localiser.Attempt();
     if (found) attempts.push_back({*std::move(found), frame.stamp});
     if (a.first && !attempts.empty() && IsFound(attempts.back())) break;
   }
-  console.EndProgress();
+  console.EndStatus();
   return attempts;
 }
 
@@ -200,6 +203,9 @@ Command AddRelocaliseCommand(CLI::App& app, Console& console) {
   command->add_option("--out", a.out, "CSV file to write: a row for each attempt");
   command->add_flag("--json", a.json, "print all attempts as JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
+  command->footer(
+      Examples({"relocalise my_sequence --map site.db",
+                "relocalise my_sequence --map site.db --from 20 --frames 15 --out answers.csv"}));
   return [arguments, &console] {
     if (arguments->json) console.quiet = true;
     console.InstallLog();

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
 #include "formats/files.h"
 #include "report/report_data.h"
@@ -51,7 +52,8 @@ Command AddReportCommand(CLI::App& app, Console& console) {
   command->add_option("--out", a->out, "page to write; default: report.html in the first RUN");
   command->add_option("--groundtruth", a->groundtruth,
                       "true poses; default: those that the run was compared with");
-  command->footer("Example: sslcd_run report runs/monday runs/tuesday --out both.html");
+  command->footer(
+      Examples({"report runs/monday", "report runs/monday runs/tuesday --out both.html"}));
   return [a, &console] {
     console.InstallLog();
     const std::string out = a->out.empty() ? a->runs[0] + "/report.html" : a->out;

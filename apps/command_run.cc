@@ -9,15 +9,19 @@
 #include "datasets/run_folder.h"
 #include "eval/kitti_ground_truth.h"
 #include "evaluation.h"
+#include "examples.h"
 #include "formats/atomic_file.h"
 #include "formats/files.h"
 #include "from_images.h"
 #include "image_loader.h"
+#include "loop_lines.h"
 #include "map_run.h"
 #include "overwriting.h"
+#include "progress.h"
 #include "report/report_page.h"
 #include "report_file.h"
 #include "run_record.h"
+#include "run_tables.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -116,43 +120,6 @@ std::vector<int> IdentitiesOf(const std::string& path, const Dataset& dataset) {
   return {};
 }
 
-// A probability of improvement; zero says that nothing was judged.
-std::string Judged(double probability) {
-  return probability > 0 ? Number("%.3f", probability) : "-";
-}
-
-int Landmarks(const RunResult& result) {
-  int landmarks = 0;
-  for (const MapObject& object : result.objects)
-    landmarks += object.state == LandmarkState::kConfirmed;
-  return landmarks;
-}
-
-int LoopsOf(const RunResult& result, LoopDecision decision) {
-  int loops = 0;
-  for (const LoopClosure& loop : result.loops) loops += loop.decision == decision;
-  return loops;
-}
-
-std::string ResultTable(const RunResult& result, const Metrics& metrics) {
-  const int accepted = LoopsOf(result, LoopDecision::kAccepted);
-  std::vector<std::vector<std::string>> rows = {
-      {"frames", std::to_string(result.frames.size())},
-      {"detections used", std::to_string(result.filter.kept)},
-      {"detections dropped", std::to_string(result.filter.dropped())},
-      {"landmarks", std::to_string(Landmarks(result))},
-      {"loops accepted", std::to_string(accepted)},
-      {"loops refused", std::to_string(static_cast<int>(result.loops.size()) - accepted)},
-      {"views tied", std::to_string(result.views_tied)},
-      {"odometry scale", Number("%.4f", result.scale)},
-      {"probability better, horizontally", Judged(result.improvement.horizontal)},
-      {"probability better, in height", Judged(result.improvement.height)}};
-  for (const auto& [name, value] : metrics)
-    rows.push_back({name, value ? Number("%.4f", *value) : "-"});
-  const std::string why = accepted > 0 ? "" : "no loop: " + result.loop_search.Text() + "\n";
-  return AlignedTable(rows) + "\n" + why + "\n" + TimingText(result.timing);
-}
-
 struct Mapped {
   RunResult result;
   // the input frames: from the dataset, or completed by the frontend
@@ -174,9 +141,9 @@ std::optional<ImageFrontend> MakeFrontend(const ImageRequest& request, Dataset& 
 Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& dataset,
                  const Configuration& configuration, const Console& console) {
   const int total = static_cast<int>(dataset.frames.size());
-  const auto view_progress = [&console](int done, int count) {
-    console.Progress("view", done, count);
-  };
+  Progress views(console, "view"), frames(console, "frame");
+  LoopLines lines(console);
+  const auto view_progress = [&views](int done, int count) { views.Report(done, count); };
   const ViewAligner aligner = MakeGroundAligner(
       request, dataset, configuration.vision, FilesOf(dataset), {false, a.threads, view_progress});
   std::optional<ImageFrontend> frontend = MakeFrontend(request, dataset, configuration, a.threads);
@@ -184,7 +151,11 @@ Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& da
   const MapperContext context{
       GravityFrame::FromUp(dataset.up_axis), dataset.labels, dataset.camera, {}, aligner};
   RunHooks hooks;
-  hooks.progress = [&console](int done, int count) { console.Progress("frame", done, count); };
+  hooks.progress = [&](int done, int count) {
+    frames.Report(done, count);
+    if (done == count) console.Status("refining the map");
+  };
+  hooks.loops = [&lines](const std::vector<LoopClosure>& changed) { lines.Report(changed); };
   hooks.stop = [] { return Interrupted(); };
   // the frontend has measured the colours of its own detections
   if (!a.images.detects()) hooks.with_image = WithImage;
@@ -201,20 +172,21 @@ Mapped MapFrames(const RunArguments& a, const ImageRequest& request, Dataset& da
   };
   if (a.map.given()) {
     const auto failed = [&mapped] { return mapped.failure.has_value(); };
-    mapped.result = RunInMap(a.map, {dataset.name, a.request.path, next, total, failed}, context,
-                             configuration.options, hooks);
+    mapped.result = RunInMap(a.map, {dataset.name, a.request.path, next, total, failed, lines},
+                             context, configuration.options, hooks);
   } else {
     mapped.result = RunSequence(next, total, context, configuration.options, hooks);
     mapped.result.stopped = Interrupted();  // may have happened during view alignment
   }
   if (!frontend) {
     mapped.frames = std::move(dataset.frames);
-    console.EndProgress();
+    console.EndStatus();
     return mapped;
   }
   const FrontendReport report = frontend->Finish();
   mapped.result.timing.Append(report.timing);
-  console.EndProgress();
+  console.EndStatus();
+  WarnOfFrontend(report);
   console.Say(FrontendTable(report) + "\n");
   return mapped;
 }
@@ -323,8 +295,10 @@ int Run(RunArguments& a, const Console& console) {
   }
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);
-  console.Say(ResultTable(mapped.result, outputs.metrics));
-  console.Say("");
+  console.Say(ResultTable(mapped.result, outputs.metrics) + "\n");
+  if (LoopsOf(mapped.result, LoopDecision::kAccepted) == 0)
+    console.Say(NoLoopTable(mapped.result, configuration.options.loop, dataset.up_axis) + "\n");
+  console.Say(TimingText(mapped.result.timing) + "\n");
   for (const std::string& path : paths) console.Say("wrote " + path);
   if (a.map.given()) console.Say("wrote " + MapLine(a.map));
   if (mapped.failure) throw *mapped.failure;
@@ -338,7 +312,11 @@ Command AddRunCommand(CLI::App& app, Console& console) {
   const auto arguments = std::make_shared<RunArguments>();
   AddOptions(*command, *arguments);
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
-  command->add_flag("-v,--verbose", console.verbose, "print more");
+  command->add_flag("-v,--verbose", console.verbose,
+                    "print more: each loop that a refinement brings, refused ones too");
+  command->footer(Examples({"run my_sequence --out runs/monday",
+                            "run kitti/training --sequence 0007 --detections det --odometry poses",
+                            "run tuesday --map site.db --set loop.views.guess_m=0.5"}));
   return [arguments, &console] {
     if (arguments->json) console.quiet = true;
     console.InstallLog();

@@ -32,6 +32,22 @@ extern "C" void OnInterrupt(int number) {
 std::mutex g_warnings_mutex;
 std::vector<std::string> g_warnings;
 
+std::atomic<bool> g_status_shown{false};
+
+spdlog::level::level_enum SpdlogLevel(LogLevel level) {
+  switch (level) {
+    case LogLevel::kDebug: return spdlog::level::debug;
+    case LogLevel::kInfo: return spdlog::level::info;
+    case LogLevel::kWarning: return spdlog::level::warn;
+    case LogLevel::kError: return spdlog::level::err;
+  }
+  return spdlog::level::err;
+}
+
+void ClearStatus() {
+  if (g_status_shown.exchange(false)) std::fprintf(stderr, "\r\033[K");
+}
+
 }  // namespace
 
 std::vector<std::string> Console::Warnings() const {
@@ -47,35 +63,27 @@ void Console::InstallLog() const {
                               : spdlog::level::warn);
   SetLogSink([logger](LogLevel level, const std::string& raw) {
     const std::string message = Printable(raw);
+    if (logger->should_log(SpdlogLevel(level))) ClearStatus();
     if (level == LogLevel::kWarning) {
       const std::lock_guard<std::mutex> lock(g_warnings_mutex);
       g_warnings.push_back(message);
     }
-    switch (level) {
-      case LogLevel::kDebug: logger->debug(message); break;
-      case LogLevel::kInfo: logger->info(message); break;
-      case LogLevel::kWarning: logger->warn(message); break;
-      case LogLevel::kError: logger->error(message); break;
-    }
+    logger->log(SpdlogLevel(level), message);
   });
-}
-
-void Console::Progress(const std::string& what, int done, int total) const {
-  if (done % 10 == 0 || done == total)
-    Status(what + " " + std::to_string(done) + "/" + std::to_string(total));
 }
 
 void Console::Status(const std::string& line) const {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (!quiet && terminal) std::fprintf(stderr, "\r\033[K%s ", line.c_str());
+  if (quiet || !terminal) return;
+  std::fprintf(stderr, "\r\033[K%s ", line.c_str());
+  g_status_shown = true;
 }
 
-void Console::EndProgress() const {
-  if (!quiet && isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K");
-}
+void Console::EndStatus() const { ClearStatus(); }
 
 void Console::Say(const std::string& line) const {
   if (quiet) return;
+  ClearStatus();
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);  // also in a pipe: whoever waits there wants to know
 }

@@ -18,10 +18,10 @@ struct Console {
   /// All warnings since then, also those that `quiet` has kept from the terminal.
   std::vector<std::string> Warnings() const;
 
-  /// One line that is overwritten; only on a terminal.
-  void Progress(const std::string& what, int done, int total) const;
+  /// One line that the next one overwrites; only on a terminal.
   void Status(const std::string& line) const;
-  void EndProgress() const;
+  /// Clears it.
+  void EndStatus() const;
 
   /// A line of human-readable result; nothing when quiet.
   void Say(const std::string& line) const;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "from_images.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "console.h"
 #include "core/median.h"
+#include "formats/metrics_json.h"
 #include "image_loader.h"
 #include "sslcd/core/log.h"
 
@@ -21,6 +23,16 @@ void WarnOfGround(const GroundReport& ground) {
   if (!ground.heights_m.empty())
     message += "; that seems to be " + Number("%.2f", Median(ground.heights_m)) + " m";
   Log(LogLevel::kWarning, message);
+}
+
+Metrics Counts(const FrontendReport& report) {
+  Metrics counts = {{"frames read", report.frames},
+                    {"without images", report.images_failed},
+                    {"odometry guessed", report.lost}};
+  for (const auto& [status, count] : report.lift)
+    counts.emplace_back(std::string("boxes ") + ToString(status), count);
+  counts.emplace_back("detections", report.detections);
+  return counts;
 }
 
 }  // namespace
@@ -74,7 +86,7 @@ void ChooseOdometry(DatasetRequest& request) {
   request.odometry_policy = PartPolicy::kIgnored;
 }
 
-std::string FrontendTable(const FrontendReport& report) {
+void WarnOfFrontend(const FrontendReport& report) {
   std::string unknown;
   for (const std::string& label : report.unknown) unknown += " " + label;
   if (!unknown.empty())
@@ -82,14 +94,18 @@ std::string FrontendTable(const FrontendReport& report) {
                                 "; map them to known labels, or add sizes to a file of classes "
                                 "(vision.lift.classes; docs/models.md)");
   WarnOfGround(report.ground);
-  std::vector<std::vector<std::string>> rows = {
-      {"frames read", std::to_string(report.frames)},
-      {"without images", std::to_string(report.images_failed)},
-      {"odometry guessed", std::to_string(report.lost)}};
-  for (const auto& [status, count] : report.lift)
-    rows.push_back({std::string("boxes ") + ToString(status), std::to_string(count)});
-  rows.push_back({"detections", std::to_string(report.detections)});
+}
+
+std::string FrontendTable(const FrontendReport& report) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, count] : Counts(report)) rows.push_back({name, Number("%.0f", *count)});
   return AlignedTable(rows);
+}
+
+std::string FrontendJson(const FrontendReport& report) {
+  Metrics counts = Counts(report);
+  for (auto& [name, count] : counts) std::replace(name.begin(), name.end(), ' ', '_');
+  return MetricsJson(counts);
 }
 
 }  // namespace sslcd::apps

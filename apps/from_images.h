@@ -37,7 +37,10 @@ Configuration AdaptToImages(const ConfigArguments& config, const Configuration& 
 /// used if there is one.
 void ChooseOdometry(DatasetRequest& request);
 
-/// Counts of images, boxes and detections as a table for people.
+void WarnOfFrontend(const FrontendReport& report);
+
+/// Counts of images, boxes and detections as a table for people, and as JSON.
 std::string FrontendTable(const FrontendReport& report);
+std::string FrontendJson(const FrontendReport& report);
 
 }  // namespace sslcd::apps

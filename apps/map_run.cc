@@ -28,6 +28,15 @@ MapSession Open(const MapArguments& map, const MapDrive& drive, const MapperCont
   return session;
 }
 
+// "12" in the session that goes on, "12 of 'monday'" in another one.
+std::string FrameName(const std::vector<SessionInfo>& sessions, const SessionInfo& own, int frame) {
+  const SessionInfo* of = &own;
+  for (const SessionInfo& session : sessions)
+    if (frame < own.frame_offset && frame >= session.frame_offset) of = &session;
+  const std::string number = std::to_string(frame - of->frame_offset);
+  return of == &own ? number : number + " of '" + of->name + "'";
+}
+
 void SetResults(const MapArguments& map, const SessionInfo& info, RunResult& result) {
   MapResults session = ResultsOfSession(MapStore(map.file).Results(), info);
   if (!session.paths.empty()) {
@@ -59,7 +68,12 @@ void UseOptionsOfMap(const MapArguments& map, const ConfigArguments& config,
 
 RunResult RunInMap(const MapArguments& map, const MapDrive& drive, const MapperContext& context,
                    const Options& options, const RunHooks& hooks) {
+  std::vector<SessionInfo> sessions;
+  if (HasMap(map.file)) sessions = MapStore(map.file).Describe().sessions;
   MapSession session = Open(map, drive, context, options);
+  drive.loops.Begin(session.mapper().LoopClosures(), [sessions, own = session.info()](int frame) {
+    return FrameName(sessions, own, frame);
+  });
   RunResult result;
   int done = 0;
   while (true) {
@@ -68,7 +82,7 @@ RunResult RunInMap(const MapArguments& map, const MapDrive& drive, const MapperC
     if (!frame) break;
     if (hooks.with_image && LacksColour(*frame))
       result.images_failed += AddColours(*frame, options.colour, hooks) ? 0 : 1;
-    if (!session.IsStored(*frame)) session.AddFrame(*frame);
+    if (!session.IsStored(*frame)) hooks.loops(session.AddFrame(*frame).changes.loops);
     hooks.progress(++done, drive.total);
   }
   if (result.stopped || drive.failed()) {
@@ -77,6 +91,7 @@ RunResult RunInMap(const MapArguments& map, const MapDrive& drive, const MapperC
     return result;
   }
   if (options.refine.enabled) result.refinement = session.Refine();
+  hooks.loops(session.mapper().TakeChanges().loops);
   if (hooks.stop()) {  // then not all views are aligned; what is not stored comes again
     result.stopped = true;
     return result;

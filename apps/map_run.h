@@ -6,6 +6,7 @@
 #include <string>
 
 #include "commands.h"
+#include "loop_lines.h"
 #include "sslcd/pipeline/run.h"
 
 namespace sslcd::apps {
@@ -25,6 +26,7 @@ struct MapDrive {
   FrameSource next;
   int total = 0;                 ///< number of frames, for the progress
   std::function<bool()> failed;  ///< the source has ended because of an error
+  LoopLines& loops;
 };
 
 /// Replaces the mapper's options by those of the map, if it is there, with what the user has set

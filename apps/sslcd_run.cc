@@ -4,6 +4,7 @@
 #include <map>
 
 #include "commands.h"
+#include "examples.h"
 #include "sslcd/core/error.h"
 
 namespace {
@@ -28,10 +29,11 @@ int main(int argc, char** argv) {
       "objects and a better "
       "trajectory out.");
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad "
-      "configuration, "
-      "5 no solution, 6 a mistake in the data, 130 and 143 interrupted.");
+  app.footer(Examples({"check my_sequence", "run my_sequence --out runs/monday --report",
+                       "draw runs/monday --out map.svg", "run --help"}) +
+             "\n\nExit codes: 0 ok, 1 a result could not be written, 2 usage, 3 bad input, 4 bad "
+             "configuration, "
+             "5 no solution, 6 a mistake in the data, 130 and 143 interrupted.");
   Console console;
   const std::map<std::string, Command> commands = {
       {"run", AddRunCommand(app, console)},

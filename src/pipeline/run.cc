@@ -29,13 +29,17 @@ RunResult RunSequence(const FrameSource& next, int total, const MapperContext& c
       const ScopedTimer timer(mapper.timing(), "colour");
       result.images_failed += AddColours(*frame, options.colour, hooks) ? 0 : 1;
     }
-    result.filter += mapper.AddFrame(*frame).filter;
+    const FrameReport report = mapper.AddFrame(*frame);
+    result.filter += report.filter;
+    if (hooks.loops && !report.changes.loops.empty()) hooks.loops(report.changes.loops);
     result.frames.push_back(frame->index);
     result.odometry.stamps.push_back(frame->stamp);
     result.odometry.poses.push_back(frame->T_odom_cam);
     if (hooks.progress) hooks.progress(static_cast<int>(result.frames.size()), total);
   }
   if (options.refine.enabled) result.refinement = mapper.Refine();
+  if (const MapChanges changes = mapper.TakeChanges(); hooks.loops && !changes.loops.empty())
+    hooks.loops(changes.loops);
   result.trajectory = mapper.CameraTrajectory();
   result.graph = mapper.Graph();
   result.loops = mapper.LoopClosures();
