@@ -175,7 +175,8 @@ void DatasetLoader::AddFramesWithoutPoses() {
   if (!layout_.times.empty()) {
     stamps = layout_.read_times(layout_.times);
   } else if (!layout_.images.empty()) {
-    for (int i = 0; i < FramesOfImages(layout_.images); ++i) stamps.push_back(kKittiFrameStep * i);
+    const int frames = FramesOfImages(layout_.images);
+    for (int i = 0; i < frames; ++i) stamps.push_back(kKittiFrameStep * i);
   }
   if (stamps.empty())
     throw Error(ErrorKind::kBadInput, {request_.path},

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostFrames = 1'000'000;  // limits the frame number that an image name may have
+constexpr int kMostMissing = 10'000;  // frames without an image; more are wrong numbers
 
 std::string Text(const ImageSize& size) {
   return std::to_string(size[0]) + "x" + std::to_string(size[1]);
@@ -54,16 +54,18 @@ ImageFinder NumberedImages(int digits) {
 }
 
 int FramesOfImages(const std::string& folder) {
-  int count = 0;
+  NumberedFile last{-1, ""};
+  std::size_t images = 0;
   for (const char* ending : {".png", ".jpg"}) {
-    const std::vector<NumberedFile> images = NumberedFiles(folder, ending);
-    if (images.empty()) continue;
-    const auto& [number, path] = images.back();
-    if (number >= kMostFrames)
-      throw Error(ErrorKind::kBadInput, {path}, "is not a frame number; frames count from 000000");
-    count = std::max(count, number + 1);
+    const std::vector<NumberedFile> files = NumberedFiles(folder, ending);
+    images += files.size();
+    if (!files.empty() && files.back().number > last.number) last = files.back();
   }
-  return count;
+  if (last.number > kMostMissing && static_cast<std::size_t>(last.number - kMostMissing) > images)
+    throw Error(ErrorKind::kBadInput, {last.path},
+                "is the last of " + std::to_string(images) +
+                    " images: number them by frame, from 000000, or give times.txt");
+  return last.number + 1;
 }
 
 int ImagesAfter(const DatasetLayout& layout, std::size_t frames) {

@@ -10,7 +10,7 @@
 namespace sslcd {
 
 /// The number of frames up to the last image of the folder; missing images before it count. Throws
-/// Error(kBadInput) for a name that is not a frame number.
+/// Error(kBadInput) if more than ten thousand are missing: then the names are no frame numbers.
 int FramesOfImages(const std::string& folder);
 
 /// The number of left images that follow frame `frames` - 1 without a gap.

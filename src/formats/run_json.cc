@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "sslcd-run";
+constexpr double kMostBytes = 1LL << 53;  // what a number of JSON tells exactly
 
 Json JsonOfFile(const FileRecord& file, const char* name) {
   Json json;
@@ -34,7 +35,10 @@ FileRecord FileOf(const JsonValue& json, const char* name) {
   file.name = json.Child(name).Text();
   if (const JsonValue* role = json.Find("role")) file.role = role->Text();
   if (const JsonValue* files = json.Find("files")) file.files = files->Integer();
-  file.bytes = static_cast<std::uint64_t>(json.Child("bytes").Number());
+  const double bytes = json.Child("bytes").Number();
+  if (!(bytes >= 0 && bytes <= kMostBytes))
+    json.Child("bytes").Fail("expected the size of a file");
+  file.bytes = static_cast<std::uint64_t>(bytes);
   if (const JsonValue* hash = json.Find("sha256")) file.sha256 = hash->Text();
   return file;
 }
