@@ -100,14 +100,14 @@ class Peaks {
   std::vector<CoarsePose> poses_;
 };
 
+struct Turned {
+  float cosine = 1, sine = 0;
+  RasterShifts shifts;
+};
+
 /// The local points at each heading, as shifts of rasters; computed when needed.
 class TurnedPoints {
  public:
-  struct Turned {
-    float cosine = 1, sine = 0;
-    RasterShifts shifts;
-  };
-
   TurnedPoints(const Chosen& chosen, const GainRaster& raster) : chosen_(chosen), raster_(raster) {}
 
   const Turned& At(int heading) {
@@ -168,7 +168,7 @@ RasterPoses SearchRasters(const std::vector<LayoutPoint>& points, const LayoutIn
     found.searched[tile.number] = true;
     raster.Enter(map, tile);
     for (int i = 0; i < headings.count; ++i) {
-      const TurnedPoints::Turned& turned = turned_points.At(headings.bin[i]);
+      const Turned& turned = turned_points.At(headings.bin[i]);
       CoarsePose pose;
       pose.cosine = turned.cosine;
       pose.sine = turned.sine;

@@ -17,8 +17,7 @@ namespace {
 // The confirmed landmarks, in the order of the map.
 class Landmarks {
  public:
-  Landmarks(const MapResults& results, const GravityFrame& gravity)
-      : results_(results), gravity_(gravity) {
+  Landmarks(const MapResults& results, const GravityFrame& gravity) : gravity_(gravity) {
     for (const SessionPath& path : results.paths)
       for (std::size_t i = 0; i < path.frames.size(); ++i)
         cameras_[path.frames[i]] = path.trajectory.poses[i].translation();
@@ -47,7 +46,6 @@ class Landmarks {
     return gravity_.up.dot(centre - nearest);
   }
 
-  const MapResults& results_;
   const GravityFrame& gravity_;
   std::map<int, Vec3> cameras_;  // by frame
 };
