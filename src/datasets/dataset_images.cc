@@ -55,16 +55,16 @@ ImageFinder NumberedImages(int digits) {
 
 int FramesOfImages(const std::string& folder) {
   NumberedFile last{-1, ""};
-  std::size_t images = 0;
+  long long images = 0;
   for (const char* ending : {".png", ".jpg"}) {
     const std::vector<NumberedFile> files = NumberedFiles(folder, ending);
-    images += files.size();
+    images += static_cast<long long>(files.size());
     if (!files.empty() && files.back().number > last.number) last = files.back();
   }
-  if (last.number > kMostMissing && static_cast<std::size_t>(last.number - kMostMissing) > images)
+  if (last.number + 1LL - images > kMostMissing)
     throw Error(ErrorKind::kBadInput, {last.path},
-                "is the last of " + std::to_string(images) +
-                    " images: number them by frame, from 000000, or give times.txt");
+                "is not a frame number, as the last of " + std::to_string(images) +
+                    " images: frames count from 000000");
   return last.number + 1;
 }
 

@@ -36,8 +36,7 @@ FileRecord FileOf(const JsonValue& json, const char* name) {
   if (const JsonValue* role = json.Find("role")) file.role = role->Text();
   if (const JsonValue* files = json.Find("files")) file.files = files->Integer();
   const double bytes = json.Child("bytes").Number();
-  if (!(bytes >= 0 && bytes <= kMostBytes))
-    json.Child("bytes").Fail("expected the size of a file");
+  if (!(bytes >= 0 && bytes <= kMostBytes)) json.Child("bytes").Fail("expected the size of a file");
   file.bytes = static_cast<std::uint64_t>(bytes);
   if (const JsonValue* hash = json.Find("sha256")) file.sha256 = hash->Text();
   return file;

@@ -38,7 +38,7 @@ inline YAML::Node ParseYaml(const std::string& text) {
   if (!parser.HandleNextDocument(document)) return {};
   if (parser.HandleNextDocument(document))
     throw YAML::ParserException(document.mark,
-                                "a second document begins before this: join them, or remove one");
+                                "a second document begins here: join them, or remove one");
   return YAML::Load(text);
 }
 

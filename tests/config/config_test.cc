@@ -97,8 +97,9 @@ TEST(Config, WrongTypesAndSyntax) {
   EXPECT_THAT(ErrorOf("loop: 5\n"), HasSubstr("'loop' is a section"));
   EXPECT_THAT(ErrorOf("- 1\n- 2\n"), HasSubstr("expected a map"));
   EXPECT_THAT(ErrorOf("on: true\nloop: {a: [}\n"), HasSubstr("c.yaml:2:"));
-  EXPECT_THAT(ErrorOf("{}\n---\nloop: {}\n"), HasSubstr("c.yaml:3:1: a second document"));
+  EXPECT_THAT(ErrorOf("{}\n---\nloop: {}\n"), HasSubstr("c.yaml:2:1: a second document"));
   EXPECT_THAT(ErrorOf("{}\n...\nloop: [\n"), HasSubstr("c.yaml:"));
+  EXPECT_THAT(ErrorOf(",, ]"), HasSubstr("c.yaml:1:")) << "documents without end";
 }
 
 TEST(Config, SettingsNameThemselves) {

@@ -62,6 +62,14 @@ TEST_F(Images, AreEnough) {
   EXPECT_EQ(Load().frames.size(), 2u);
 }
 
+TEST_F(Images, AloneMayLackFramesButNotTenThousand) {
+  folder_.Write("image_2/010002.png", "picture");
+  folder_.Write("image_3/010002.png", "picture");
+  EXPECT_EQ(Load().frames.size(), 10003u);
+  folder_.Write("image_2/010005.png", "picture");
+  ExpectError([&] { Load(); }, {"010005.png: is not a frame number, as the last of 5 images"});
+}
+
 TEST_F(Images, InColourAreTakenBeforeGreyOnes) {
   const std::string rows = "700 0 600 0 0 700 180 0 0 0 1 0\n700 0 600 -280 0 700 180 0 0 0 1 0\n";
   for (const auto& [left, right] :

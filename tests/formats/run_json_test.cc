@@ -38,6 +38,15 @@ TEST(RunJson, RefusesOtherFiles) {
   std::string newer = RunJson({});
   newer.replace(newer.find("\"version\":1"), 11, "\"version\":2");
   EXPECT_THROW(ReadRunJson(folder.Write("run.json", newer)), Error);
+  RunRecord record;
+  record.files = {{"map.json", "", 1, 7, "cd"}};
+  const std::string text = RunJson(record), bytes = "\"bytes\":7";
+  ASSERT_NE(text.find(bytes), std::string::npos);
+  for (const char* size : {"-1", "1e300"}) {
+    std::string wrong = text;
+    wrong.replace(wrong.find(bytes) + bytes.size() - 1, 1, size);
+    EXPECT_THROW(ReadRunJson(folder.Write("run.json", wrong)), Error) << size;
+  }
 }
 
 TEST(RecordFile, DescribesFilesAndFolders) {
