@@ -218,7 +218,13 @@ Metrics EvaluateRun(const RunArguments& a, const Dataset& dataset, std::vector<i
   evaluation.labels_path = dataset.groundtruth_boxes_path;
   evaluation.identities = std::move(identities);
   evaluation.loops = mapped.result.loops;
-  return Evaluate(evaluation);
+  try {
+    return Evaluate(evaluation);
+  } catch (const Error& error) {  // e.g. interrupted before the first true pose: keep the run
+    if (error.kind() != ErrorKind::kNoSolution) throw;
+    Log(LogLevel::kWarning, std::string("no metrics: ") + error.what());
+    return {};
+  }
 }
 
 RunRecord RecordOfRun(const RunArguments& a, const Dataset& dataset, const Mapped& mapped,

@@ -282,9 +282,15 @@ class CliTest(CliCase):
             time.sleep(0.001)
         self.assertEqual((process.returncode, process.communicate()[1]), (0, ''))
 
-    def interrupt(self, number):
+    def test_interrupt_before_the_first_true_pose_keeps_what_there_is(self):
+        stderr = self.interrupt(signal.SIGINT, true_poses=slice(-10, None))
+        self.assertIn('warning: no metrics: no pose of the estimate', stderr)
+
+    def interrupt(self, number, true_poses=slice(None)):
         long = f'{self.data}/long{number}'
         subprocess.run([binaries['sim'], 'street', '--out', long, '--seed', '3', '--frames', '6000'], check=True, capture_output=True)
+        truth = long + '/groundtruth.txt'
+        write(truth, ''.join(read(truth).splitlines(keepends=True)[true_poses]))
         process = subprocess.Popen([binaries['run'], 'run', long, '--out', self.out, '--force', '--set', 'refine.enabled=false'],
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         process.stdout.readline()  # the dataset is loaded
@@ -296,6 +302,7 @@ class CliTest(CliCase):
         rows = len(read(self.out + '/trajectory_tum.txt').splitlines())
         self.assertTrue(0 < rows < 6000, rows)
         json.loads(read(self.out + '/map.json'))
+        return stderr
 
 
 if __name__ == '__main__':
