@@ -15,7 +15,7 @@ if(SSLCD_SANITIZE)
   add_link_options(-fsanitize=${SSLCD_SANITIZE})
   # Under AddressSanitizer Eigen uses another allocator, which cannot free matrices that Ceres has
   # allocated.
-  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1 _GLIBCXX_ASSERTIONS)
 endif()
 find_program(SSLCD_CCACHE ccache)
 if(SSLCD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

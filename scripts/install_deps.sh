@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what sslcd needs, with apt, on Debian 12 and 13 and Ubuntu 24.04. Does not run apt if
 # nothing is missing.
-#   scripts/install_deps.sh [build|python|vision|test|dev]
+#   scripts/install_deps.sh [build|python|vision|test|dev|fuzz]
 #     build   the library and the tools; enough for scripts/demo.sh
 #     python  and what `pip install .` needs
 #     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
@@ -10,6 +10,7 @@
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
 #             NumPy for the Python package, ROS 1 for sslcd_node, and Chromium for reports (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely
+#     fuzz    build, and clang with libFuzzer, for scripts/fuzz.sh
 set -euo pipefail
 
 build=(build-essential cmake ninja-build ccache libeigen3-dev libceres-dev libflann-dev liblz4-dev
@@ -23,6 +24,8 @@ python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
       libembree-dev chromium python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
+fuzz=(clang-14 libclang-rt-14-dev)
+any_clang=(clang libclang-rt-dev)
 
 what=${1:-test}
 case "$what" in
@@ -31,7 +34,11 @@ case "$what" in
   vision) wanted=("${build[@]}" python3) ;;
   test) wanted=("${build[@]}" "${test[@]}") ;;
   dev) wanted=("${build[@]}" "${test[@]}" "${dev[@]}") ;;
-  *) echo "usage: scripts/install_deps.sh [build|python|vision|test|dev]" >&2; exit 2 ;;
+  fuzz)
+    apt-cache show "${fuzz[@]}" >/dev/null 2>&1 || fuzz=("${any_clang[@]}")
+    wanted=("${build[@]}" "${fuzz[@]}")
+    ;;
+  *) echo "usage: scripts/install_deps.sh [build|python|vision|test|dev|fuzz]" >&2; exit 2 ;;
 esac
 
 # Debian 13 has no clang 14, and some releases have no ROS 1 or no Chromium in their archive: the
@@ -49,7 +56,7 @@ for package in "${wanted[@]}"; do
   if in_this_release "$package"; then needed=1; fi
 done
 models=0
-if [[ $what != build && $what != python ]] && ! "$(dirname "$0")/install_onnxruntime.sh" --is-there; then models=1; fi
+if [[ $what != build && $what != python && $what != fuzz ]] && ! "$(dirname "$0")/install_onnxruntime.sh" --is-there; then models=1; fi
 if ((!needed && !models)); then
   echo "dependencies: all there"
   exit 0

@@ -65,9 +65,10 @@ class SequenceYamlReader {
       Fail(node.Mark(), "up_axis: expected three numbers, like [0, -1, 0]");
     const Vec3 up(Number(node[0], "up_axis"), Number(node[1], "up_axis"),
                   Number(node[2], "up_axis"));
-    if (!(up.allFinite() && up.norm() > 1e-6))
-      Fail(node.Mark(), "up_axis: expected a direction, not zero or NaN");
-    return up.normalized();
+    const double length = up.norm();
+    if (!(length > 1e-6 && std::isfinite(length)))
+      Fail(node.Mark(), "up_axis: expected a direction, not zero, NaN or beyond all numbers");
+    return up / length;
   }
 
   void ReadImageSize(const YAML::Node& node, SequenceInfo& info) const {

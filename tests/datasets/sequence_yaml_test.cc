@@ -40,6 +40,7 @@ TEST(SequenceYaml, ErrorsNameTheirPlace) {
   refuse("up_axis: [0, 1, x]\n", {"s.yaml:1:17: ", "expected a number"});
   refuse("up_axis: [0, 0, 0]\n", {"s.yaml:1:10: ", "direction"});
   refuse("up_axis: [0, nan, 0]\n", {"s.yaml:1:10: ", "direction"});
+  refuse("up_axis: [1e200, -1, 0]\n", {"s.yaml:1:10: ", "direction"});  // its square is infinite
   refuse("image_size_px: [640]\n", {"s.yaml:1:16: ", "width and height"});
   refuse("image_size_px: [640, x]\n", {"s.yaml:1:22: ", "expected a number"});
   for (const char* wrong : {"0, 480", "-1, 480", "640.5, 480", "nan, 480", "1e9, 480"})
