@@ -2,12 +2,11 @@
 #include "bench_writer.h"
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "benchmark/results.h"
 #include "formats/atomic_file.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
 
@@ -46,24 +45,14 @@ std::string TableWriter::Provenance(const std::vector<int>& cases) const {
   return note + "`.";
 }
 
-std::string TableWriter::ReadDocument() const {
-  std::ifstream file(arguments_.docs, std::ios::binary);
-  if (!file)
-    throw Error(ErrorKind::kBadInput, {arguments_.docs},
-                "cannot be read: check the path of --docs");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 void TableWriter::CheckDocument() const {
-  if (!arguments_.docs.empty()) ReadDocument();
+  if (!arguments_.docs.empty()) ReadFileBytes(arguments_.docs);
 }
 
 void TableWriter::WriteDocument() const {
   if (arguments_.docs.empty()) return;
-  WriteFileAtomically(arguments_.docs,
-                      benchmark::ReplaceTables(ReadDocument(), arguments_.docs, tables_));
+  WriteFileAtomically(arguments_.docs, benchmark::ReplaceTables(ReadFileBytes(arguments_.docs),
+                                                                arguments_.docs, tables_));
 }
 
 }  // namespace sslcd::apps

@@ -28,7 +28,6 @@ class TableWriter {
 
  private:
   std::string Provenance(const std::vector<int>& cases) const;
-  std::string ReadDocument() const;
 
   const BenchArguments& arguments_;
   const Console& console_;

@@ -73,7 +73,7 @@ void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& ca
   }
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", image, bytes);
-  WriteFileAtomically(path, {bytes.begin(), bytes.end()});
+  WriteFileAtomically(path, {bytes.begin(), bytes.end()}, Durability::kUnsynced);
 }
 
 void Overlays::RemoveOthers() const {

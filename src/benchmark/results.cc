@@ -3,24 +3,21 @@
 
 #include <atomic>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
-#include <sstream>
 #include <utility>
 
 #include "core/for_each.h"
 #include "formats/atomic_file.h"
+#include "formats/files.h"
+#include "formats/text_rows.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd::benchmark {
 namespace {
 
 std::optional<std::string> ReadIfThere(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return std::nullopt;
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  if (IfFile(path).empty()) return std::nullopt;
+  return ReadFileBytes(path);
 }
 
 }  // namespace

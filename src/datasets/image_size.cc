@@ -2,11 +2,14 @@
 #include "datasets/image_size.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 namespace sslcd {
 
 ImageSize ReadImageSize(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};  // a pipe may never end
   std::ifstream file(path, std::ios::binary);
   const auto byte = [&file] { return std::max(file.get(), 0); };
   const auto number = [&](int bytes) {
@@ -28,7 +31,7 @@ ImageSize ReadImageSize(const std::string& path) {
     const bool frame =
         marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
     if (frame) {
-      byte();  // bits per sample per sample per sample per sample per sample
+      byte();  // bits per sample
       const int height = number(2), width = number(2);
       return file ? ImageSize{width, height} : ImageSize{};
     }

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "formats/files.h"
 #include "sslcd/core/error.h"
@@ -25,8 +26,29 @@ namespace fs = std::filesystem;
 
 constexpr int kNew = O_CREAT | O_EXCL | O_NOFOLLOW;  // a file that was not there before
 
+// 0 or errno. A file system that has no such call is no failure.
+int Synchronise(int file) {
+  while (fsync(file) != 0) {
+    if (errno == EINVAL || errno == ENOSYS || errno == ENOTSUP) return 0;
+    if (errno != EINTR) return errno;
+  }
+  return 0;
+}
+
+// Makes names in a folder last. A folder that may not be read cannot be synchronised.
+int SynchroniseFolder(const fs::path& folder) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return 0;
+  const int code = Synchronise(file);
+  close(file);
+  return code;
+}
+
+fs::path FolderOf(const std::string& path) { return fs::absolute(path).parent_path(); }
+
 // 0, or errno of the first step that failed.
-int WriteAll(const std::string& path, const std::string& content, int flags) {
+int WriteAll(const std::string& path, const std::string& content, int flags,
+             Durability durability) {
   const int file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
   if (file < 0) return errno;
   int code = 0;
@@ -38,6 +60,7 @@ int WriteAll(const std::string& path, const std::string& content, int flags) {
     else
       done += static_cast<std::size_t>(written);
   }
+  if (code == 0 && durability == Durability::kSynced) code = Synchronise(file);
   if (close(file) != 0 && code == 0) code = errno;
   return code;
 }
@@ -51,7 +74,7 @@ std::string TemporaryName(const std::string& path) {
 // Removes what killed programs have left of a file: PATH.tmp-PID of a process that is no more.
 void RemoveLitter(const std::string& path) {
   const std::string name = fs::path(path).filename().string() + kTemporary;
-  const fs::path folder = fs::absolute(path).parent_path();
+  const fs::path folder = FolderOf(path);
   for (const std::string& other : FileNames(folder.string())) {
     if (other.rfind(name, 0) != 0) continue;
     pid_t process = 0;
@@ -65,11 +88,13 @@ void RemoveLitter(const std::string& path) {
 
 }  // namespace
 
-void WriteFileAtomically(const std::string& path, const std::string& content) {
-  WriteFilesAtomically({{path, content}});
+void WriteFileAtomically(const std::string& path, const std::string& content,
+                         Durability durability) {
+  WriteFilesAtomically({{path, content}}, durability);
 }
 
-void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files) {
+void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files,
+                          Durability durability) {
   std::error_code ignored;
   for (const auto& [path, content] : files)
     if (fs::is_directory(path, ignored)) Fail(path, EISDIR, "name a file");
@@ -80,10 +105,10 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
     const std::string temporary = TemporaryName(path);
     int code = 0;
     if (special) {
-      code = WriteAll(path, content, 0);
+      code = WriteAll(path, content, 0, Durability::kUnsynced);
     } else {
       RemoveLitter(path);
-      code = WriteAll(temporary, content, kNew);
+      code = WriteAll(temporary, content, kNew, durability);
       if (code != EEXIST) waiting.emplace_back(temporary, path);
     }
     if (code == 0) continue;
@@ -92,22 +117,34 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
     Fail(path, code,
          code == ENOSPC ? "make room or choose another folder" : "choose another folder");
   }
+  std::set<fs::path> folders;
   for (const auto& [temporary, path] : waiting) {
+    if (durability == Durability::kSynced) folders.insert(FolderOf(path));
     if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
     const int code = errno;
     for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // only on failure
     Fail(path, code, "choose another folder");
   }
+  for (const fs::path& folder : folders)
+    if (const int code = SynchroniseFolder(folder)) Fail(folder.string(), code, "check the disk");
 }
 
 void MakeWritableFolder(const std::string& path) {
   std::error_code code, unseen;
+  std::vector<fs::path> parents;  // of folders that are not there yet
+  for (fs::path folder = fs::absolute(path);
+       !fs::exists(folder, unseen) && folder.has_relative_path(); folder = folder.parent_path())
+    parents.push_back(folder.parent_path());
   fs::create_directories(path, code);
   if (!fs::is_directory(path, unseen))
     Fail(path, code ? code.value() : unseen ? unseen.value() : ENOTDIR, "choose another folder");
+  for (const fs::path& parent : parents)
+    if (const int failed = SynchroniseFolder(parent))
+      Fail(parent.string(), failed, "check the disk");
   const std::string probe = TemporaryName(fs::path(path) / ".sslcd-probe");
   RemoveLitter(fs::path(path) / ".sslcd-probe");
-  if (const int failed = WriteAll(probe, "", kNew)) Fail(path, failed, "choose another folder");
+  if (const int failed = WriteAll(probe, "", kNew, Durability::kUnsynced))
+    Fail(path, failed, "choose another folder");
   unlink(probe.c_str());
 }
 

@@ -41,6 +41,8 @@ class LoopRow {
     for (std::size_t i = 0; i < 7; ++i) pose[i] = Number(row_.fields[9 + i]);
     std::copy(pose, pose + 3, loop.T_match_query.data() + 4);
     std::copy(pose + 3, pose + 7, loop.T_match_query.data());
+    const double length = std::hypot(std::hypot(pose[3], pose[4]), std::hypot(pose[5], pose[6]));
+    if (!(std::abs(length - 1) <= kRotationTolerance)) Fail("expected a quaternion of length 1");
     loop.T_match_query.normalise();
     ReadPairs(loop);
     return loop;

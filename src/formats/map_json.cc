@@ -49,6 +49,9 @@ MapObject ObjectOf(const JsonValue& json) {
   object.state = StateOf(json.Child("state"));
   const std::vector<double> pose = json.Child("pose_world_object").Numbers(7);
   std::copy(pose.begin(), pose.end(), object.T_world_object.data());
+  const double length = std::hypot(std::hypot(pose[0], pose[1]), std::hypot(pose[2], pose[3]));
+  if (!(std::abs(length - 1) <= kRotationTolerance))
+    json.Child("pose_world_object").Fail("pose_world_object: expected a quaternion of length 1");
   object.T_world_object.normalise();
   object.dims = Vec3(json.Child("dimensions_lwh").Numbers(3).data());
   if (!(object.dims.minCoeff() > 0)) json.Fail("dimensions_lwh: expected lengths above 0");

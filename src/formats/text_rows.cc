@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <memory>
+
+#include "core/regular_file.h"
 
 namespace sslcd {
 namespace {
@@ -25,10 +26,7 @@ std::string_view Trim(std::string_view text) {
 }  // namespace
 
 std::string ReadFileBytes(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(ErrorKind::kBadInput, {path}, "is a folder, expected a file");
-  }
+  RequireRegularFile(path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              &std::fclose);
   std::string bytes;

@@ -12,7 +12,8 @@
 
 namespace sslcd {
 
-/// Reads a whole file. Throws Error if it is missing, is a folder or cannot be read.
+/// Reads a whole file. Throws Error if it is missing, cannot be read, or is
+/// no regular file.
 SSLCD_EXPORT std::string ReadFileBytes(const std::string& path);
 
 /// Parses a text that is one number ("1.5x" is not). Ignores the locale; accepts "nan" and "inf".

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/regular_file.h"
 #include "inference/runtime.h"
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
@@ -199,6 +200,7 @@ struct Session::Impl {
 };
 
 Session::Session(const std::string& model_path, const InferenceOptions& options) {
+  RequireRegularFile(model_path);
   if (!std::ifstream(model_path).good())
     throw Error(ErrorKind::kBadInput, {model_path},
                 "this model cannot be read: check the path (docs/models.md)");

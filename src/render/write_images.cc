@@ -21,7 +21,8 @@ void WritePng(const std::filesystem::path& folder, int frame, const cv::Mat& ima
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes,
                {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY, strategy});
-  WriteFileAtomically((folder / name).string(), std::string(bytes.begin(), bytes.end()));
+  WriteFileAtomically((folder / name).string(), std::string(bytes.begin(), bytes.end()),
+                      Durability::kUnsynced);
 }
 
 cv::Mat DepthImage(const View& view) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/regular_file.h"
 #include "sslcd/core/error.h"
 #include "store/bytes.h"
 
@@ -89,6 +90,7 @@ bool Database::Open(const std::string& name, int flags) {
 }
 
 Database::Database(const std::string& path, Access access) : path_(path) {
+  RequireRegularFile(path);
   if (access == Access::kRead) {
     // Where it may write, the last reader takes the log away when it closes.
     if (Open(path, SQLITE_OPEN_READWRITE)) {

@@ -117,7 +117,7 @@ class BenchTest(CliCase):
         result = self.bench('table2', *SMALL, '--docs', self.out + '.md')
         self.refused(result, 3, '.md: has no place for table2')
         self.assertEqual(read(self.out + '.md'), 'Nothing.\n')
-        self.refused(self.bench('table2', *SMALL, '--docs', self.out + '/none.md'), 3, '--docs')
+        self.refused(self.bench('table2', *SMALL, '--docs', self.out + '/none.md'), 3, 'none.md: cannot be read')
 
     def test_trajectories_of_another_system(self):
         sim = [binaries['sim'], 'halv', '--case', '4', '--seed', '1', '--out', self.out + '_halv']

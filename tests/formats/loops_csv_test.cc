@@ -60,7 +60,8 @@ TEST(LoopsCsv, RefusesWhatIsNone) {
        {std::pair{"score", "scores"}, std::pair{"0,0,none", "0,0.5,none"},
         std::pair{"0,0,none", "0,0,maybe"}, std::pair{"0,0,none", "x,0,none"},
         std::pair{"0,0,none", "0,none"}, std::pair{",,0.000", ",\",0.000"},
-        std::pair{"1.000000000,\n", "1.000000000,3-4\n"}})
+        std::pair{"1.000000000,\n", "1.000000000,3-4\n"},
+        std::pair{"1.000000000,\n", "0.000000000,\n"}})
     EXPECT_THROW(ReadLoopsCsv(changed(from, to)), Error) << from << " " << to;
   EXPECT_THROW(ReadLoopsCsv(folder.Write("loops.csv", "")), Error);
 }

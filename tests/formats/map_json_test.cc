@@ -106,6 +106,9 @@ TEST(MapJson, BadMapsAreRefusedWithTheirLine) {
   map = SmallMap();
   map.objects[1].dims.y() = 0;
   refuse(MapJson(map), "map.json:3: dimensions_lwh: expected lengths above 0");
+  map = SmallMap();
+  std::fill_n(map.objects[1].T_world_object.data(), 4, 0.);
+  refuse(MapJson(map), "map.json:3: pose_world_object: expected a quaternion of length 1");
   refuse("{\"format\": [", "map.json:1:13: not JSON");
   EXPECT_THROW(ReadMapJson(folder.In("none.json")), Error);
 }

@@ -57,6 +57,7 @@ TEST(TextRows, SaysWhyAFileCannotBeRead) {
   ExpectError([&] { TextRows rows(folder.path() + "/none.txt"); },
               {"none.txt: cannot be read", "No such file"});
   ExpectError([&] { TextRows rows(folder.path()); }, {"is a folder"});
+  ExpectError([] { TextRows rows("/dev/zero"); }, {"/dev/zero: is a device"});
   TextRows empty(folder.Write("empty.txt", ""));
   EXPECT_FALSE(empty.Next());
 }

@@ -84,6 +84,7 @@ TEST(Session, RefusesBadModels) {
   SSLCD_RUNTIME();
   const TempFolder folder;
   ExpectError([] { Session("/nowhere/a.onnx"); }, {"/nowhere/a.onnx", "cannot be read"});
+  ExpectError([] { Session("/dev/zero"); }, {"/dev/zero: is a device"});
   ExpectError([&] { Session(folder.Write("text.onnx", "this is no model")); },
               {"text.onnx", "ONNX Runtime says"});
   ExpectError([&] { Session(folder.Write("empty.onnx", "")); }, {"empty.onnx"});

@@ -40,6 +40,7 @@ TEST(Schema, EachKindOfFileHasItsOwnMessage) {
   const std::string path = NewMap(folder);
   ExpectError([&] { OpenMap(folder.In("none.db"), Access::kRead); }, {"none.db", "no such map"});
   ExpectError([&] { OpenMap(folder.path(), Access::kCreate); }, {"is a folder"});
+  ExpectError([] { OpenMap("/dev/zero", Access::kRead); }, {"/dev/zero: is a device"});
   ExpectError([&] { OpenMap(folder.Write("a.txt", std::string(2000, 'a')), Access::kCreate); },
               {"a.txt", "not an SQLite file"});
   ExpectError([&] { OpenMap(folder.Write("empty.db", ""), Access::kRead); }, {"has no map"});
