@@ -19,5 +19,6 @@ if(SSLCD_SANITIZE)
 endif()
 find_program(SSLCD_CCACHE ccache)
 if(SSLCD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${SSLCD_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env  # for the headers that tests precompile
+    CCACHE_SLOPPINESS=pch_defines,time_macros ${SSLCD_CCACHE})
 endif()
