@@ -19,6 +19,7 @@ Command AddDetectCommand(CLI::App& app, Console& console);
 Command AddCheckCommand(CLI::App& app, Console& console);
 Command AddEvalCommand(CLI::App& app, Console& console);
 Command AddDrawCommand(CLI::App& app, Console& console);
+Command AddExportCommand(CLI::App& app, Console& console);
 Command AddReportCommand(CLI::App& app, Console& console);
 Command AddCompareCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);

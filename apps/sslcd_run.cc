@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
       {"check", AddCheckCommand(app, console)},
       {"eval", AddEvalCommand(app, console)},
       {"draw", AddDrawCommand(app, console)},
+      {"export", AddExportCommand(app, console)},
       {"report", AddReportCommand(app, console)},
       {"compare", AddCompareCommand(app, console)},
       {"match", AddMatchCommand(app, console)},

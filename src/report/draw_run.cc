@@ -37,10 +37,10 @@ std::vector<LoopClosure> ChosenLoops(const RunView& run, const DrawOptions& opti
 class RunPainter {
  public:
   RunPainter(const RunView& run, const DrawOptions& options)
-      : run_(run), loops_(ChosenLoops(run, options)), one_loop_(options.loop.has_value()) {
-    for (const MapObject& object : run.map.objects) label_colours_.emplace(object.label, Colour());
-    std::size_t i = 0;
-    for (auto& [label, colour] : label_colours_) colour = LabelColour(i++);
+      : run_(run),
+        loops_(ChosenLoops(run, options)),
+        one_loop_(options.loop.has_value()),
+        label_colours_(LabelColours(run)) {
     if (one_loop_)
       for (const auto& [local, global] : loops_[0].pairs) matched_.insert(global);
   }
@@ -134,9 +134,7 @@ class RunPainter {
 }  // namespace
 
 Drawing DrawRun(const RunView& run, const DrawOptions& options) {
-  if (run.trajectory.poses.empty() || run.odometry.size() != run.trajectory.size())
-    throw Error(ErrorKind::kBadInput,
-                run.folder + ": the run has no poses, or not those of its odometry: repeat it");
+  RequirePoses(run);
   const RunPainter painter(run, options);
   const double maps = options.before_after ? 2 : 1;
   const GroundPlan plan(painter.Extent(), (options.width - kGap * (maps - 1)) / maps);

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
+
+#include "formats/colour.h"
 
 namespace sslcd {
-
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
-};
 
 /// "#rrggbb".
 std::string Hex(Colour colour);

@@ -43,10 +43,7 @@ class RunJsonMaker {
  public:
   RunJsonMaker(const RunView& run, const ReportLimits& limits) : run_(run), limits_(limits) {
     if (!run.trajectory.poses.empty()) origin_ = run.trajectory.poses[0].translation();
-    const GravityFrame& gravity = run.gravity;
-    R_page_world_.row(0) = gravity.forward.transpose();
-    R_page_world_.row(1) = gravity.up.transpose();
-    R_page_world_.row(2) = -gravity.left.transpose();
+    R_page_world_ = PageAxes(run.gravity);
     const std::size_t frames = run.trajectory.size();
     stride_ = std::max<std::size_t>(1, (frames + limits.poses - 1) / limits.poses);
     for (std::size_t i = 0; i < frames; i += stride_) rows_.push_back(i);

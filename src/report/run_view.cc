@@ -67,8 +67,30 @@ RunView ReadRun(const std::string& folder, const std::string& groundtruth) {
   return run;
 }
 
+void RequirePoses(const RunView& run) {
+  if (run.trajectory.poses.empty() || run.odometry.size() != run.trajectory.size())
+    throw Error(ErrorKind::kBadInput,
+                run.folder + ": the run has no poses, or not those of its odometry: repeat it");
+}
+
+Eigen::Matrix3d PageAxes(const GravityFrame& gravity) {
+  Eigen::Matrix3d R_page_world;
+  R_page_world.row(0) = gravity.forward.transpose();
+  R_page_world.row(1) = gravity.up.transpose();
+  R_page_world.row(2) = -gravity.left.transpose();
+  return R_page_world;
+}
+
 bool IsRound(const RunView& run, const std::string& label) {
   return run.record && run.record->labels[label].symmetry == Symmetry::kFull;
+}
+
+std::map<std::string, Colour> LabelColours(const RunView& run) {
+  std::map<std::string, Colour> colours;
+  for (const MapObject& object : run.map.objects) colours.emplace(object.label, Colour());
+  std::size_t i = 0;
+  for (auto& [label, colour] : colours) colour = LabelColour(i++);
+  return colours;
 }
 
 std::vector<LoopClosure> AcceptedLoops(const RunView& run) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/map_json.h"
 #include "formats/run_json.h"
+#include "report/palette.h"
 #include "sslcd/core/loop_closure.h"
 #include "sslcd/core/pose.h"
 
@@ -31,8 +33,18 @@ struct RunView {
 /// frame.
 RunView ReadRun(const std::string& folder, const std::string& groundtruth = "");
 
+/// Throws Error(kBadInput) if the run has no poses, or another number of them than its odometry.
+void RequirePoses(const RunView& run);
+
+/// R_page_world, for worlds that are shown with x to the right, y up and z towards the viewer of a
+/// map: the axes of three.js and glTF.
+Eigen::Matrix3d PageAxes(const GravityFrame& gravity);
+
 /// Whether objects of the label look the same from all sides, like trees and poles.
 bool IsRound(const RunView& run, const std::string& label);
+
+/// The colour of each label of the map.
+std::map<std::string, Colour> LabelColours(const RunView& run);
 
 /// The accepted loops in order of their query frames, without those whose frames are not in the
 /// trajectory.

@@ -24,5 +24,22 @@ TEST(PlyText, HasCuboidsOfConfirmedObjectsAndCameras) {
   EXPECT_THAT(text, testing::EndsWith("\n4 1 3 7 5\n"));
 }
 
+TEST(PlyText, LinesAreEdgesWithTheirColours) {
+  PlyMesh mesh;
+  mesh.comments = {"metres"};
+  mesh.AddLine({Vec3(0, 0, 0)}, {9, 9, 9});  // no edge
+  mesh.AddLine({Vec3(1, 0, 0), Vec3(2, 0, 0), Vec3(3, 0, 0)}, {1, 2, 3});
+  mesh.AddSolid(UnitBox(), Pose::Trans(5, 0, 0), Vec3(2, 2, 2), {4, 5, 6});
+  const std::string text = PlyText(mesh);
+  EXPECT_THAT(text,
+              testing::StartsWith("ply\nformat ascii 1.0\ncomment metres\nelement vertex 12\n"));
+  EXPECT_THAT(text,
+              testing::HasSubstr("element edge 2\nproperty int vertex1\nproperty int vertex2\n"
+                                 "property uchar red\n"));
+  EXPECT_THAT(text, testing::HasSubstr("\n4.0000 -1.0000 -1.0000 4 5 6\n"));
+  EXPECT_THAT(text, testing::HasSubstr("\n4 4 6 7 5\n")) << "faces count from their first corner";
+  EXPECT_THAT(text, testing::EndsWith("\n1 2 1 2 3\n2 3 1 2 3\n"));
+}
+
 }  // namespace
 }  // namespace sslcd
