@@ -8,6 +8,7 @@
 #include "formats/atomic_file.h"
 #include "formats/text_rows.h"
 #include "overwriting.h"
+#include "run_export/run_glb.h"
 #include "run_export/run_ply.h"
 #include "sslcd/core/error.h"
 
@@ -20,6 +21,8 @@ struct ExportArguments {
 
 std::string PlyOf(const RunView& run) { return RunPly(SceneOf(run)); }
 
+std::string GlbOf(const RunView& run) { return RunGlb(SceneOf(run)); }
+
 // ReadRun has compared the file with run.json.
 std::string GraphOf(const RunView& run) { return ReadFileBytes(run.folder + "/graph.g2o"); }
 
@@ -27,7 +30,7 @@ struct ExportFormat {
   const char* ending;
   std::string (*text)(const RunView& run);
 };
-const ExportFormat kExportFormats[] = {{".ply", PlyOf}, {".g2o", GraphOf}};
+const ExportFormat kExportFormats[] = {{".ply", PlyOf}, {".glb", GlbOf}, {".g2o", GraphOf}};
 
 const ExportFormat& FormatOf(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension();
@@ -54,9 +57,12 @@ Command AddExportCommand(CLI::App& app, Console& console) {
       "export", "write a finished run for other programs: 3D viewers, pose graph solvers");
   const auto a = std::make_shared<ExportArguments>();
   command->add_option("RUN", a->run, "folder written by 'sslcd_run run'")->required();
-  command->add_option("--out", a->out, "file to write: .ply (mesh with edges), .g2o (pose graph)")
+  command
+      ->add_option("--out", a->out,
+                   "file to write: .ply (mesh with edges), .glb (3D scene), .g2o (pose graph)")
       ->required();
-  command->footer(Examples({"export runs/monday --out monday.ply"}));
+  command->footer(
+      Examples({"export runs/monday --out monday.ply", "export runs/monday --out monday.glb"}));
   return [a, &console] {
     console.InstallLog();
     return Export(*a, console);

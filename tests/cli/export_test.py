@@ -1,20 +1,32 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """sslcd_run export: each format read back on its own, and what goes wrong. usage: see cli_case.main"""
+import hashlib
 import json
 import os
 import re
+import struct
 
 from cli_case import CliCase, call, read, write, main
 
 
 class ExportCase(CliCase):
-    """The map of a street, with a loop: the run is not long enough to find one itself."""
+    """The run of a street, with a loop that is added: the street is too short for one."""
 
     def setUp(self):
         super().setUp()
         self.assertEqual(self.run_data().returncode, 0)
         self.file = self.data + '/exported'
+        self.replace('loops.csv', read(self.out + '/loops.csv') + '39,0,accepted,,9,0.99,0,0,180,0,0,5,0,1,0,0,\n')
+
+    def replace(self, name, text):
+        """Replaces a file of the run, which run.json knows."""
+        write(f'{self.out}/{name}', text)
+        record = json.loads(read(self.out + '/run.json'))
+        for file in record['files']:
+            if file['name'] == name:
+                file.update(bytes=len(text.encode()), sha256=hashlib.sha256(text.encode()).hexdigest())
+        write(self.out + '/run.json', json.dumps(record))
 
     def export(self, ending, *args):
         """The path of the file written."""
@@ -36,6 +48,32 @@ def read_ply(path):
     return elements, header.splitlines()
 
 
+def read_glb(path):
+    """The JSON of a .glb file, and its accessors as lists of tuples."""
+    with open(path, 'rb') as file:
+        data = file.read()
+    magic, version, length, size, kind = struct.unpack('<4sII I4s', data[:20])
+    assert (magic, version, length, size % 4, kind) == (b'glTF', 2, len(data), 0, b'JSON')
+    gltf, binary = json.loads(data[20:20 + size]), data[28 + size:]
+    assert struct.unpack('<I4s', data[20 + size:28 + size]) == (len(binary), b'BIN\0')
+    assert gltf['buffers'] == [{'byteLength': len(binary)}]
+    values = []
+    for accessor in gltf['accessors']:
+        view = gltf['bufferViews'][accessor['bufferView']]
+        row = struct.Struct({'VEC3': '<3f', 'SCALAR': '<I'}[accessor['type']])
+        assert view['byteOffset'] % 4 == 0 and view['byteLength'] == row.size * accessor['count']
+        values.append(list(row.iter_unpack(binary[view['byteOffset']:view['byteOffset'] + view['byteLength']])))
+    return gltf, values
+
+
+def turned(q, v):
+    """v turned by the quaternion x y z w."""
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    t = [2 * c for c in cross(q[:3], v)]
+    return [a + q[3] * b + c for a, b, c in zip(v, t, cross(q[:3], t))]
+
+
 class FormatsTest(ExportCase):
     def test_ply(self):
         elements, header = read_ply(self.export('.ply'))
@@ -48,7 +86,34 @@ class FormatsTest(ExportCase):
         for edge in elements['edge']:
             self.assertEqual(vertices[int(edge[0])][3:], edge[2:], 'edges have the colour of their ends')
         self.assertGreaterEqual(len(elements['face']), 6 * len(self.objects()))
-        self.assertGreaterEqual(len(elements['edge']), 2 * 39)
+        self.assertEqual(len(elements['edge']), 2 * 39 + 1, 'two paths and a loop')
+        self.assertEqual(elements['edge'][-1][2:], ['254', '232', '56'], 'of the opposite direction')
+
+    def test_glb(self):
+        gltf, values = read_glb(self.export('.glb'))
+        for mesh in gltf['meshes']:
+            for primitive in mesh['primitives']:
+                position = primitive['attributes']['POSITION']
+                columns = list(zip(*values[position]))
+                self.assertEqual(gltf['accessors'][position]['min'], [min(c) for c in columns])
+                self.assertEqual(gltf['accessors'][position]['max'], [max(c) for c in columns])
+                self.assertEqual({len(values[a]) for a in primitive['attributes'].values()}, {len(values[position])})
+                if 'indices' in primitive:
+                    self.assertEqual({i for i, in values[primitive['indices']]}, set(range(len(values[position]))))
+        nodes = {node['name']: node for node in gltf['nodes']}
+        path = values[gltf['meshes'][nodes['corrected trajectory']['mesh']]['primitives'][0]['attributes']['POSITION']]
+        self.assertEqual((len(path), path[0]), (40, (0, 0, 0)))
+        self.assertEqual(nodes['loops']['extras']['names'], ['loop 39 to 0'])
+        back = gltf['nodes'][0]['extras']['T_world_file']
+        for each in self.objects():
+            node, pose = nodes[f'{each["label"]} {each["id"]}'], each['pose_world_object']
+            self.assertEqual(node['scale'], each['dimensions_lwh'])
+            for corner in ((.5, .5, .5), (-.5, .5, -.5)):
+                size = [c * d for c, d in zip(corner, node['scale'])]
+                there = [a + b for a, b in zip(turned(node['rotation'], size), node['translation'])]
+                found = [sum(r * c for r, c in zip(row, [*there, 1])) for row in back[:3]]
+                for a, b, c in zip(found, turned(pose[:4], size), pose[4:]):
+                    self.assertAlmostEqual(a, b + c, 3)
 
     def test_g2o(self):
         graph = self.export('.g2o')
@@ -65,7 +130,7 @@ class RefusalsTest(ExportCase):
             self.assertIn(message, result.stderr)
 
     def test_what_cannot_be_exported(self):
-        self.not_exported(2, 'the ending chooses the format: .ply, .g2o', ending='.obj')
+        self.not_exported(2, 'the ending chooses the format: .ply, .glb, .g2o', ending='.obj')
         self.not_exported(2, 'the ending chooses the format', ending='')
         self.not_exported(3, 'holds no map.json', run=self.data)
         self.not_exported(3, 'holds no map.json', run=self.root + '/none', ending='.g2o')
