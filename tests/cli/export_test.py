@@ -86,7 +86,7 @@ class FormatsTest(ExportCase):
         for edge in elements['edge']:
             self.assertEqual(vertices[int(edge[0])][3:], edge[2:], 'edges have the colour of their ends')
         self.assertGreaterEqual(len(elements['face']), 6 * len(self.objects()))
-        self.assertEqual(len(elements['edge']), 2 * 39 + 1, 'two paths and a loop')
+        self.assertEqual(len(elements['edge']), 3 * 39 + 1, 'odometry, corrected trajectory, truth, and a loop')
         self.assertEqual(elements['edge'][-1][2:], ['254', '232', '56'], 'of the opposite direction')
 
     def test_glb(self):
