@@ -7,8 +7,11 @@
 #include "examples.h"
 #include "formats/atomic_file.h"
 #include "formats/text_rows.h"
+#include "geo_arguments.h"
 #include "overwriting.h"
+#include "run_export/run_geojson.h"
 #include "run_export/run_glb.h"
+#include "run_export/run_kml.h"
 #include "run_export/run_ply.h"
 #include "sslcd/core/error.h"
 
@@ -17,20 +20,32 @@ namespace {
 
 struct ExportArguments {
   std::string run, out;
+  GeoArguments geo;
 };
 
-std::string PlyOf(const RunView& run) { return RunPly(SceneOf(run)); }
-
-std::string GlbOf(const RunView& run) { return RunGlb(SceneOf(run)); }
-
+std::string PlyOf(const RunView& run, const GeoOrigin&) { return RunPly(SceneOf(run)); }
+std::string GlbOf(const RunView& run, const GeoOrigin&) { return RunGlb(SceneOf(run)); }
 // ReadRun has compared the file with run.json.
-std::string GraphOf(const RunView& run) { return ReadFileBytes(run.folder + "/graph.g2o"); }
+std::string GraphOf(const RunView& run, const GeoOrigin&) {
+  return ReadFileBytes(run.folder + "/graph.g2o");
+}
+std::string KmlOf(const RunView& run, const GeoOrigin& origin) {
+  return RunKml(SceneOf(run), origin);
+}
+std::string GeoJsonOf(const RunView& run, const GeoOrigin& origin) {
+  return RunGeoJson(SceneOf(run), origin);
+}
 
 struct ExportFormat {
   const char* ending;
-  std::string (*text)(const RunView& run);
+  bool on_earth;  // has a place for an origin, and needs one
+  std::string (*content)(const RunView& run, const GeoOrigin& origin);
 };
-const ExportFormat kExportFormats[] = {{".ply", PlyOf}, {".glb", GlbOf}, {".g2o", GraphOf}};
+const ExportFormat kExportFormats[] = {{".ply", false, PlyOf},
+                                       {".glb", false, GlbOf},
+                                       {".g2o", false, GraphOf},
+                                       {".kml", true, KmlOf},
+                                       {".geojson", true, GeoJsonOf}};
 
 const ExportFormat& FormatOf(const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension();
@@ -44,8 +59,16 @@ const ExportFormat& FormatOf(const std::string& path) {
 
 int Export(const ExportArguments& a, const Console& console) {
   const ExportFormat& format = FormatOf(a.out);
+  const std::optional<GeoOrigin> origin = a.geo.Origin();
+  if (format.on_earth && !origin)
+    throw Error(ErrorKind::kUsage,
+                a.out +
+                    ": needs the place of the run on the Earth: give --origin LATITUDE,LONGITUDE "
+                    "of the first camera, and --heading");
+  if (!format.on_earth && origin)
+    throw Error(ErrorKind::kUsage, a.out + ": --origin is for .kml and .geojson; leave it out");
   RefuseOverwriting(RunFolderPaths(a.run), {a.out});
-  WriteFileAtomically(a.out, format.text(ReadRun(a.run)));
+  WriteFileAtomically(a.out, format.content(ReadRun(a.run), origin.value_or(GeoOrigin())));
   console.Say("wrote " + a.out);
   return 0;
 }
@@ -54,15 +77,19 @@ int Export(const ExportArguments& a, const Console& console) {
 
 Command AddExportCommand(CLI::App& app, Console& console) {
   CLI::App* command = app.add_subcommand(
-      "export", "write a finished run for other programs: 3D viewers, pose graph solvers");
+      "export",
+      "write a finished run for other programs: 3D viewers, pose graph solvers, maps of the Earth");
   const auto a = std::make_shared<ExportArguments>();
   command->add_option("RUN", a->run, "folder written by 'sslcd_run run'")->required();
   command
       ->add_option("--out", a->out,
-                   "file to write: .ply (mesh with edges), .glb (3D scene), .g2o (pose graph)")
+                   "file to write: .ply (mesh with edges), .glb (3D scene), .g2o (pose graph), "
+                   ".kml, .geojson (with --origin)")
       ->required();
+  a->geo.AddTo(*command, "for .kml and .geojson");
   command->footer(
-      Examples({"export runs/monday --out monday.ply", "export runs/monday --out monday.glb"}));
+      Examples({"export runs/monday --out monday.ply", "export runs/monday --out monday.glb",
+                "export runs/monday --out monday.kml --origin 49.01,8.43 --heading 120"}));
   return [a, &console] {
     console.InstallLog();
     return Export(*a, console);

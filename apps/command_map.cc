@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "core/sha256.h"
 #include "examples.h"
+#include "geo_arguments.h"
 #include "map_diff.h"
 #include "map_export/export_map.h"
 #include "sslcd/core/error.h"
@@ -16,7 +17,8 @@ namespace sslcd::apps {
 namespace {
 
 struct MapCommandArguments {
-  std::string file, out, origin;
+  std::string file, out;
+  GeoArguments geo;
   bool json = false;
   MapDiffArguments diff;
 };
@@ -113,8 +115,7 @@ int Verify(const MapCommandArguments& a, const Console& console) {
 }
 
 int Export(const MapCommandArguments& a, const Console& console) {
-  std::optional<GeoOrigin> origin;
-  if (!a.origin.empty()) origin = ParseGeoOrigin(a.origin);
+  const std::optional<GeoOrigin> origin = a.geo.Origin();
   const MapStore store(a.file);
   for (const std::string& path : ExportMap(store.Describe(), store.Results(), a.out, origin))
     console.Say("wrote " + path);
@@ -164,7 +165,7 @@ const MapSubcommand kMapSubcommands[] = {
      Examples({"map verify site.db", "map verify site.db --json"})},
     {"export", "write the results as the files of a run folder", Export,
      Examples({"map export site.db --out site",
-               "map export site.db --out site --origin 49.01,8.43,120"})},
+               "map export site.db --out site --origin 49.01,8.43 --heading 120"})},
     {"diff", "what has changed between two sessions", Diff,
      Examples(
          {"map diff site.db", "map diff site.db --from monday --to tuesday --csv changes.csv"})},
@@ -187,9 +188,7 @@ Command AddMapCommand(CLI::App& app, Console& console) {
     one->add_flag("-q,--quiet", console.quiet, "print errors only");
     if (row.run == Export) {
       one->add_option("--out", arguments->out, "folder to write")->required();
-      one->add_option("--origin", arguments->origin,
-                      "LATITUDE,LONGITUDE,HEADING of the first camera, degrees: writes "
-                      "map.geojson, too");
+      arguments->geo.AddTo(*one, "writes map.geojson, too");
     }
     if (row.run == Diff) {
       MapDiffArguments& diff = arguments->diff;

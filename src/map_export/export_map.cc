@@ -46,7 +46,7 @@ std::vector<std::string> ExportMap(const MapInfo& info, const MapResults& result
                              {root / "graph.g2o", G2oText(results.graph)},
                              {root / "loops.csv", LoopsCsv(results.loops)},
                              {root / "config.yaml", info.config}});
-  if (origin) files.emplace_back(root / "map.geojson", GeoJsonText(info, results, *origin));
+  if (origin) files.emplace_back(root / "map.geojson", MapGeoJson(info, results, *origin));
   WriteFilesAtomically(files);
   std::vector<std::string> paths;
   for (const auto& [path, text] : files) paths.push_back(path);

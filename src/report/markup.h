@@ -5,7 +5,8 @@
 
 namespace sslcd {
 
-/// Text for HTML and SVG: no character of it is markup. Control characters are left out.
+/// Text for HTML, SVG and KML: no character of it is markup. Characters that XML does not allow,
+/// such as control characters, are left out. `text` is UTF-8.
 std::string MarkupText(const std::string& text);
 
 }  // namespace sslcd

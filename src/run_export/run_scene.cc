@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "formats/files.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -58,8 +57,7 @@ void CheckExtent(const RunScene& scene, const std::string& folder) {
 RunScene SceneOf(const RunView& run) {
   RequirePoses(run);
   RunScene scene;
-  scene.name =
-      run.record && !run.record->dataset.empty() ? run.record->dataset : LastName(run.folder);
+  scene.name = run.record && !run.record->dataset.empty() ? run.record->dataset : "run";
   scene.gravity = run.gravity;
   scene.T_world_first = run.trajectory.poses[0];
   scene.paths = {PathOf("odometry", kOdometryColour, run.odometry),

@@ -28,7 +28,7 @@ struct RunScene {
     Vec3 query, match;
     LoopClosure loop;
   };
-  std::string name;  ///< of the sequence
+  std::string name;  ///< of the sequence; "run" if run.json has none
   GravityFrame gravity;
   Pose T_world_first;           ///< the first camera of the corrected trajectory
   std::vector<Object> objects;  ///< confirmed ones, by label

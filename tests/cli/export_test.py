@@ -6,6 +6,7 @@ import json
 import os
 import re
 import struct
+import xml.etree.ElementTree as ElementTree
 
 from cli_case import CliCase, call, read, write, main
 
@@ -115,6 +116,33 @@ class FormatsTest(ExportCase):
                 for a, b, c in zip(found, turned(pose[:4], size), pose[4:]):
                     self.assertAlmostEqual(a, b + c, 3)
 
+    def test_kml(self):
+        text = read(self.out + '/map.json')
+        label = self.objects()[0]['label']
+        self.replace('map.json', text.replace(f'"{label}"', '"<b>&\\"\\u0001\\uffff \u00fc"'))
+        name = '{http://www.opengis.net/kml/2.2}%s'
+        root = ElementTree.parse(self.export('.kml', '--origin', '-33.8,151.2', '--heading', '-90')).getroot()
+        self.assertEqual(root.tag, name % 'kml')
+        folders = {each.find(name % 'name').text: each for each in root[0].iterfind(name % 'Folder')}
+        self.assertEqual(list(folders), ['paths', 'objects', 'loops'])
+        self.assertEqual([each.text for each in folders['paths'].iterfind('./*/' + name % 'name')],
+                         ['odometry', 'corrected trajectory', 'ground truth'])
+        self.assertIn('<b>&" \u00fc', [each.text for each in folders['objects'].iterfind('./*/' + name % 'name')])
+        self.assertEqual(len(list(folders['objects'].iter(name % 'Polygon'))), len(self.objects()))
+        self.assertEqual(folders['loops'].find('.//' + name % 'Placemark')[0].text, 'loop 39 to 0')
+        points = [[float(n) for n in point.split(',')] for point in folders['paths'].find('.//' + name % 'coordinates').text.split()]
+        self.assertEqual((len(points), points[0]), (40, [151.2, -33.8]))
+        self.assertLess(points[-1][0], 151.2, 'the drive goes ahead, to the west')
+        self.assertLess(abs(points[-1][1] + 33.8), .3 * (151.2 - points[-1][0]))
+
+    def test_geojson(self):
+        features = json.loads(read(self.export('.geojson', '--origin', '49,8.4,115')))['features']
+        kinds = [each['geometry']['type'] for each in features]
+        self.assertEqual(kinds, ['LineString'] * 3 + ['Polygon'] * len(self.objects()) + ['LineString'])
+        self.assertEqual(features[1]['geometry']['coordinates'][0], [8.4, 49, 115])
+        self.assertGreater(features[1]['geometry']['coordinates'][-1][1], 49, 'to the north, where no heading is given')
+        self.assertEqual({each['properties']['landmark'] for each in features[3:-1]}, {each['id'] for each in self.objects()})
+
     def test_g2o(self):
         graph = self.export('.g2o')
         self.assertEqual(read(graph), read(self.out + '/graph.g2o'))
@@ -130,10 +158,16 @@ class RefusalsTest(ExportCase):
             self.assertIn(message, result.stderr)
 
     def test_what_cannot_be_exported(self):
-        self.not_exported(2, 'the ending chooses the format: .ply, .glb, .g2o', ending='.obj')
+        self.not_exported(2, 'the ending chooses the format: .ply, .glb, .g2o, .kml, .geojson', ending='.obj')
         self.not_exported(2, 'the ending chooses the format', ending='')
         self.not_exported(3, 'holds no map.json', run=self.data)
         self.not_exported(3, 'holds no map.json', run=self.root + '/none', ending='.g2o')
+        self.not_exported(2, 'give --origin LATITUDE,LONGITUDE', ending='.kml')
+        self.not_exported(2, "'91,0' is no origin", 'at most 89', ending='.geojson', args=('--origin', '91,0'))
+        self.not_exported(2, "'' is no origin", ending='.kml', args=('--origin', ''))
+        self.not_exported(2, 'clockwise from north', ending='.kml', args=('--origin', '49,8', '--heading', 'nan'))
+        self.not_exported(2, '--heading requires --origin', ending='.kml', args=('--heading', '9'))
+        self.not_exported(2, '--origin is for .kml and .geojson', args=('--origin', '49,8'))
         before = read(self.out + '/map.ply')
         result = call('export', self.out, '--out', self.out + '/map.ply')
         self.assertEqual(result.returncode, 2)

@@ -55,11 +55,11 @@ class MapTest(MapCase):
             self.assertEqual(read(f'{self.out}/{name}'), read(f'{self.out}_export/{name}'), name)
         for name in ('trajectory_tum.txt', 'trajectory_kitti.txt', 'odometry_tum.txt', 'odometry_kitti.txt'):
             self.assertEqual(read(f'{self.out}/{name}'), read(f'{self.out}_export/data/{name}'), name)
-        geo = call('map', 'export', self.map, '--out', self.out + '_geo', '--origin', '49,8.4,90')
+        geo = call('map', 'export', self.map, '--out', self.out + '_geo', '--origin', '49,8.4', '--heading', '90')
         self.assertEqual(geo.returncode, 0, geo.stderr)
         lines = json.loads(read(self.out + '_geo/map.geojson'))['features']
         self.assertEqual(lines[0]['geometry']['coordinates'][0], [8.4, 49.0])
-        self.assertEqual(call('map', 'export', self.map, '--out', self.out, '--origin', '91,0,0').returncode, 2)
+        self.assertEqual(call('map', 'export', self.map, '--out', self.out, '--origin', '91,0').returncode, 2)
         self.assertFalse(os.path.exists('runs'), 'no run folder that was not asked for')
 
     def test_a_second_session(self):

@@ -3,16 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "../support/temp_folder.h"
 
 namespace sslcd {
 namespace {
 
 // A KITTI camera that looks north or east, and an object ahead of it and to its right.
-TEST(GeoJson, PointsLieWhereTheCameraSeesThem) {
+TEST(MapGeoJson, PointsLieWhereTheCameraSeesThem) {
   MapInfo info;
   info.up_axis = Vec3(0, -1, 0);
   info.sessions.emplace_back();
@@ -30,7 +27,8 @@ TEST(GeoJson, PointsLieWhereTheCameraSeesThem) {
   constexpr double kMetresOfDegree = 111.13e3;  // at 45 degrees of latitude, along the meridian
   const double across = kMetresOfDegree * 78.85 / 111.13;
   for (const double heading : {0., 90.}) {
-    const auto json = nlohmann::json::parse(GeoJsonText(info, results, {45, 10, heading}));
+    const auto json =
+        nlohmann::json::parse(MapGeoJson(info, results, {45, 10, std::nullopt, heading}));
     ASSERT_EQ(json["features"].size(), 2u) << "confirmed landmarks alone";
     const auto& line = json["features"][0]["geometry"]["coordinates"];
     EXPECT_EQ(line[0], nlohmann::json({10., 45.}));
@@ -41,15 +39,6 @@ TEST(GeoJson, PointsLieWhereTheCameraSeesThem) {
     EXPECT_NEAR(east, heading == 0 ? 50 : 1000, 1);
     EXPECT_NEAR(north, heading == 0 ? 1000 : -50, 1);
   }
-}
-
-TEST(GeoJson, AnOriginHasThreeNumbers) {
-  const GeoOrigin origin = ParseGeoOrigin("49.5,-8.25,120");
-  EXPECT_EQ(origin.latitude_deg, 49.5);
-  EXPECT_EQ(origin.longitude_deg, -8.25);
-  EXPECT_EQ(origin.heading_deg, 120);
-  for (const char* text : {"", "1,2", "1,2,3,4", "1,2,x", "90,0,0", "0,181,0", "0,0,nan", "1,,2"})
-    ExpectError([&] { ParseGeoOrigin(text); }, {"LATITUDE,LONGITUDE,HEADING"});
 }
 
 }  // namespace

@@ -95,6 +95,8 @@ TEST(ReportPage, TextOfTheUserIsNoMarkup) {
   const std::string json = ReportJson({Drive(3)}, {"<b>"});
   EXPECT_THAT(json, Not(HasSubstr("<")));
   EXPECT_EQ(MarkupText("<b class=\"x\">&\x1b</b>"), "&lt;b class=&quot;x&quot;&gt;&amp;&lt;/b&gt;");
+  EXPECT_EQ(MarkupText("\xEF\xBF\xBF\xEF\xBF\xBD!\xEF\xBF\xBE"), "\xEF\xBF\xBD!")
+      << "U+FFFF, U+FFFE";
   try {
     RequireReportLibraries();
   } catch (const Error& missing) {
