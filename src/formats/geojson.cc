@@ -29,6 +29,15 @@ Json GeometryOf(const GeoFeature& feature) {
 
 }  // namespace
 
+GeoProperties PropertiesOf(const MapObject& object) {
+  return {{"landmark", static_cast<double>(object.id.value)},
+          {"label", object.label},
+          {"sightings", static_cast<double>(object.observations.size())},
+          {"length_m", object.dims.x()},
+          {"width_m", object.dims.y()},
+          {"height_m", object.dims.z()}};
+}
+
 std::string GeoJsonText(const std::vector<GeoFeature>& features) {
   Json root;
   root["type"] = "FeatureCollection";

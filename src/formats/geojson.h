@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "formats/geo_plane.h"
+#include "sslcd/core/landmark.h"
 
 namespace sslcd {
+
+using GeoProperties = std::vector<std::pair<std::string, std::variant<std::string, double>>>;
 
 /// A feature of a GeoJSON file.
 struct GeoFeature {
@@ -16,8 +19,11 @@ struct GeoFeature {
   Kind kind = Kind::kPoint;
   /// of a polygon: its corners, counter-clockwise from above, each once
   std::vector<GeoPoint> points;
-  std::vector<std::pair<std::string, std::variant<std::string, double>>> properties;
+  GeoProperties properties;
 };
+
+/// landmark, label, sightings, length_m, width_m and height_m.
+GeoProperties PropertiesOf(const MapObject& object);
 
 /// Returns the text of a GeoJSON file (RFC 7946), one line per feature. A line of one point gets it
 /// twice.

@@ -20,12 +20,7 @@ std::string MapGeoJson(const MapInfo& info, const MapResults& results, const Geo
     if (object.state == LandmarkState::kConfirmed)
       features.push_back({GeoFeature::Kind::kPoint,
                           {plane.At(object.T_world_object.translation())},
-                          {{"landmark", static_cast<double>(object.id.value)},
-                           {"label", object.label},
-                           {"sightings", static_cast<double>(object.observations.size())},
-                           {"length_m", object.dims.x()},
-                           {"width_m", object.dims.y()},
-                           {"height_m", object.dims.z()}}});
+                          PropertiesOf(object)});
   return GeoJsonText(features);
 }
 

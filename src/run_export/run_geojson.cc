@@ -20,17 +20,10 @@ GeoFeature LineOf(const std::string& name, Colour colour, const std::vector<Vec3
 }
 
 GeoFeature PolygonOf(const RunScene::Object& each, const GeoPlane& plane) {
-  const MapObject& object = each.object;
-  return {Kind::kPolygon,
-          OutlineOf(each, plane),
-          {{"name", each.name},
-           {"fill", Hex(each.colour)},
-           {"landmark", static_cast<double>(object.id.value)},
-           {"label", object.label},
-           {"sightings", static_cast<double>(object.observations.size())},
-           {"length_m", object.dims.x()},
-           {"width_m", object.dims.y()},
-           {"height_m", object.dims.z()}}};
+  GeoFeature polygon{Kind::kPolygon, OutlineOf(each, plane), PropertiesOf(each.object)};
+  polygon.properties.emplace_back("name", each.name);
+  polygon.properties.emplace_back("fill", Hex(each.colour));
+  return polygon;
 }
 
 GeoFeature LoopLine(const RunScene::Loop& each, const GeoPlane& plane) {
