@@ -75,7 +75,8 @@ function(sslcd_library target)
     set_target_properties(${target}_shared PROPERTIES
       VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
       LINK_DEPENDS ${SSLCD_SYMBOLS} INSTALL_RPATH $ORIGIN)
-    target_link_options(${target}_shared PRIVATE LINKER:--version-script=${SSLCD_SYMBOLS})
+    target_link_options(${target}_shared PRIVATE LINKER:--version-script=${SSLCD_SYMBOLS}
+      ${SSLCD_LINK_HARDENED})
     if(NOT SSLCD_SANITIZE)
       target_link_options(${target}_shared PRIVATE LINKER:-z,defs)
     endif()
