@@ -4,8 +4,8 @@
 #   src/NAME, and is the include path of `sslcd_NAME_headers`, which hands on those of the modules
 #   linked. A header of any other module is not found, so an include that goes up does not compile.
 #   The LINK list has to be what the includes name, no less and no more: tests/include_graph.
-# sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>... WITHOUT <files>...)
-#   a room, and src/NAME/*.cc, but for the files named, as an object library `sslcd_NAME`.
+# sslcd_module(NAME LINK <lower modules>... PRIVATE <outside libraries>...)
+#   a room, and src/NAME/*.cc as an object library `sslcd_NAME`.
 # sslcd_use_rooms(TARGET <modules>...)
 #   private headers for a program: a tool, a benchmark, a test.
 # sslcd_library(TARGET [LINK <libraries>...])
@@ -37,10 +37,8 @@ function(sslcd_use_rooms target)
 endfunction()
 
 function(sslcd_module name)
-  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;WITHOUT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cc)
-  list(TRANSFORM ARG_WITHOUT PREPEND ${PROJECT_SOURCE_DIR}/src/${name}/)
-  list(REMOVE_ITEM sources ${ARG_WITHOUT})
   sslcd_room(${name} LINK ${ARG_LINK})
   add_library(sslcd_${name} OBJECT ${sources})
   target_link_libraries(sslcd_${name} PRIVATE sslcd_${name}_headers ${ARG_PRIVATE} sslcd_compiler)

@@ -13,5 +13,5 @@ case "${1:-}" in
   --check) mode="--dry-run -Werror" ;;
   *) echo "usage: scripts/format.sh [--check]" >&2; exit 2 ;;
 esac
-find include src apps python tests bench examples integrations third_party \( -name '*.h' -o -name '*.cc' \) -print0 2>/dev/null |
+find include src apps python tests bench examples integrations third_party/lie \( -name '*.h' -o -name '*.cc' \) -print0 2>/dev/null |
   xargs -0 clang-format-14 $mode

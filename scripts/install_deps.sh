@@ -5,8 +5,8 @@
 #   scripts/install_deps.sh [build|python|vision|test|dev|fuzz]
 #     build   the library and the tools; enough for scripts/demo.sh
 #     python  and what `pip install .` needs
-#     vision  and ONNX Runtime, to run models (docs/models.md); all else is installed where that
-#             cannot be had
+#     vision  and ONNX Runtime, to run models (docs/models.md), before or after the build; all else is
+#             installed where that cannot be had
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
 #             NumPy for the Python package, ROS 1 for sslcd_node, and Chromium for reports (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t kApiVersion = 17;
 const char kHelp[] =
-    "install it (scripts/install_deps.sh vision, or the package libonnxruntime-dev), or give the "
-    "path of "
-    "libonnxruntime.so as 'library' or in SSLCD_ORT_LIB";
+    "install it (scripts/install_onnxruntime.sh, with --to FOLDER without root; or the package "
+    "libonnxruntime-dev), or give the path of libonnxruntime.so as 'library' or in SSLCD_ORT_LIB; "
+    "nothing has to be built again";
 
 /// The paths to try and the source of their names.
 struct Candidates {

@@ -33,7 +33,7 @@ class DetectCase(CliCase):
     def detected_with_models(self, *args, **kwargs):
         """The result; skips the test without ONNX Runtime."""
         result = self.detect(*args, **kwargs)
-        if 'which was not found' in result.stderr or 'this build cannot' in result.stderr:
+        if 'which was not found' in result.stderr:
             self.skipTest('skipped: no ONNX Runtime: ' + result.stderr)
         self.assertEqual(result.returncode, 0, result.stderr)
         return result

@@ -51,8 +51,8 @@ def read_modules(source_dir):
         file = path.relative_to(source_dir).as_posix()
         for kind, body in re.findall(r"^ *sslcd_(module|room)\(([^)]*)\)", path.read_text(encoding="utf-8"), re.M):
             name, *words = body.split()
-            links = words_after(words, "LINK", ("LINK", "PRIVATE", "WITHOUT"))
-            named = " ".join(words_after(words, "PRIVATE", ("LINK", "PRIVATE", "WITHOUT"))).lower()
+            links = words_after(words, "LINK", ("LINK", "PRIVATE"))
+            named = " ".join(words_after(words, "PRIVATE", ("LINK", "PRIVATE"))).lower()
             for link in links:
                 if link not in modules:
                     breaches.append(f"{file}: {name} links {link}, which is not listed before it")

@@ -13,7 +13,7 @@ MAX_FUNCTION = 60  # lines, from the line that names it to its closing brace
 MAX_PARAMETERS = 6
 LICENCE = "// SPDX-License-Identifier: BSD-3-Clause"
 PRODUCT = ("include", "src", "apps", "python")
-ALSO = ("tests", "bench", "examples", "integrations", "third_party")
+ALSO = ("tests", "bench", "examples", "integrations", "third_party/lie")
 NO_FUNCTION = re.compile(r"(namespace|class|struct|union|enum|template <[^>]*> (class|struct))\b")
 
 
