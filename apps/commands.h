@@ -22,6 +22,7 @@ Command AddDrawCommand(CLI::App& app, Console& console);
 Command AddExportCommand(CLI::App& app, Console& console);
 Command AddReportCommand(CLI::App& app, Console& console);
 Command AddCompareCommand(CLI::App& app, Console& console);
+Command AddModelCommand(CLI::App& app, Console& console);
 Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
 Command AddMapCommand(CLI::App& app, Console& console);

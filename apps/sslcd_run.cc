@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
       {"export", AddExportCommand(app, console)},
       {"report", AddReportCommand(app, console)},
       {"compare", AddCompareCommand(app, console)},
+      {"model", AddModelCommand(app, console)},
       {"match", AddMatchCommand(app, console)},
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},

@@ -27,7 +27,7 @@ LABELS = {0: "Car", 2: "Truck"}  # class 1 is not wanted
 FOLDER = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent.parent / "tests/data/models")
 
 
-def write_model(name, inputs, outputs, size_input=None):
+def write_model(name, inputs, outputs, size_input=None, metadata=None):
     """inputs: {name: shape}; outputs: {name: (fixed numbers, shape to declare)}. A first dimension "batch" is any."""
     nodes, constants = [], []
 
@@ -60,6 +60,7 @@ def write_model(name, inputs, outputs, size_input=None):
         given.append(helper.make_tensor_value_info(size_input, TensorProto.INT64, [1, 2]))
     result = helper.make_model(helper.make_graph(nodes, name, given, declared, constants), ir_version=IR_VERSION,
                                opset_imports=[helper.make_opsetid("", OPSET)], producer_name="sslcd")
+    helper.set_model_props(result, metadata or {})
     onnx.checker.check_model(result)
     onnx.save(result, FOLDER / f"{name}.onnx")
 
@@ -133,6 +134,27 @@ def yolo_v8():  # without its top 64 x 32; in a letterbox 32 x 16 in the middle 
     v = numbers[0].T + shift_of([(0.5, (114, 114, 114)), (0.5, BGR)], rgb=False)
     kept = best([found(r[4:].max(), r[4:].argmax(), corners(r[:4])) for r in v], 0.25, 0.45)
     write_boxes("yolo_v8", kept, scale=(0.5, 0.5), offset=(0, 8 - 0.5 * TOP))
+
+
+def yolox():  # 64 x 48 in the corner of 64 x 64, grey below; B G R; not decoded
+    rng = np.random.default_rng(8)
+    cells = [(stride, x, y) for stride in (8, 16, 32) for y in range(64 // stride) for x in range(64 // stride)]
+    numbers = np.hstack([rng.uniform(-.5, 1, (len(cells), 4)), rng.uniform(0, .1, (len(cells), 4))])
+    # A car, the same once more on a coarser grid, a truck, something unwanted, a weak one.
+    numbers[[9, 64 + 1, 64 + 16 + 1, 40, 20], 4] = .9, .8, .7, .9, .3
+    numbers[[9, 64 + 1, 64 + 16 + 1, 40, 20], [5, 5, 7, 6, 5]] = .9, .9, .8, .9, .9
+    numbers[9, :4] = .4, .6, 1.1, .7
+    numbers[64 + 1, :4] = -.2, .7, .35, .05
+    write_model("yolox", {"images": [1, 3, 64, 64]}, {"output": (numbers[None], (1,) + numbers.shape)},
+                metadata={"names": "{0: 'car', 1: 'person', 2: 'truck'}"})
+    shift = shift_of([(.75 * TOP / HEIGHT, TOP_BGR), (.75 * (1 - TOP / HEIGHT), BGR), (.25, (114,) * 3)], rgb=False)
+    candidates = []
+    for (stride, x, y), r in zip(cells, numbers + shift):
+        box = corners(np.array([(x + r[0]) * stride, (y + r[1]) * stride, np.exp(r[2]) * stride, np.exp(r[3]) * stride]))
+        candidates.append(found(r[4] * r[5:].max(), int(np.argmax(r[5:])), box))
+    kept = best(candidates, 0.3, 0.45)
+    assert len(kept) == 2
+    write_boxes("yolox", kept)
 
 
 def yolo_v10():  # without its top, stretched to 96 x 64
@@ -305,9 +327,9 @@ def monoflex_4():
 
 
 def bad_models():
-    """Models that tests/inference expects to fail: an unknown operator set, half precision, NaN."""
-    def save(name, opset, kind, dtype):
-        given, result = (helper.make_tensor_value_info(key, dtype, [1, 2]) for key in ("x", "y"))
+    """Models that tests expect to fail: an unknown operator set, half precision, NaN, images of any size."""
+    def save(name, opset, kind, dtype, shape=(1, 2)):
+        given, result = (helper.make_tensor_value_info(key, dtype, shape) for key in ("x", "y"))
         graph = helper.make_graph([helper.make_node(kind, ["x"], ["y"])], name, [given], [result])
         onnx.save(helper.make_model(graph, ir_version=IR_VERSION, opset_imports=[helper.make_opsetid("", opset)]),
                   FOLDER / f"{name}.onnx")
@@ -315,11 +337,12 @@ def bad_models():
     save("bad_opset", 999, "Abs", TensorProto.FLOAT)
     save("bad_type", OPSET, "Abs", TensorProto.FLOAT16)
     save("bad_values", OPSET, "Log", TensorProto.FLOAT)  # of -1
+    save("any_size", OPSET, "Abs", TensorProto.FLOAT, (1, 3, "height", "width"))
 
 
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for write in (yolo_v5, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, mono3d, monoflex_2,
+    for write in (yolo_v5, yolox, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, mono3d, monoflex_2,
                   monoflex_4, embedding, bad_models):
         write()
 

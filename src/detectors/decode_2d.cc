@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/sigmoid.h"
+#include "detectors/cells.h"
 
 namespace sslcd {
 namespace {
@@ -47,6 +48,19 @@ void DecodeYoloV5(const Tensor& tensor, Collector& found) {
     found.AddBest(
         row + 5, 1, [&](double score) { return row[4] * score; },
         Centred(row[0], row[1], row[2], row[3]));
+}
+
+void DecodeYolox(const Tensor& tensor, int width, int height, Collector& found) {
+  const float* row = tensor.values.data();
+  for (const int stride : kYoloxStrides) {
+    for (int y = 0; y < Cells(height, stride); ++y) {
+      for (int x = 0; x < Cells(width, stride); ++x, row += tensor.shape[2])
+        found.AddBest(
+            row + 5, 1, [&](double score) { return row[4] * score; },
+            Centred((x + row[0]) * stride, (y + row[1]) * stride, std::exp(row[2]) * stride,
+                    std::exp(row[3]) * stride));
+    }
+  }
 }
 
 void DecodeYoloV8(const Tensor& tensor, Collector& found) {
@@ -103,6 +117,7 @@ std::vector<ClassBox> DecodeBoxes(const std::vector<Tensor>& outputs, const Mode
   Collector found(output);
   switch (output.layout) {
     case ModelLayout::kYoloV5: DecodeYoloV5(outputs[0], found); break;
+    case ModelLayout::kYolox: DecodeYolox(outputs[0], width, height, found); break;
     case ModelLayout::kYoloV8: DecodeYoloV8(outputs[0], found); break;
     case ModelLayout::kYoloV10: DecodeYoloV10(outputs[0], found); break;
     case ModelLayout::kBoxesScoresLabels:

@@ -19,7 +19,8 @@ struct ClassBox {
 /// class has a label. The outputs have the order and shapes of the layout. `width` x `height` is
 /// the size of the input.
 ///
-/// Layouts: ultralytics' YOLO v5 (score = objectness x class), v8 and v11, v10; FastestDet (score =
+/// Layouts: ultralytics' YOLO v5 (score = objectness x class), v8 and v11, v10; YOLOX (Ge et al.,
+/// 2021: score as v5, centre = (cell + offset) * stride, size = exp * stride); FastestDet (score =
 /// objectness^0.6 x class^0.4, centre = cell + tanh, size = sigmoid); boxes, scores, labels.
 std::vector<ClassBox> DecodeBoxes(const std::vector<Tensor>& outputs, const ModelOutput& output,
                                   int width, int height);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detectors/cells.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -38,6 +39,7 @@ std::vector<TensorShape> LayoutShapes(const ModelOutput& output, int width, int 
   const std::int64_t classes = output.class_count;
   switch (output.layout) {
     case ModelLayout::kYoloV5: return {{1, -1, 5 + classes}};
+    case ModelLayout::kYolox: return {{1, CellCount(width, height, kYoloxStrides), 5 + classes}};
     case ModelLayout::kYoloV8: return {{1, 4 + classes, -1}};
     case ModelLayout::kYoloV10: return {{1, -1, 6}};
     case ModelLayout::kBoxesScoresLabels: return {{1, -1, 4}, {1, -1}, {1, -1}};

@@ -10,8 +10,6 @@
 namespace sslcd {
 namespace {
 
-constexpr int kLargestInput = 8192;  // [px]
-
 /// Checks that the ranges of single fields do not cover.
 void Check(const ModelDescription& model, const std::string& path) {
   const auto refuse = [&path](const std::string& message) {
@@ -57,7 +55,7 @@ void DescribeFields(FieldVisitor& visitor, ModelInput& input) {
                   "height of the input; 0: what the model says");
   visitor.Integer("crop_top_px", input.crop_top_px, 0, kLargestInput,
                   "rows of the image cut off before resizing");
-  visitor.Enum("resize", input.resize, {"stretch", "letterbox", "fit_height"},
+  visitor.Enum("resize", input.resize, {"stretch", "letterbox", "fit_height", "letterbox_corner"},
                "how an image gets the input's size");
   visitor.Enum("channels", input.channels, {"rgb", "bgr"}, "order of the colours");
   visitor.Real("scale", input.scale, 1e-6, 1e3, "factor on the pixels' 0..255");
@@ -84,7 +82,7 @@ void DescribeFields(FieldVisitor& visitor, ModelAnchors& anchors) {
 void DescribeFields(FieldVisitor& visitor, ModelOutput& output) {
   visitor.Enum("layout", output.layout,
                {"yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels", "fastestdet", "stereo3d",
-                "mono3d", "monoflex", "embedding"},
+                "mono3d", "monoflex", "embedding", "yolox"},
                "what the model's numbers mean");
   visitor.Names("names", output.names,
                 "the model's names for the layout's tensors; left out: in the model's order");
@@ -113,10 +111,16 @@ void DescribeFields(FieldVisitor& visitor, ModelDescription& description) {
 }
 
 ModelDescription LoadModelDescription(const std::string& yaml_path) {
+  const std::filesystem::path path(yaml_path);
+  if (path.extension() == ".onnx")
+    throw Error(ErrorKind::kBadConfig, {yaml_path},
+                "is a model, and a description is needed that says what its numbers mean: "
+                "'sslcd_run model inspect " +
+                    yaml_path + " --out " + path.stem().string() +
+                    ".yaml' writes one (docs/models.md)");
   ModelDescription model;
   LoadConfigFile(yaml_path, [&model](FieldVisitor& visitor) { DescribeFields(visitor, model); });
   Check(model, yaml_path);
-  const std::filesystem::path path(yaml_path);
   const auto resolve = [&path](std::string& file) { file = (path.parent_path() / file).string(); };
   if (model.name.empty()) model.name = path.stem().string();
   resolve(model.file);

@@ -9,13 +9,16 @@
 
 namespace sslcd {
 
+constexpr int kLargestInput = 8192;  ///< largest side of a model's input [px]
+
 /// The preparation of an image for the model: crop rows at the top, resize to the input's size,
 /// then compute `(pixel * scale - mean) / std` for each channel.
 struct ModelInput {
   enum class Resize {
-    kStretch,    ///< does not keep the aspect ratio
-    kLetterbox,  ///< keeps the aspect ratio; centred on grey (114)
-    kFitHeight,  ///< keeps the aspect ratio; cropped or black on the right
+    kStretch,          ///< does not keep the aspect ratio
+    kLetterbox,        ///< keeps the aspect ratio; centred on grey (114)
+    kFitHeight,        ///< keeps the aspect ratio; cropped or black on the right
+    kLetterboxCorner,  ///< keeps the aspect ratio; grey (114) on the right and below, as YOLOX
   };
   enum class Channels { kRgb, kBgr };
 
@@ -42,6 +45,7 @@ enum class ModelLayout {
   kMono3d,             ///< VisualDet3D's Yolo3D, used by the paper: kStereo3d from one image
   kMonoFlex,           ///< monocular: maps of centre heat, offset, depth, size and rotation
   kEmbedding,          ///< B x D, re-identification
+  kYolox,              ///< 1 x N x (5 + classes): cells of strides 8, 16, 32, not decoded
 };
 
 /// Anchors of kStereo3d and kMono3d and their statistics over the training data.

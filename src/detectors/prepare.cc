@@ -63,9 +63,10 @@ InputMap Prepare(const ImageView& image, const ModelInput& input, int width, int
   map.scale_y = static_cast<double>(size.height) / pixels.rows;
   if (size != cv::Size(width, height)) {
     const bool centred = input.resize == ModelInput::Resize::kLetterbox;
+    const double around = input.resize == ModelInput::Resize::kFitHeight ? 0 : kLetterboxGrey;
     const cv::Point corner =
         centred ? cv::Point((width - size.width) / 2, (height - size.height) / 2) : cv::Point();
-    cv::Mat canvas(height, width, CV_8UC3, cv::Scalar::all(centred ? kLetterboxGrey : 0));
+    cv::Mat canvas(height, width, CV_8UC3, cv::Scalar::all(around));
     const cv::Rect inside = cv::Rect(corner, size) & cv::Rect(0, 0, width, height);
     resized(inside - corner).copyTo(canvas(inside));
     resized = canvas;

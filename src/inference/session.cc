@@ -77,9 +77,9 @@ struct Session::Impl {
     }
     InferenceOptions on_cpu = options;
     on_cpu.provider = InferenceOptions::Provider::kCpu;
-    Check(
-        TryToOpen(on_cpu),
-        "; export the model again, in a version of ONNX that ONNX Runtime knows (docs/models.md)");
+    Check(TryToOpen(on_cpu),
+          "; if it is an ONNX file, export the model again, in a version of ONNX that ONNX Runtime "
+          "knows (docs/models.md)");
   }
 
   OrtStatus* TryToOpen(const InferenceOptions& options) {
@@ -213,6 +213,21 @@ Session::~Session() = default;
 const std::string& Session::path() const { return impl_->path; }
 const std::vector<TensorInfo>& Session::inputs() const { return impl_->inputs; }
 const std::vector<TensorInfo>& Session::outputs() const { return impl_->outputs; }
+std::string Session::Metadata(const std::string& key) const {
+  const Impl& impl = *impl_;
+  OrtAllocator* allocator = nullptr;
+  impl.Check(impl.api.GetAllocatorWithDefaultOptions(&allocator));
+  OrtModelMetadata* raw = nullptr;
+  impl.Check(impl.api.SessionGetModelMetadata(impl.session.get(), &raw));
+  const OrtPointer<OrtModelMetadata> metadata(raw, impl.api.ReleaseModelMetadata);
+  char* value = nullptr;
+  impl.Check(impl.api.ModelMetadataLookupCustomMetadataMap(raw, allocator, key.c_str(), &value));
+  if (!value) return "";
+  const std::string text = value;
+  impl.Check(impl.api.AllocatorFree(allocator, value));
+  return text;
+}
+
 InferenceOptions::Provider Session::provider() const { return impl_->provider; }
 
 NamedTensors Session::Run(const NamedTensors& inputs) const {

@@ -36,6 +36,10 @@ class Session {
   const std::vector<TensorInfo>& inputs() const;
   const std::vector<TensorInfo>& outputs() const;
 
+  /// A text that the model's author has stored under this key, e.g. the "names" of the classes in
+  /// ultralytics' files; empty if there is none.
+  std::string Metadata(const std::string& key) const;
+
   /// The device in use: kCpu if CUDA was requested but is missing.
   InferenceOptions::Provider provider() const;
 

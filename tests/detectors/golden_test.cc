@@ -52,8 +52,8 @@ TEST_P(Golden2d, FindsWhatNumPyFinds) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Golden2d,
-                         testing::Values("yolo_v5", "yolo_v8", "yolo_v10", "boxes_scores_labels",
-                                         "fastestdet"),
+                         testing::Values("yolo_v5", "yolox", "yolo_v8", "yolo_v10",
+                                         "boxes_scores_labels", "fastestdet"),
                          [](const auto& test) { return std::string(test.param); });
 
 class Golden3d : public testing::TestWithParam<const char*> {};

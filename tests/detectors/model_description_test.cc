@@ -49,6 +49,9 @@ TEST(ModelDescription, IsStrict) {
   };
   refuses("file: a.onnx\ninput: {widht_px: 3}\n" + std::string(kGood + 13),
           {"m.yaml:2:9: unknown key 'widht_px' in 'input' - did you mean 'width_px'?"});
+  ExpectError([] { LoadModelDescription("some/yolo11s.onnx"); },
+              {"some/yolo11s.onnx: is a model",
+               "sslcd_run model inspect some/yolo11s.onnx --out yolo11s.yaml"});
   refuses("output: {labels: {0: Car}}\n", {"'file' is missing"});
   refuses("file: a.onnx\n", {"'labels' in 'output' is missing", "{2: Car}"});
   refuses("file: a.onnx\noutput: {class_count: 2, labels: {2: Car}}\n",

@@ -79,6 +79,18 @@ TEST(Prepare, LetterboxIsGreyAroundTheMiddle) {
   EXPECT_FLOAT_EQ(planes[125 * 200], 114 / 255.f);
 }
 
+TEST(Prepare, LetterboxCornerIsGreyBelowAndOnTheRight) {
+  const cv::Mat image(100, 400, CV_8UC3, cv::Scalar::all(255));
+  ModelInput input;
+  input.resize = ModelInput::Resize::kLetterboxCorner;
+  InputMap map;
+  const std::vector<float> planes = Planes(image, input, 200, 200, &map);
+  ExpectMap(map, .5, .5, 0, 0);
+  EXPECT_FLOAT_EQ(planes[49 * 200 + 199], 1);
+  EXPECT_FLOAT_EQ(planes[50 * 200], 114 / 255.f);
+  EXPECT_FLOAT_EQ(Planes(image, input, 800, 100, &map)[400], 114 / 255.f);
+}
+
 TEST(Prepare, FitHeightCutsOrFillsOnTheRight) {
   const cv::Mat image(100, 400, CV_8UC3, cv::Scalar::all(255));
   ModelInput input;

@@ -29,6 +29,13 @@ TEST(Session, KnowsInputsAndOutputs) {
   EXPECT_EQ(Session(TestModel("embedding.onnx")).inputs()[0].shape, (TensorShape{-1, 3, 8, 4}));
 }
 
+TEST(Session, ReadsWhatTheAuthorStored) {
+  SSLCD_RUNTIME();
+  const Session session(TestModel("yolox.onnx"));
+  EXPECT_EQ(session.Metadata("names"), "{0: 'car', 1: 'person', 2: 'truck'}");
+  EXPECT_EQ(session.Metadata("stride"), "");
+}
+
 TEST(Session, SameInputSameBytesOnAnyNumberOfThreads) {
   SSLCD_RUNTIME();
   InferenceOptions two;
