@@ -5,7 +5,22 @@
 #include <filesystem>
 #include <fstream>
 
+#include "formats/raw_image.h"
+#include "sslcd/core/error.h"
+
 namespace sslcd {
+namespace {
+
+ImageSize SizeOfRawImage(const std::string& path) {
+  try {
+    const RawImage image = ReadRawHeader(path);
+    return {image.width, image.height};
+  } catch (const Error&) {  // of a kind that is not read
+    return {};
+  }
+}
+
+}  // namespace
 
 ImageSize ReadImageSize(const std::string& path) {
   std::error_code ignored;
@@ -23,7 +38,7 @@ ImageSize ReadImageSize(const std::string& path) {
     const int width = number(4), height = number(4);
     return file ? ImageSize{width, height} : ImageSize{};
   }
-  if (first != 0xFFD8) return {};
+  if (first != 0xFFD8) return SizeOfRawImage(path);
   while (file) {  // JPEG: the start-of-frame segment has the size
     int marker = byte();
     while (marker == 0xFF) marker = byte();

@@ -13,6 +13,7 @@
 #include "formats/map_json.h"
 #include "formats/npy.h"
 #include "formats/pairs.h"
+#include "formats/raw_image.h"
 #include "formats/run_json.h"
 #include "input_file.h"
 #include "sslcd/config/config.h"
@@ -79,6 +80,7 @@ Targets Readers() {
       {"oxts", ReadOnly(ReadOxts)},
       {"pairs", ReadOnly(ReadLayoutPairFile)},
       {"poses", ReadOnly([](const std::string& path) { ReadPoseFile(path); })},
+      {"raw_image", ReadOnly(ReadRawImage)},
       {"run_json", ReadAndWrite(ReadRunJson, RunJson)},
       {"sequence_yaml", ReadAndWrite(ReadSequenceYaml, SequenceYamlText)},
       {"settings", Set},
