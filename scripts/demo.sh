@@ -10,9 +10,7 @@ cd "$(dirname "$0")/.."
 build=${SSLCD_BUILD_DIR:-build/release}
 out=${1:-runs/demo}
 
-scripts/install_deps.sh build
-cmake --preset release -B "$build" -DSSLCD_BUILD_TESTS=OFF >/dev/null
-cmake --build "$build" -j "$(nproc)" --target sslcd_sim sslcd_run
+scripts/build.sh
 
 "$build/apps/sslcd_sim" halv --case 1 --seed 7 --out "$out/halv" --force
 "$build/apps/sslcd_run" run "$out/halv" --groundtruth groundtruth.txt --report --out "$out/map" --force

@@ -77,6 +77,7 @@ class DatasetLoader {
     out_.name = layout_.name;
     out_.parts = PartsOf(layout_);
     out_.groundtruth_boxes_path = layout_.groundtruth_boxes;
+    images_ = {ListImages(layout_.images), ListImages(layout_.images_right)};
     if (!layout_.sequence_yaml.empty()) info_ = ReadSequenceYaml(layout_.sequence_yaml);
     out_.labels = info_.labels;
     if (!layout_.calib.empty()) calibration_ = layout_.read_calibration(layout_.calib);
@@ -84,7 +85,7 @@ class DatasetLoader {
     out_.camera = calibration_.left;
     out_.camera_right = calibration_.right;
     const std::size_t frames = out_.frames.size();
-    AddImages(layout_, info_, out_);
+    AddImages(layout_, images_, info_, frames_in_file_, out_);
     if (out_.frames.size() < frames) frames_in_file_ = out_.frames.size();
     WarnOfMoreImages();
     if (!layout_.detections.empty()) AddDetections();
@@ -107,7 +108,9 @@ class DatasetLoader {
   DatasetLayout layout_;
   Calibration calibration_;
   SequenceInfo info_;
+  SequenceImages images_;
   std::size_t frames_in_file_ = 0;  // before max_frames
+  double last_stamp_ = 0;           // of the last of them [s]
   Dataset out_;
 };
 
@@ -144,6 +147,8 @@ void DatasetLoader::AddFrames() {
                   "has " + std::to_string(rows.size()) + " poses, but " + layout_.times + " has " +
                       std::to_string(stamps.size()) + " stamps: give one pose per frame");
     }
+  } else if (!has_stamps && images_.left.by_stamp) {
+    stamps = StampsOfPoses(images_.left, rows.size(), layout_.odometry);
   } else if (!has_stamps) {
     for (double& stamp : stamps) stamp *= kKittiFrameStep;
   }
@@ -153,6 +158,7 @@ void DatasetLoader::AddFrames() {
   }
 
   frames_in_file_ = rows.size();
+  last_stamp_ = stamps.back();
   const std::size_t limit =
       request_.max_frames > 0 ? static_cast<std::size_t>(request_.max_frames) : rows.size();
   out_.frames.resize(std::min(rows.size(), limit));
@@ -174,14 +180,17 @@ void DatasetLoader::AddFramesWithoutPoses() {
   std::vector<double> stamps;
   if (!layout_.times.empty()) {
     stamps = layout_.read_times(layout_.times);
-  } else if (!layout_.images.empty()) {
-    const int frames = FramesOfImages(layout_.images);
-    for (int i = 0; i < frames; ++i) stamps.push_back(kKittiFrameStep * i);
+  } else {
+    stamps = StampsOfImages(images_.left, kKittiFrameStep);
   }
   if (stamps.empty())
     throw Error(ErrorKind::kBadInput, {request_.path},
-                "no frames: odometry from images needs times.txt or a folder of left images "
-                "(image_2, or image_0)");
+                "no frames: odometry from images needs times.txt or a folder of left images" +
+                    std::string(images_.left.others > 0
+                                    ? "; those in " + layout_.images +
+                                          " have names without a number: name them by frame "
+                                          "(000000.png) or by stamp (1403636579.763555.png)"
+                                    : " (left, image_2 or image_0)"));
   if (const auto warning = GapWarning(stamps)) Warn(*warning);
   frames_in_file_ = stamps.size();
   const std::size_t limit =
@@ -194,7 +203,9 @@ void DatasetLoader::AddFramesWithoutPoses() {
 }
 
 void DatasetLoader::WarnOfMoreImages() {
-  const int more = layout_.odometry.empty() ? 0 : ImagesAfter(layout_, frames_in_file_);
+  const int more = layout_.odometry.empty() || out_.frames.empty()
+                       ? 0
+                       : ImagesAfter(images_.left, frames_in_file_, last_stamp_);
   if (more == 0) return;
   const std::string count = std::to_string(frames_in_file_);
   Warn((layout_.times.empty() ? layout_.odometry + ": has " + count + " poses"

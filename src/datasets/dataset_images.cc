@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "datasets/image_size.h"
+#include "datasets/stamps.h"
 #include "formats/files.h"
 #include "sslcd/core/error.h"
 
@@ -15,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostMissing = 10'000;  // frames without an image; more are wrong numbers
+constexpr double kPairTolerance = 0.005;  // [s] between the stamps of a left and a right image
+constexpr int kMostMissing = 10'000;      // frames without an image; more are wrong numbers
 
 std::string Text(const ImageSize& size) {
   return std::to_string(size[0]) + "x" + std::to_string(size[1]);
@@ -41,45 +43,56 @@ ImageSize SizeOfImages(const std::vector<Frame>& frames) {
 
 }  // namespace
 
-ImageFinder NumberedImages(int digits) {
-  return [digits](const std::string& folder, int frame) {
-    std::string number = std::to_string(frame);
-    number.insert(0, std::max<std::size_t>(number.size(), digits) - number.size(), '0');
-    for (const char* ending : {".png", ".jpg"}) {
-      const std::string image = IfFile(fs::path(folder) / (number + ending));
-      if (!image.empty()) return image;
-    }
-    return std::string();
-  };
-}
-
-int FramesOfImages(const std::string& folder) {
-  NumberedFile last{-1, ""};
-  long long images = 0;
-  for (const char* ending : {".png", ".jpg"}) {
-    const std::vector<NumberedFile> files = NumberedFiles(folder, ending);
-    images += static_cast<long long>(files.size());
-    if (!files.empty() && files.back().number > last.number) last = files.back();
-  }
-  if (last.number + 1LL - images > kMostMissing)
-    throw Error(ErrorKind::kBadInput, {last.path},
-                "is not a frame number, as the last of " + std::to_string(images) +
+std::vector<double> StampsOfImages(const ImageFolder& left, double frame_step_s) {
+  if (left.by_stamp) return left.Keys();
+  if (left.images.empty()) return {};
+  const ImageFolder::Entry& last = left.images.back();
+  const double frames = last.key + 1, images = static_cast<double>(left.images.size());
+  if (frames - images > kMostMissing)
+    throw Error(ErrorKind::kBadInput, {left.PathOf(&last)},
+                "is not a frame number, as the last of " + std::to_string(left.images.size()) +
                     " images: frames count from 000000");
-  return last.number + 1;
+  std::vector<double> stamps;
+  for (int i = 0; i < frames; ++i) stamps.push_back(frame_step_s * i);
+  return stamps;
 }
 
-int ImagesAfter(const DatasetLayout& layout, std::size_t frames) {
+std::vector<double> StampsOfPoses(const ImageFolder& left, std::size_t poses,
+                                  const std::string& odometry) {
+  if (left.images.size() != poses)
+    throw Error(ErrorKind::kBadInput, {odometry},
+                "has " + std::to_string(poses) + " poses without stamps, but " + left.path +
+                    " has " + std::to_string(left.images.size()) +
+                    " images named by stamps: give one pose per image, or stamps (TUM rows)");
+  return left.Keys();
+}
+
+int ImagesAfter(const ImageFolder& left, std::size_t frames, double last_stamp) {
+  const std::vector<double> keys = left.Keys();
+  if (left.by_stamp) {
+    const double end = last_stamp + 0.5 * MedianStep(keys);
+    return left.images.size() == frames
+               ? 0
+               : static_cast<int>(keys.end() - std::upper_bound(keys.begin(), keys.end(), end));
+  }
   int count = 0;
-  if (layout.images.empty()) return 0;
-  while (!layout.find_image(layout.images, static_cast<int>(frames) + count).empty()) ++count;
+  while (left.Find(static_cast<double>(frames) + count, 0)) ++count;
   return count;
 }
 
-void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset) {
+void AddImages(const DatasetLayout& layout, const SequenceImages& images, const SequenceInfo& info,
+               std::size_t frames_in_file, Dataset& dataset) {
+  const bool in_order = images.left.images.size() == frames_in_file;
+  const double half_step = 0.5 * MedianStep(images.left.Keys());
   for (Frame& frame : dataset.frames) {
-    if (!layout.images.empty()) frame.image_left = layout.find_image(layout.images, frame.index);
-    if (!layout.images_right.empty())
-      frame.image_right = layout.find_image(layout.images_right, frame.index);
+    const ImageFolder::Entry* left = !images.left.by_stamp ? images.left.Find(frame.index, 0)
+                                     : in_order            ? &images.left.images[frame.index]
+                                                : images.left.Find(frame.stamp, half_step);
+    frame.image_left = images.left.PathOf(left);
+    if (images.right.by_stamp == images.left.by_stamp && (left || !images.left.by_stamp))
+      frame.image_right =
+          images.right.PathOf(images.left.by_stamp ? images.right.Find(left->key, kPairTolerance)
+                                                   : images.right.Find(frame.index, 0));
   }
   const ImageSize given = {info.image_width, info.image_height};
   ImageSize size = SizeOfImages(dataset.frames);

@@ -3,22 +3,37 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "datasets/dataset_layout.h"
+#include "datasets/image_folder.h"
 #include "datasets/sequence_yaml.h"
 
 namespace sslcd {
 
-/// The number of frames up to the last image of the folder; missing images before it count. Throws
-/// Error(kBadInput) if more than ten thousand are missing: then the names are no frame numbers.
-int FramesOfImages(const std::string& folder);
+struct SequenceImages {
+  ImageFolder left, right;
+};
 
-/// The number of left images that follow frame `frames` - 1 without a gap.
-int ImagesAfter(const DatasetLayout& layout, std::size_t frames);
+/// The stamps of a sequence that has left images only [s]: those of their names, or one per frame
+/// up to the last image, missing ones included. Throws Error(kBadInput) if more than ten thousand
+/// are missing: then the names are no frame numbers.
+std::vector<double> StampsOfImages(const ImageFolder& left, double frame_step_s);
+
+/// The stamps of images named by stamps for poses without stamps. Throws Error(kBadInput) unless
+/// there are as many.
+std::vector<double> StampsOfPoses(const ImageFolder& left, std::size_t poses,
+                                  const std::string& odometry);
+
+/// The number of left images that follow the last frame without a gap, or are later than it.
+int ImagesAfter(const ImageFolder& left, std::size_t frames, double last_stamp);
 
 /// Sets the image paths of the dataset's frames and the image size of its cameras, from the first
-/// few images or, without images, from `info`. Throws Error(kBadInput) if these two differ. Without
-/// odometry the sequence ends with the last image, with a warning.
-void AddImages(const DatasetLayout& layout, const SequenceInfo& info, Dataset& dataset);
+/// few images or, without images, from `info`. Images named by stamps belong to frames in order
+/// where they are as many, otherwise by stamp, to half a step; left and right ones belong together
+/// to 5 ms. Throws Error(kBadInput) if the two sizes differ. Without odometry the sequence ends
+/// with the last image, with a warning. `frames_in_file`: before max_frames.
+void AddImages(const DatasetLayout& layout, const SequenceImages& images, const SequenceInfo& info,
+               std::size_t frames_in_file, Dataset& dataset);
 
 }  // namespace sslcd

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "datasets/image_folder.h"
 #include "formats/files.h"
 #include "formats/text_rows.h"
 #include "sslcd/core/error.h"
@@ -33,12 +34,29 @@ std::set<std::string> SequencesInside(const std::string& root) {
   return names;
 }
 
+/// What to do with images in a folder of no known format.
+std::string AdviceForImages(const std::string& root) {
+  const auto has_images = [](const fs::path& folder) {
+    const std::vector<std::string> names = FileNames(folder);
+    return std::any_of(names.begin(), names.end(), IsImageName);
+  };
+  const std::string wanted =
+      "the rectified images of the left camera belong into left/, those of the right one into "
+      "right/, beside calib.txt";
+  if (has_images(root)) return ". It holds images itself: " + wanted;
+  std::vector<std::string> folders;
+  for (const std::string& name : FileNames(root))
+    if (has_images(fs::path(root) / name)) folders.push_back(name + "/");
+  return folders.empty() ? "" : ". It holds images in " + Join(folders) + ": " + wanted;
+}
+
 [[noreturn]] void FailUnknown(const std::string& root) {
   std::vector<std::string> known;
   for (const DatasetReader& reader : DatasetReaders())
     known.push_back(std::string(reader.name) + " (" + reader.description + ")");
   std::string message = "not a dataset folder of a known format; known are " + Join(known);
   const std::set<std::string> inside = SequencesInside(root);
+  if (inside.empty()) message += AdviceForImages(root);
   if (!inside.empty())
     message += ". There are sequences inside, name one: " + Join({inside.begin(), inside.end()});
   throw Error(ErrorKind::kBadInput, {root}, message);
@@ -109,9 +127,15 @@ std::vector<std::string> Candidates(const fs::path& root, const std::string& seq
   const std::string& file = poses ? layout.odometry_file : layout.detections_file;
   message += file.empty() ? "; there are: " + Join(Candidates(root, layout.name, poses))
                           : " or add " + file;
-  if (policy == PartPolicy::kIfThere)
+  if (policy == PartPolicy::kIfThere && !layout.images.empty())
     message +=
-        "; or add left and right images to make it from (image_2, image_3; grey: image_0, image_1)";
+        ". It cannot be made from " + layout.images +
+        ": one camera shows no distances. Add the images of the right camera (right, image_3, "
+        "image_1); with one camera bring odometry in metres and 3D detections";
+  else if (policy == PartPolicy::kIfThere)
+    message +=
+        "; or add left and right images to make it from (left, right; image_2, image_3; grey: "
+        "image_0, image_1)";
   throw Error(ErrorKind::kBadInput, {root}, message);
 }
 

@@ -13,12 +13,6 @@
 
 namespace sslcd {
 
-/// Returns the path of a frame's image in a folder; empty: there is none.
-using ImageFinder = std::function<std::string(const std::string& folder, int frame)>;
-
-/// Finds PNG or JPEG images named by frame number, e.g. 000000.png with 6 digits.
-ImageFinder NumberedImages(int digits);
-
 /// The paths of the parts of one sequence, and functions for the parts whose format varies. An
 /// empty path means that the part is missing.
 struct DatasetLayout {
@@ -34,7 +28,6 @@ struct DatasetLayout {
   std::function<std::vector<double>(const std::string& path)> read_times = ReadTimes;
   std::function<Calibration(const std::string& path)> read_calibration =
       [](const std::string& path) { return ReadCalibration(path); };
-  ImageFinder find_image = NumberedImages(6);
   ImageSize image_size{};  ///< used if neither images nor sequence.yaml give it; 0: unknown
 
   /// `odometry` is the ground truth. It becomes `groundtruth` if the request names other odometry.

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 
 bool LooksLikeKittiRaw(const std::string& folder) {
   const fs::path root = folder;
-  return IsFolder(root / "oxts" / "data") || IsFile(root / "tracklet_labels.xml");
+  return IsFolder(root / "oxts" / "data") || IsFile(root / "tracklet_labels.xml") ||
+         IsFolder(root / "image_02" / "data") || IsFolder(root / "image_00" / "data");
 }
 
 DatasetLayout FindKittiRaw(const std::string& folder, const std::string&) {
@@ -24,23 +25,29 @@ DatasetLayout FindKittiRaw(const std::string& folder, const std::string&) {
   layout.odometry_file = "oxts/data";
   layout.detections = IfFile(root / "tracklet_labels.xml");
   layout.detections_file = "tracklet_labels.xml";
-  layout.times = IfFile(root / "oxts" / "timestamps.txt");
+  const bool grey = !IsFolder(root / "image_02" / "data") && IsFolder(root / "image_00" / "data");
+  const fs::path left = root / (grey ? "image_00" : "image_02");
+  layout.images = IfFolder(left / "data");
+  layout.images_right = IfFolder(root / (grey ? "image_01" : "image_03") / "data");
+  for (const fs::path& place : {root / "oxts", left})
+    if (layout.times.empty()) layout.times = IfFile(place / "timestamps.txt");
   layout.read_times = ReadTimestamps;
-  layout.images = IfFolder(root / "image_02" / "data");
-  layout.images_right = IfFolder(root / "image_03" / "data");
-  layout.find_image = NumberedImages(10);
   for (const fs::path& place : {root / "..", root}) {
     if (IsFile(place / "calib_cam_to_cam.txt")) layout.calib = place.string();
   }
-  layout.read_calibration = ReadRawCalibration;
+  layout.read_calibration = [grey](const std::string& place) {
+    return ReadRawCalibration(place, grey ? CameraPair::kGrey : CameraPair::kColour);
+  };
   return layout;
 }
 
 }  // namespace
 
 DatasetReader KittiRawReader() {
-  return {"kitti-raw", "a KITTI raw drive, with oxts/data/ or tracklet_labels.xml",
-          LooksLikeKittiRaw, nullptr, FindKittiRaw};
+  return {
+      "kitti-raw",
+      "a KITTI raw drive, with oxts/data/, tracklet_labels.xml, image_02/data/ or image_00/data/",
+      LooksLikeKittiRaw, nullptr, FindKittiRaw};
 }
 
 }  // namespace sslcd

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 
+#include "datasets/image_folder.h"
 #include "formats/files.h"
 
 namespace sslcd {
@@ -16,13 +17,14 @@ struct ImagePair {
   const char *left, *right;
   CameraPair cameras;
 };
-constexpr std::array<ImagePair, 3> kImagePairs = {{{"image_2", "image_3", CameraPair::kColour},
+constexpr std::array<ImagePair, 4> kImagePairs = {{{"image_2", "image_3", CameraPair::kColour},
                                                    {"image_0", "image_1", CameraPair::kGrey},
-                                                   {"image_l", "image_r", CameraPair::kGrey}}};
+                                                   {"image_l", "image_r", CameraPair::kGrey},
+                                                   {"left", "right", CameraPair::kGrey}}};
 
 bool HasImages(const fs::path& folder) {
-  return IsFolder(folder) &&
-         (!NumberedFiles(folder, ".png").empty() || !NumberedFiles(folder, ".jpg").empty());
+  const std::vector<std::string> names = FileNames(folder);
+  return std::any_of(names.begin(), names.end(), IsImageName);
 }
 
 bool LooksLikeSequenceFolder(const std::string& folder) {
@@ -54,7 +56,11 @@ DatasetLayout FindSequenceFolder(const std::string& folder) {
       std::find_if(kImagePairs.begin(), kImagePairs.end(), [&](const ImagePair& pair) {
         return HasImages(root / pair.left) && HasImages(root / pair.right);
       });
-  const ImagePair& pair = complete == kImagePairs.end() ? kImagePairs[0] : *complete;
+  const auto one = std::find_if(kImagePairs.begin(), kImagePairs.end(),
+                                [&](const ImagePair& pair) { return HasImages(root / pair.left); });
+  const ImagePair& pair = complete != kImagePairs.end() ? *complete
+                          : one != kImagePairs.end()    ? *one
+                                                        : kImagePairs[0];
   layout.images = IfFolder(root / pair.left);
   layout.images_right = IfFolder(root / pair.right);
   layout.read_calibration = [cameras = pair.cameras](const std::string& calib) {
@@ -64,12 +70,11 @@ DatasetLayout FindSequenceFolder(const std::string& folder) {
 }
 
 DatasetReader SequenceFolderReader() {
-  return {
-      "sequence",
-      "a folder with times.txt, odometry.txt, detections.txt, sequence.yaml, image_2/, image_0/ "
-      "or image_l/",
-      LooksLikeSequenceFolder, nullptr,
-      [](const std::string& folder, const std::string&) { return FindSequenceFolder(folder); }};
+  return {"sequence",
+          "a folder with times.txt, odometry.txt, detections.txt, sequence.yaml, left/, image_2/, "
+          "image_0/ or image_l/",
+          LooksLikeSequenceFolder, nullptr,
+          [](const std::string& folder, const std::string&) { return FindSequenceFolder(folder); }};
 }
 
 }  // namespace sslcd

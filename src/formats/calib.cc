@@ -148,7 +148,8 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   Entries entries(path);
   Calibration calibration;
   const bool grey = pair == CameraPair::kGrey;
-  calibration.left = grey ? entries.CameraOf({"P0", "P2"}) : entries.CameraOf({"P2", "P_rect_02"});
+  calibration.left =
+      grey ? entries.CameraOf({"P0", "P_rect_00", "P2"}) : entries.CameraOf({"P2", "P_rect_02"});
   if (!calibration.left) {
     entries.Fail((grey ? std::string("no P0 (or P2) here, the left camera")
                        : std::string("no P2 (or P_rect_02) here, the left colour camera")) +
@@ -156,11 +157,14 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
                  ". Add it (grey images are used only if both folders exist), or remove the "
                  "file if nothing is projected");
   }
-  calibration.right = grey ? entries.CameraOf({"P1", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
-  const std::vector<double> size = entries.Numbers({"S_rect_02"}, 2);
+  calibration.right =
+      grey ? entries.CameraOf({"P1", "P_rect_01", "P3"}) : entries.CameraOf({"P3", "P_rect_03"});
+  const char* size_key = grey ? "S_rect_00" : "S_rect_02";
+  const std::vector<double> size = entries.Numbers({size_key}, 2);
   for (const double pixels : size)
     if (!(pixels >= 1 && pixels <= kMostPixels))
-      entries.Fail("S_rect_02: expected the width and the height of the images in pixels");
+      entries.Fail(std::string(size_key) +
+                   ": expected the width and the height of the images in pixels");
   for (std::optional<Camera>* camera : {&calibration.left, &calibration.right}) {
     if (!*camera || size.empty()) continue;
     (*camera)->width = static_cast<int>(size[0]);
@@ -177,9 +181,9 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair) {
   return calibration;
 }
 
-Calibration ReadRawCalibration(const std::string& folder) {
+Calibration ReadRawCalibration(const std::string& folder, CameraPair pair) {
   const std::string cam_to_cam = std::filesystem::path(folder) / "calib_cam_to_cam.txt";
-  Calibration calibration = ReadCalibration(cam_to_cam);
+  Calibration calibration = ReadCalibration(cam_to_cam, pair);
   calibration.T_cam_velo = ReadRT(std::filesystem::path(folder) / "calib_velo_to_cam.txt");
   const std::optional<Pose> rectification = Entries(cam_to_cam).Rotation({"R_rect_00"});
   if (calibration.T_cam_velo && rectification)

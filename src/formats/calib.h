@@ -11,7 +11,7 @@ namespace sslcd {
 /// The camera pair of a KITTI-style rig to use.
 enum class CameraPair {
   kColour,  ///< P2 and P3
-  kGrey,    ///< P0 and P1; if the file lacks them, P2 and P3
+  kGrey,    ///< P0 and P1 (P_rect_00, P_rect_01); if the file lacks them, P2 and P3
 };
 
 /// Calibration of a KITTI-style rig. `cam` is the rectified camera 0, the frame of labels and
@@ -35,7 +35,7 @@ Calibration ReadCalibration(const std::string& path, CameraPair pair = CameraPai
 
 /// Reads calib_cam_to_cam.txt, calib_velo_to_cam.txt and calib_imu_to_velo.txt from the folder of a
 /// raw drive. The last two files are optional.
-Calibration ReadRawCalibration(const std::string& folder);
+Calibration ReadRawCalibration(const std::string& folder, CameraPair pair = CameraPair::kColour);
 
 /// Returns a calib.txt in the format of KITTI odometry: P0 and P1 without the left camera's offset,
 /// P2 and P3 with it.

@@ -139,7 +139,8 @@ ImageFrontend::ImageFrontend(ImageSequence sequence, const VisionOptions& option
         return !frame.image_left.empty() && !frame.image_right.empty();
       }))
     throw Error(ErrorKind::kBadInput,
-                "no frame has a left and a right image (image_2/000000.png, image_3/000000.png; "
+                "no frame has a left and a right image of one name (left/000000.png, "
+                "right/000000.png; image_2, image_3; "
                 "grey: image_0, image_1)");
   m.sequence = std::move(sequence);
   m.options = options;

@@ -73,7 +73,7 @@ TEST_F(Images, AloneMayLackFramesButNotTenThousand) {
 TEST_F(Images, InColourAreTakenBeforeGreyOnes) {
   const std::string rows = "700 0 600 0 0 700 180 0 0 0 1 0\n700 0 600 -280 0 700 180 0 0 0 1 0\n";
   for (const auto& [left, right] :
-       {std::pair("image_0", "image_1"), std::pair("image_l", "image_r")}) {
+       {std::pair("image_0", "image_1"), {"image_l", "image_r"}, {"left", "right"}}) {
     folder_.Write(left + std::string("/000000.png"), "picture");
     folder_.Write(right + std::string("/000000.png"), "picture");
     EXPECT_THAT(Load().frames[0].image_left, EndsWith("image_2/000000.png"));
@@ -110,9 +110,9 @@ TEST_F(Images, AreNotEnoughWherePartsAreNeeded) {
 
 TEST_F(Images, WithoutThemPartsAreMissing) {
   Remove("image_3");
-  ExpectError([this] { Load(); }, {"no odometry here", "odometry.txt", "image_2, image_3"});
+  ExpectError([this] { Load(); }, {"no odometry here", "odometry.txt", "image_3"});
   folder_.Write("odometry.txt", kPoses);
-  ExpectError([this] { Load(); }, {"no detections here", "detections.txt", "image_2, image_3"});
+  ExpectError([this] { Load(); }, {"no detections here", "detections.txt", "image_3"});
   folder_.Write("detections.txt", kRow);
   EXPECT_EQ(Load().frames.size(), 3u) << "nothing has to be made";
 }
@@ -165,9 +165,86 @@ TEST_F(Images, FoldersMayBeEmpty) {
   ExpectError([this] { Load(); }, {"no frames"});
 }
 
-TEST_F(Images, AreNotNamedByTime) {
+TEST_F(Images, AreNotNamedByNumberAndByTime) {
   folder_.Write("image_2/1403636579.png", "picture");
-  ExpectError([this] { Load(); }, {"image_2/1403636579.png", "count from 000000"});
+  ExpectError([this] { Load(); }, {"image_2/000000.png", "frame number, others by stamps"});
+}
+
+class StampedImages : public Images {
+ protected:
+  StampedImages() {
+    Remove("image_2");
+    Remove("image_3");
+    for (const char* name : {"1403636579763000000", "1403636579863000000", "1403636579963000000"}) {
+      folder_.Write("left/" + std::string(name) + ".BMP", "picture");
+      folder_.Write("right/" + std::string(name) + ".BMP", "picture");
+    }
+  }
+};
+
+TEST_F(StampedImages, AreEnough) {
+  const Dataset dataset = Load();
+  ASSERT_EQ(dataset.frames.size(), 3u);
+  EXPECT_NEAR(dataset.frames[1].stamp, 1403636579.863, 1e-6);
+  EXPECT_THAT(dataset.frames[1].image_left, EndsWith("left/1403636579863000000.BMP"));
+  EXPECT_THAT(dataset.frames[1].image_right, EndsWith("right/1403636579863000000.BMP"));
+  EXPECT_THAT(dataset.warnings, IsEmpty());
+}
+
+TEST_F(StampedImages, RightOnesMayBeMillisecondsOff) {
+  Remove("right/1403636579863000000.BMP");
+  folder_.Write("right/1403636579866000000.BMP", "picture");
+  EXPECT_THAT(Load().frames[1].image_right, EndsWith("right/1403636579866000000.BMP"));
+  Remove("right/1403636579866000000.BMP");
+  folder_.Write("right/1403636579870000000.BMP", "picture");
+  EXPECT_EQ(Load().frames[1].image_right, "") << "7 ms";
+}
+
+TEST_F(StampedImages, BelongToOdometryByStamp) {
+  folder_.Write("odometry.txt",
+                "1403636579.863 1 2 3 0 0 0 1\n1403636579.96 1 2 4 0 0 0 1\n"
+                "1403636580.5 1 2 5 0 0 0 1\n1403636580.6 1 2 5 0 0 0 1\n");
+  const Dataset dataset = Load();
+  ASSERT_EQ(dataset.frames.size(), 4u);
+  EXPECT_THAT(dataset.frames[0].image_left, EndsWith("left/1403636579863000000.BMP"));
+  EXPECT_THAT(dataset.frames[1].image_right, EndsWith("right/1403636579963000000.BMP"));
+  EXPECT_EQ(dataset.frames[2].image_left, "");
+}
+
+TEST_F(StampedImages, GiveStampsToPosesWithout) {
+  const std::string row = "1 0 0 0 0 1 0 0 0 0 1 0\n";
+  folder_.Write("odometry.txt", row + row + row);
+  EXPECT_NEAR(Load().frames[2].stamp, 1403636579.963, 1e-6);
+  folder_.Write("odometry.txt", row + row);
+  ExpectError([this] { Load(); },
+              {"odometry.txt: has 2 poses without stamps", "left has 3 images"});
+  folder_.Write("times.txt", "5\n6\n7\n");
+  folder_.Write("odometry.txt", row + row + row);
+  EXPECT_THAT(Load().frames[2].image_left, EndsWith("left/1403636579963000000.BMP"))
+      << "in order, where there are as many";
+}
+
+TEST_F(Images, WithNamesWithoutNumbers) {
+  Remove("image_2");
+  folder_.Write("image_2/first.png", "picture");
+  ExpectError([this] { Load(); }, {"no frames", "image_2 have names without a number"});
+}
+
+TEST_F(Images, OfOneCameraAreNotEnough) {
+  Remove("image_3");
+  ExpectError([this] { Load(); }, {"image_2: one camera shows no distances", "image_3"});
+}
+
+TEST(ImagesOf, FoldersOfOtherNamesAreNamed) {
+  const TempFolder folder;
+  folder.Write("cam0/000000.png", "");
+  folder.Write("cam1/000000.png", "");
+  DatasetRequest request;
+  request.path = folder.path();
+  ExpectError([&] { LoadDataset(request); },
+              {"It holds images in cam0/, cam1/", "left/", "right/", "calib.txt"});
+  request.path = folder.In("cam0");
+  ExpectError([&] { LoadDataset(request); }, {"It holds images itself"});
 }
 
 TEST_F(Images, MayBeJpegs) {
@@ -230,6 +307,23 @@ TEST(ImagesOf, KittiRaw) {
   EXPECT_THAT(dataset.frames[0].image_left, IsEmpty());
   EXPECT_THAT(dataset.frames[1].image_left, EndsWith("image_02/data/0000000001.png"));
   EXPECT_THAT(dataset.frames[1].image_right, EndsWith("image_03/data/0000000001.png"));
+}
+
+TEST(ImagesOf, KittiRawInGreyAndNothingElse) {
+  const TempFolder folder;
+  folder.Write("image_00/timestamps.txt", "2011-09-26 13:02:25.0\n2011-09-26 13:02:25.25\n");
+  for (const char* name : {"image_00", "image_01"})
+    for (const char* file : {"/data/0000000000.png", "/data/0000000001.png"})
+      folder.Write(name + std::string(file), "");
+  folder.Write("calib_cam_to_cam.txt",
+               "S_rect_00: 1242 375\nP_rect_00: 700 0 600 0 0 700 180 0 0 0 1 0\n"
+               "P_rect_01: 700 0 600 -280 0 700 180 0 0 0 1 0\n");
+  const Dataset dataset = LoadFromImages(folder);
+  EXPECT_EQ(dataset.format, "kitti-raw");
+  ASSERT_EQ(dataset.frames.size(), 2u);
+  EXPECT_THAT(dataset.frames[1].image_right, EndsWith("image_01/data/0000000001.png"));
+  EXPECT_NEAR(dataset.frames[1].stamp - dataset.frames[0].stamp, 0.25, 1e-9);
+  EXPECT_NEAR(MakeStereoCamera(*dataset.camera, *dataset.camera_right).baseline_m, 0.4, 1e-12);
 }
 
 }  // namespace
