@@ -9,7 +9,8 @@ namespace sslcd {
 /// Width and height [px].
 using ImageSize = std::array<int, 2>;
 
-/// Reads the size from the header of a PNG or JPEG file; zero if the file has no such header.
+/// Reads the size from the header of a PNG or JPEG file, or of a BMP or TIFF that is read here
+/// (formats/raw_image.h); zero if the file has no such header.
 ImageSize ReadImageSize(const std::string& path);
 
 }  // namespace sslcd
