@@ -39,9 +39,9 @@ void AddOptions(CLI::App& command, ModelArguments& a) {
 std::string TensorsText(const ModelFacts& facts) {
   std::vector<std::vector<std::string>> rows;
   for (const TensorInfo& info : facts.inputs)
-    rows.push_back({"input " + info.name, info.type, ToString(info.shape)});
+    rows.push_back({"input " + Printable(info.name), info.type, ToString(info.shape)});
   for (std::size_t i = 0; i < facts.outputs.size(); ++i)
-    rows.push_back({"output " + facts.outputs[i].name, facts.outputs[i].type,
+    rows.push_back({"output " + Printable(facts.outputs[i].name), facts.outputs[i].type,
                     ToString(facts.answers[i].shape)});
   return AlignedTable(rows);
 }
@@ -57,8 +57,8 @@ std::string OffersText(const ModelFacts& facts, const std::vector<LayoutOffer>& 
     for (const auto& [number, label] : output.labels) {
       const auto name = facts.class_names.find(number);
       text += "  class " + std::to_string(number) +
-              (name == facts.class_names.end() ? "" : " (" + name->second + ")") + " -> " + label +
-              "\n";
+              (name == facts.class_names.end() ? "" : " (" + Printable(name->second) + ")") +
+              " -> " + label + "\n";
     }
   }
   return text;

@@ -8,6 +8,8 @@
 namespace sslcd {
 namespace {
 
+constexpr int kMostClasses = 100'000;  // as class_count of a description allows
+
 const std::map<std::string, std::string> kVehicles = {
     {"car", "Car"}, {"van", "Van"}, {"truck", "Truck"}, {"bus", "Bus"}};
 
@@ -36,7 +38,8 @@ std::map<int, std::string> ReadClassNames(const std::string& text) {
     const std::size_t first = std::min(text.find_first_of("0123456789", at), colon);
     int number = -1;
     const auto read = std::from_chars(text.data() + first, text.data() + colon, number);
-    if (read.ec == std::errc()) names[number] = text.substr(open + 1, close - open - 1);
+    if (read.ec == std::errc() && number < kMostClasses)
+      names[number] = text.substr(open + 1, close - open - 1);
     at = close + 1;
   }
   return names;

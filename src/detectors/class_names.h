@@ -7,7 +7,7 @@
 namespace sslcd {
 
 /// Reads names of classes as ultralytics stores them in ONNX files: {0: 'person', 1: "car"}. Leaves
-/// out what it cannot read.
+/// out what it cannot read, and numbers from 100 000 on.
 std::map<int, std::string> ReadClassNames(const std::string& text);
 
 /// Labels for a model's vehicles, and what was assumed for that.

@@ -24,6 +24,12 @@ bool IsGrid(const ModelFacts& facts, std::int64_t count, int per_cell) {
   });
 }
 
+/// The number of classes of a model whose outputs do not tell it; COCO's where the file has no
+/// names.
+int NamedClasses(const ModelFacts& facts) {
+  return facts.class_names.empty() ? 80 : facts.class_names.rbegin()->first + 1;
+}
+
 /// Ultralytics' preparation of images.
 LayoutOffer StartYolo(const ModelFacts& facts, ModelLayout layout, std::int64_t classes) {
   LayoutOffer offer = StartOffer(facts, layout, classes);
@@ -92,8 +98,7 @@ Offer OfferYoloV10(const ModelFacts& facts) {
   if (!IsOne(facts, 2)) return std::nullopt;
   const TensorShape shape = ShapeOf(facts, 0);
   if (shape[1] != 6 || shape[0] > kMostBoxes) return std::nullopt;
-  const int named = facts.class_names.empty() ? 80 : facts.class_names.rbegin()->first + 1;
-  LayoutOffer offer = StartYolo(facts, ModelLayout::kYoloV10, named);
+  LayoutOffer offer = StartYolo(facts, ModelLayout::kYoloV10, NamedClasses(facts));
   offer.description.output.nms_iou = 1;
   offer.exact = shape[0] >= 100 && !IsGrid(facts, shape[0], 1) && !IsGrid(facts, shape[0], 3);
   return offer;
@@ -122,8 +127,7 @@ Offer OfferBoxesScoresLabels(const ModelFacts& facts) {
     names.emplace(classes ? 2 : 1, name);
   }
   if (names.size() != 3) return std::nullopt;
-  const int named = facts.class_names.empty() ? 80 : facts.class_names.rbegin()->first + 1;
-  LayoutOffer offer = StartOffer(facts, ModelLayout::kBoxesScoresLabels, named);
+  LayoutOffer offer = StartOffer(facts, ModelLayout::kBoxesScoresLabels, NamedClasses(facts));
   offer.exact = true;
   offer.description.output.names = names;
   offer.description.output.nms_iou = 1;

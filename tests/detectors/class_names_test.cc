@@ -14,7 +14,8 @@ TEST(ReadClassNames, AsUltralyticsStoresThem) {
 }
 
 TEST(ReadClassNames, LeavesOutWhatItCannotRead) {
-  for (const char* text : {"", "car", "{0: 'car", "{:'car'}", "{99999999999: 'car'}", "['a', 'b']"})
+  for (const char* text : {"", "car", "{0: 'car", "{:'car'}", "{99999999999: 'car'}",
+                           "{2147483647: 'car'}", "['a', 'b']"})
     EXPECT_EQ(ReadClassNames(text), Names()) << text;
   EXPECT_EQ(ReadClassNames("{: 'car', 3: 'bus'}"), (Names{{3, "bus"}}));
 }
