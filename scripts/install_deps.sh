@@ -8,7 +8,8 @@
 #     vision  and ONNX Runtime, to run models (docs/models.md), before or after the build; all else is
 #             installed where that cannot be had
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
-#             NumPy for the Python package, ROS 1 for sslcd_node, and Chromium for reports (default)
+#             NumPy for the Python package, ROS 1 for sslcd_node, Chromium for reports, and MkDocs
+#             (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely
 #     fuzz    build, and clang with libFuzzer, for scripts/fuzz.sh
 set -euo pipefail
@@ -22,7 +23,7 @@ ros=(libroscpp-dev libnav-msgs-dev libsensor-msgs-dev libstd-srvs-dev libtf2-msg
      python3-std-srvs python3-tf2-msgs python3-visualization-msgs)
 python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
-      libembree-dev chromium python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
+      libembree-dev chromium mkdocs-material python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 fuzz=(clang-14 libclang-rt-14-dev)
 any_clang=(clang libclang-rt-dev)
