@@ -9,6 +9,7 @@
 #include "closing/split_fused.h"
 #include "loop/decision.h"
 #include "loop/layout_likelihood.h"
+#include "pose_graph/chains.h"
 #include "refine/optimise_map.h"
 #include "refine/trajectory_correction.h"
 #include "sslcd/pose_graph/pose_graph.h"
@@ -28,11 +29,11 @@ bool SolveAndDecide(LoopGraph& graph, const std::vector<LoopAttempt*>& loops,
 }
 
 // Solves a graph with the accepted ones of its loops. False: not solvable.
-bool SolveKept(PoseGraph& graph, std::size_t first_loop, const std::vector<LoopAttempt*>& loops,
+bool SolveKept(PoseGraph& graph, const std::vector<LoopAttempt*>& loops,
                const LoopOptions& options) {
-  std::vector<double> weights(first_loop, 1.);
+  std::vector<double> weights;
   for (const LoopAttempt* loop : loops) weights.push_back(loop->accepted() ? 1. : 0.);
-  return SolvePoseGraph(graph, options.graph.graph, weights).usable;
+  return SolveCondensed(graph, options.graph.graph, weights).usable;
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
   PoseGraph refined = WithRefinedSteps(state.frames, graph);
   if (!SolveAndDecide(graph, loops, options)) return false;
   if (state.frames.front().T_refined_cam && !ledger.RefinedByRefused() &&
-      SolveKept(refined, graph.first_loop, loops, options))
+      SolveKept(refined, loops, options))
     graph.graph = std::move(refined);
   const std::vector<Pose> before = PosesOf(state.frames);
   MoveKeyframes(state.frames, graph.keyframes, PosesOf(graph.graph));

@@ -128,4 +128,14 @@ void CondensedGraph::Expand(PoseGraph& full) const {
   }
 }
 
+PoseGraphSummary SolveCondensed(PoseGraph& graph, const PoseGraphOptions& options,
+                                const std::vector<double>& loop_weights) {
+  CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);
+  PoseGraphOptions inner = options;
+  inner.start = PoseGraphStart::kGiven;
+  const PoseGraphSummary summary = SolvePoseGraph(condensed.graph(), inner, loop_weights);
+  if (summary.usable) condensed.Expand(graph);
+  return summary;
+}
+
 }  // namespace sslcd

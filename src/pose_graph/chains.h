@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sslcd/core/pose_graph.h"
+#include "sslcd/pose_graph/pose_graph.h"
 
 namespace sslcd {
 
@@ -49,5 +50,10 @@ class CondensedGraph {
   std::vector<Chain> chains_;
   PoseGraph condensed_;
 };
+
+/// SolvePoseGraph from the given poses, on the condensed graph: the same poses to first order.
+/// `loop_weights`: of each loop, in the order of the edges.
+PoseGraphSummary SolveCondensed(PoseGraph& graph, const PoseGraphOptions& options,
+                                const std::vector<double>& loop_weights);
 
 }  // namespace sslcd

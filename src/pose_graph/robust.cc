@@ -2,7 +2,9 @@
 #include "sslcd/pose_graph/pose_graph.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/math.h"
 #include "pose_graph/chains.h"
@@ -16,6 +18,8 @@ namespace {
 
 constexpr int kMaxDecisions = 5;      // rounds of decisions on all loops; usually two
 constexpr int kMaxWarmDecisions = 3;  // the same with a previous solution
+// Of chi2, as PoseGraphOptions::tolerance. The next solve goes on from there.
+constexpr double kWarmTolerance = 1e-3;
 // Largest share of the loops (at least one loop) that a warm start may refuse; with more,
 // everything is solved again. Set by hand.
 constexpr double kShareRefused = 0.02;
@@ -72,10 +76,9 @@ void DescribeFields(FieldVisitor& visitor, RobustPoseGraphOptions& options) {
 namespace {
 
 // Selects among all loops, including ruled-out ones, by the poses of `work` and solves with the
-// kept ones, repeatedly until nothing changes. `graph` gets the result of `work`.
+// kept ones, repeatedly until nothing changes.
 void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
-            const std::vector<std::pair<int, int>>& ends, PoseGraph& graph,
-            RobustPoseGraphSummary& summary) {
+            const std::vector<std::pair<int, int>>& ends, RobustPoseGraphSummary& summary) {
   for (int i = 0; i < kMaxDecisions; ++i) {
     std::vector<double> kept = KeepConsistent(work, ends, summary.chi2_limit);
     if (i > 0 && kept == summary.edge_weight) break;
@@ -83,6 +86,10 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
     summary.graph = SolvePoseGraph(work, options.graph, summary.edge_weight);
     if (!summary.graph.usable) break;
   }
+}
+
+// Counts the loops and gives `graph` the poses of `work`, if it is solved.
+void Report(const PoseGraph& work, PoseGraph& graph, RobustPoseGraphSummary& summary) {
   for (std::size_t e = 0; e < graph.edges.size(); ++e)
     if (graph.edges[e].loop)
       ++(summary.edge_weight[e] > 0 ? summary.loops_kept : summary.loops_refused);
@@ -92,11 +99,17 @@ void Decide(PoseGraph& work, const RobustPoseGraphOptions& options,
   summary.graph.final_chi2 = Chi2(graph, summary.edge_weight);
 }
 
-// Starts at the poses and the kept loops of the previous solve. False if it refuses more than few
-// loops, or if the new ones distort the trusted edges more than one true loop does: then all loops
-// must be decided again.
-bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
-               const std::vector<double>& kept_before, double limit) {
+struct WarmVerdict {
+  std::vector<double> weights;  // per edge
+  bool settled = false;         // the solution agrees with the loops it was solved with
+};
+
+// Starts at the poses and the kept loops of the previous solve, and solves the condensed graph
+// alone, which has the same minimum to first order. None if it refuses more than few loops, or if
+// the new ones distort the trusted edges more than one true loop does: then all loops must be
+// decided again.
+std::optional<WarmVerdict> SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
+                                     const std::vector<double>& kept_before, double limit) {
   CondensedGraph condensed(graph, IndexPoseGraph(graph).ends);  // loops come first, in order
   const auto ends = IndexPoseGraph(condensed.graph()).ends;
   std::vector<double> weights(ends.size(), 1.);
@@ -113,18 +126,23 @@ bool SolveWarm(PoseGraph& graph, const RobustPoseGraphOptions& options,
   const double misfit_before = misfit_of_trusted();
   PoseGraphOptions inner = options.graph;
   inner.start = PoseGraphStart::kGiven;
-  for (int i = 0; i < kMaxWarmDecisions; ++i) {
-    if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return false;
+  inner.tolerance = kWarmTolerance;
+  WarmVerdict verdict;
+  for (int i = 0; i < kMaxWarmDecisions && !verdict.settled; ++i) {
+    if (!SolvePoseGraph(condensed.graph(), inner, weights).usable) return std::nullopt;
     std::vector<double> kept = KeepConsistent(condensed.graph(), ends, limit);
-    const bool settled = kept == weights;
+    verdict.settled = kept == weights;
     weights = std::move(kept);
-    if (settled) break;
   }
   if (static_cast<double>(refused()) > std::max(1., kShareRefused * static_cast<double>(loops)))
-    return false;
-  if (misfit_of_trusted() - misfit_before > limit) return false;
+    return std::nullopt;
+  if (misfit_of_trusted() - misfit_before > limit) return std::nullopt;
   condensed.Expand(graph);
-  return true;
+  verdict.weights.assign(graph.edges.size(), 1.);
+  loops = 0;
+  for (std::size_t e = 0; e < graph.edges.size(); ++e)
+    if (graph.edges[e].loop) verdict.weights[e] = weights[loops++];
+  return verdict;
 }
 
 // Starts at the trusted edges, with the loops that these do not rule out. Returns the weight
@@ -173,10 +191,18 @@ RobustPoseGraphSummary SolveRobust(PoseGraph& graph, const RobustPoseGraphOption
                    work.vertices[from].T_world_vertex, work.vertices[to].T_world_vertex);
   }
   const bool decided_before = kept_before.size() == graph.edges.size();
-  if (!decided_before || !SolveWarm(work, options, kept_before, summary.chi2_limit))
+  std::optional<WarmVerdict> warm;
+  if (decided_before) warm = SolveWarm(work, options, kept_before, summary.chi2_limit);
+  if (!warm)
     summary.rounds = SolveCold(work, options, index.ends, summary.chi2_limit,
                                decided_before ? kept_before : std::vector<double>());
-  Decide(work, options, index.ends, graph, summary);
+  if (warm && warm->settled) {
+    summary.edge_weight = std::move(warm->weights);
+    summary.graph.usable = summary.graph.converged = true;
+  } else {
+    Decide(work, options, index.ends, summary);
+  }
+  Report(work, graph, summary);
   return summary;
 }
 

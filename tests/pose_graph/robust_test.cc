@@ -46,6 +46,11 @@ void AddLoop(PoseGraphWorld& world, int from, int to, double error_m) {
   world.is_false.push_back(error_m != 0);
 }
 
+PoseGraph SolvedWith(PoseGraph graph, const PoseGraphOptions& options) {
+  EXPECT_TRUE(SolvePoseGraph(graph, options).usable);
+  return graph;
+}
+
 TEST(RobustPoseGraph, SyntheticBars) {
   for (const int false_loops : {0, 17, 57}) {
     for (const unsigned seed : {1u, 2u, 3u}) {
@@ -150,6 +155,20 @@ TEST(RobustPoseGraph, ACrowdOfFalseLoopsDoesNotBendTheOdometry) {
   EXPECT_EQ(counts.true_kept, 3);
   EXPECT_EQ(counts.false_kept, 0);
   EXPECT_NEAR(AteRmse(world.graph, world.truth), before, 1e-3);
+}
+
+TEST(RobustPoseGraph, AWarmSolveHasThePosesOfAFullOne) {
+  PoseGraphWorld world = MakePoseGraphWorld(Small());
+  for (const int i : {0, 30, 60}) AddLoop(world, i, 80 + i, 0);
+  std::vector<double> kept = SolveRobust(world.graph, {}).edge_weight;
+  for (const int i : {1, 31, 61}) AddLoop(world, i, 80 + i, 0);
+  kept.resize(world.graph.edges.size(), 1.);
+  PoseGraph full = world.graph;
+  const double before = AteRmse(full, PosesOf(SolvedWith(full, {})));
+  const RobustPoseGraphSummary warm = SolveRobust(world.graph, {}, kept);
+  EXPECT_EQ(warm.rounds, 0) << "from the former solution";
+  EXPECT_EQ(warm.loops_kept, 6);
+  EXPECT_LT(AteRmse(world.graph, PosesOf(SolvedWith(full, {}))), 0.02 * before);
 }
 
 TEST(RobustPoseGraph, LoopToTheFirstVertexAndTwoAtOnce) {

@@ -80,8 +80,9 @@ struct LoopOptions {
   bool robust = true;
   RobustPoseGraphOptions graph;
   /// up to this number of keyframes each correction is followed by an adjustment of all cameras and
-  /// objects; longer runs do this only at the end
-  int adjust_keyframes = 500;
+  /// objects; longer runs do this only at the end. The cost grows with the run, and 150 to 500 give
+  /// the same errors on Victoria Park
+  int adjust_keyframes = 200;
   PaperMatchOptions paper;  ///< for Finder::kPrinted
 };
 void DescribeFields(FieldVisitor& visitor, LoopOptions& options);
