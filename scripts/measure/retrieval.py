@@ -7,7 +7,7 @@ from program import rounded
 from sessions import HELD_OUT, REAL, rows_of
 from store import fingerprint
 
-SITES = {4: 100, 260: 100, 10000: 100, 26200: 25}  # number of sites: queries of each kind and noise
+SITES = {4: 100, 260: 100, 10000: 100, 26200: 10}  # number of sites: queries of each kind and noise
 REAL_AMONG, SHARE, STRETCH_M = '10000', '0.5', '100'
 
 

@@ -63,7 +63,7 @@ TEST(SiteFile, ReadsWhatWasWritten) {
   EXPECT_EQ(file.sites(), 2u);
   EXPECT_EQ(file.name(1), "b");
   EXPECT_EQ(file.points(1).size(), 40u);
-  EXPECT_EQ(file.label(0), "Pole");
+  EXPECT_EQ(file.label(0), "Car");
   EXPECT_EQ(file.label(9), "");
   EXPECT_GT(file.header().entries, 100u);
 }
