@@ -20,7 +20,7 @@ def retrieval(sets):
         for noise in NOISES:
             f = figures[f'{kind} {noise}']
             queries = f['queries']
-            rows.append([title, noise, f['objects'], percent(f['ten'] / queries),
+            rows.append([title, noise, f'{f["objects"]:.0f}', percent(f['ten'] / queries),
                          percent(f['first'] / queries), percent(f['oracle'] / queries),
                          number(f['median_ms'], 0), number(f['p95_ms'], 0)])
     header = ['site', 'noise', 'objects of a stretch', 'among the first ten', 'first',
@@ -34,14 +34,15 @@ def retrieval_size(sets):
         f = sets[name]['figures']
         kinds = [f[f'{kind} usual'] for kind in KINDS if f'{kind} usual' in f]
         useful = [f[f'{kind} usual'] for kind in KINDS if kind != 'same']
-        found = sum(k['ten'] for k in useful) / sum(k['queries'] for k in useful)
+        queries = sum(k['queries'] for k in useful)
+        found = sum(k['ten'] for k in useful) / queries
         rows.append([f'{f["file"]["sites"]:.0f}', f'{f["file"]["objects"]:.0f}',
                      number(f['file']['bytes_an_object'], 0), number(f['file']['build_s'], 1),
-                     number(f['file']['open_s']), percent(found),
+                     number(f['file']['open_s']), f'{queries:.0f}', percent(found),
                      number(max(k['median_ms'] for k in kinds), 0),
                      number(max(k['p95_ms'] for k in kinds), 0)])
     header = ['sites', 'objects', 'bytes an object', 'build, CPU [s]', 'open and check, CPU [s]',
-              'among the first ten', 'CPU of a query, median of the slowest kind [ms]',
+              'queries', 'among the first ten', 'CPU of a query, median of the slowest kind [ms]',
               'p95 of the slowest kind [ms]']
     return table(header, rows) + note([sets[name] for name in generated(sets)], COMMAND)
 
