@@ -96,19 +96,6 @@ std::string Describe(const Attempt& attempt) {
          Number("%.4f", a.probability) + ", " + a.reason;
 }
 
-void CheckLengths(const MapInfo& info, const std::string& map, const Frame& frame) {
-  for (const Detection& detection : frame.detections)
-    for (const CueRow& row : kCueRows) {
-      const int known = info.vector_length[row.cue];
-      const int length = static_cast<int>(detection.appearance[row.cue].size());
-      if (known > 0 && length > 0 && length != known)
-        throw Error(ErrorKind::kBadInput,
-                    "frame " + std::to_string(frame.index) + ": its " + row.name +
-                        " vectors have " + std::to_string(length) + " values, and those of " + map +
-                        " " + std::to_string(known) + "; use the model that the map was made with");
-    }
-}
-
 // The frames from number `from` on, at most `frames` of them; 0: all.
 std::vector<Frame> Stretch(const RelocaliseArguments& a, const Dataset& dataset) {
   std::vector<Frame> stretch;
@@ -138,7 +125,7 @@ std::vector<Attempt> Localise(const RelocaliseArguments& a, const Dataset& datas
   for (Frame frame : stretch) {
     if (Interrupted()) break;
     if (LacksColour(frame)) AddColours(frame, options.colour, hooks);
-    CheckLengths(info, a.map, frame);
+    CheckVectorLengths(info, a.map, frame);
     std::optional<Localisation> found = localiser.AddFrame(frame);
     progress.Report(++done, static_cast<int>(stretch.size()));
     // a short stretch, or what came after the last attempt
