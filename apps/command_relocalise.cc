@@ -3,21 +3,14 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "commands.h"
 #include "examples.h"
 #include "formats/atomic_file.h"
-#include "image_loader.h"
+#include "localise.h"
 #include "overwriting.h"
-#include "pipeline/frame_colours.h"
-#include "progress.h"
-#include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "sslcd/datasets/dataset.h"
-#include "sslcd/pipeline/localiser.h"
-#include "sslcd/store/map_store.h"
-#include "store/site.h"
 
 namespace sslcd::apps {
 namespace {
@@ -27,17 +20,9 @@ constexpr int kNotFound = 5;  // exit code, as of other commands without a solut
 struct RelocaliseArguments {
   DatasetRequest request;
   std::string map, out;
-  int from = 0, frames = 0;
+  StretchArguments stretch;
   bool first = false, json = false;
 };
-
-// An attempt, with the stamp of its frame.
-struct Attempt {
-  Localisation found;
-  double stamp = 0;
-};
-
-bool IsFound(const Attempt& attempt) { return attempt.found.decision == LoopDecision::kAccepted; }
 
 bool HasPose(const Localisation& found) { return !found.pairs.empty(); }
 
@@ -96,52 +81,12 @@ std::string Describe(const Attempt& attempt) {
          Number("%.4f", a.probability) + ", " + a.reason;
 }
 
-// The frames from number `from` on, at most `frames` of them; 0: all.
-std::vector<Frame> Stretch(const RelocaliseArguments& a, const Dataset& dataset) {
-  std::vector<Frame> stretch;
-  for (const Frame& frame : dataset.frames)
-    if (frame.index >= a.from && (a.frames == 0 || static_cast<int>(stretch.size()) < a.frames))
-      stretch.push_back(frame);
-  if (!stretch.empty()) return stretch;
-  throw Error(ErrorKind::kUsage, "--from " + std::to_string(a.from) + ": the last frame is " +
-                                     std::to_string(dataset.frames.size() - 1));
-}
-
-std::vector<Attempt> Localise(const RelocaliseArguments& a, const Dataset& dataset,
-                              const Console& console) {
-  const MapStore store(a.map);
-  const MapInfo info = store.Describe();
-  CheckBelongs(info, a.map, {GravityFrame::FromUp(dataset.up_axis), dataset.labels, {}},
-               std::nullopt);
-  const Options options = OptionsOf(info, a.map);
-  const std::vector<Frame> stretch = Stretch(a, dataset);
-  Localiser localiser(store.Reference(), options, dataset.camera);
-  RunHooks hooks;
-  hooks.with_image = WithImage;
-  CatchInterrupt();
-  std::vector<Attempt> attempts;
-  Progress progress(console, "frame");
-  int done = 0;
-  for (Frame frame : stretch) {
-    if (Interrupted()) break;
-    if (LacksColour(frame)) AddColours(frame, options.colour, hooks);
-    CheckVectorLengths(info, a.map, frame);
-    std::optional<Localisation> found = localiser.AddFrame(frame);
-    progress.Report(++done, static_cast<int>(stretch.size()));
-    // a short stretch, or what came after the last attempt
-    if (!found && done == static_cast<int>(stretch.size())) found = localiser.Attempt();
-    if (found) attempts.push_back({*std::move(found), frame.stamp});
-    if (a.first && !attempts.empty() && IsFound(attempts.back())) break;
-  }
-  console.EndStatus();
-  return attempts;
-}
-
 int Relocalise(const RelocaliseArguments& a, const Console& console) {
   const Dataset dataset = LoadDataset(a.request);
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, a.map}, {a.out});
-  const std::vector<Attempt> attempts = Localise(a, dataset, console);
+  const std::vector<Attempt> attempts =
+      LocaliseInMap(a.map, dataset, StretchOf(dataset, a.stretch), a.first, console);
   int found = 0;
   const Attempt *first = nullptr, *last = nullptr;
   for (const Attempt& attempt : attempts) {
@@ -182,10 +127,7 @@ Command AddRelocaliseCommand(CLI::App& app, Console& console) {
   command->add_option("--detections", a.request.detections,
                       "file or folder, relative to DATASET or the current folder");
   command->add_option("--odometry", a.request.odometry, "poses, likewise");
-  command->add_option("--from", a.from, "first frame of the stretch")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--frames", a.frames, "number of frames; default: all")
-      ->check(CLI::PositiveNumber);
+  AddTo(*command, a.stretch);
   command->add_flag("--first", a.first, "stop at the first answer");
   command->add_option("--out", a.out, "CSV file to write: a row for each attempt");
   command->add_flag("--json", a.json, "print all attempts as JSON and nothing else");

@@ -26,6 +26,7 @@ Command AddMatchCommand(CLI::App& app, Console& console);
 Command AddGraphCommand(CLI::App& app, Console& console);
 Command AddMapCommand(CLI::App& app, Console& console);
 Command AddRelocaliseCommand(CLI::App& app, Console& console);
+Command AddSitesCommand(CLI::App& app, Console& console);
 Command AddBenchCommand(CLI::App& app, Console& console);
 Command AddCheckConfigCommand(CLI::App& app, Console& console);
 Command AddDumpConfigCommand(CLI::App& app, Console& console);

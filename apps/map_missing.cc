@@ -39,5 +39,6 @@ Command AddWithoutStore(CLI::App& app, const char* name) {
 
 Command AddMapCommand(CLI::App& app, Console&) { return AddWithoutStore(app, "map"); }
 Command AddRelocaliseCommand(CLI::App& app, Console&) { return AddWithoutStore(app, "relocalise"); }
+Command AddSitesCommand(CLI::App& app, Console&) { return AddWithoutStore(app, "sites"); }
 
 }  // namespace sslcd::apps

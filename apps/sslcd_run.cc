@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
       {"graph", AddGraphCommand(app, console)},
       {"map", AddMapCommand(app, console)},
       {"relocalise", AddRelocaliseCommand(app, console)},
+      {"sites", AddSitesCommand(app, console)},
       {"bench", AddBenchCommand(app, console)},
       {"check-config", AddCheckConfigCommand(app, console)},
       {"dump-config", AddDumpConfigCommand(app, console)},

@@ -44,4 +44,5 @@
 #include "sslcd/pipeline/run.h"
 #include "sslcd/pose_graph/pose_graph.h"
 #include "sslcd/refine/options.h"
+#include "sslcd/retrieval/site_index.h"
 #include "sslcd/version.h"

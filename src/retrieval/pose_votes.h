@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "retrieval/site_point.h"
+
+namespace sslcd {
+
+/// A pose of the stretch in a site.
+struct PoseVote {
+  std::uint32_t site = 0;
+  FlatPose pose;
+  float weight = 0;  ///< [nats]
+};
+
+/// Counts votes for poses by cells of site, place and heading, in two grids shifted by half a cell,
+/// so that neighbours on both sides of an edge share a cell in one of them. Cells are hashed into
+/// tables of constant size.
+class PoseVotes {
+ public:
+  PoseVotes();
+
+  /// Coordinates below 10^6 m.
+  void Add(const PoseVote& vote);
+
+  /// The means of the cells with most weight, distinct poses, best first. O(votes + size of the
+  /// tables)
+  std::vector<PoseVote> Best(std::size_t most) const;
+
+  std::size_t size() const { return votes_.size(); }
+
+ private:
+  struct Counted {
+    PoseVote vote;
+    std::uint32_t cell[2];  // of each table
+  };
+  std::vector<std::uint16_t> table_[2];  // [1/16 nat]
+  std::vector<Counted> votes_;
+};
+
+}  // namespace sslcd

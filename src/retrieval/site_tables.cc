@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "retrieval/site_tables.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "sslcd/core/error.h"
+
+namespace sslcd {
+namespace {
+
+// Centres of constellations are stored in 16 bits.
+constexpr double kMostSpan = 60e3;  // [m]
+constexpr std::size_t kMostLabels = 0xFFFF, kMostSites = 0xFFFFFF;
+
+bool IsPlaced(const SiteObject& object) {
+  return std::isfinite(object.x) && std::isfinite(object.y);
+}
+
+// The middle of the objects, in whole metres. Throws if they are too far apart.
+SiteTables::Row RowOf(const Site& site) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double left = kInfinity, right = -kInfinity, bottom = kInfinity, top = -kInfinity;
+  for (const SiteObject& object : site.objects) {
+    if (!IsPlaced(object)) continue;
+    left = std::min(left, object.x), right = std::max(right, object.x);
+    bottom = std::min(bottom, object.y), top = std::max(top, object.y);
+  }
+  if (left > right) return {site.name, 0, 0, 0};
+  if (!(right - left <= kMostSpan && top - bottom <= kMostSpan))
+    throw Error(ErrorKind::kBadInput, site.name +
+                                          ": its objects span more than 60 km; index its "
+                                          "parts as sites of their own");
+  return {site.name, std::round(left + (right - left) / 2), std::round(bottom + (top - bottom) / 2),
+          0};
+}
+
+}  // namespace
+
+void AddSite(const Site& site, SiteTables& tables) {
+  if (tables.names.count(site.name) > 0)
+    throw Error(ErrorKind::kBadInput, site.name + ": is in the index already; name each map once");
+  if (tables.sites.size() >= kMostSites)
+    throw Error(ErrorKind::kBadInput, "too many sites for one index; make several");
+  SiteTables::Row row = RowOf(site);
+  std::set<std::string> fresh;
+  for (const SiteObject& object : site.objects)
+    if (tables.labels.count(object.label) == 0) fresh.insert(object.label);
+  if (tables.labels.size() + fresh.size() > kMostLabels)
+    throw Error(ErrorKind::kBadInput,
+                site.name +
+                    ": with its labels there are more than 65535; use the labels of the "
+                    "detector's classes");
+  row.first_point = tables.points.size();
+  for (const SiteObject& object : site.objects) {
+    if (!IsPlaced(object)) continue;
+    const auto number = static_cast<std::uint16_t>(tables.labels.size());
+    const std::uint16_t label = tables.labels.insert({object.label, number}).first->second;
+    tables.points.push_back(
+        {static_cast<float>(object.x - row.x), static_cast<float>(object.y - row.y), label, 0});
+  }
+  std::sort(tables.points.begin() + static_cast<std::ptrdiff_t>(row.first_point),
+            tables.points.end(), [](const SitePoint& a, const SitePoint& b) {
+              return std::tie(a.x, a.y, a.label) < std::tie(b.x, b.y, b.label);
+            });
+  tables.names.insert(site.name);
+  tables.sites.push_back(std::move(row));
+}
+
+}  // namespace sslcd
