@@ -20,5 +20,6 @@ void BindMapSession(py::module_& module);
 void BindMaps(py::module_& module);
 void BindMatch(py::module_& module);
 void BindRosBridge(py::module_& module);
+void BindSiteIndex(py::module_& module);
 
 }  // namespace sslcd::python

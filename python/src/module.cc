@@ -64,4 +64,5 @@ PYBIND11_MODULE(_core, module) {
   BindMaps(module);
   BindMatch(module);
   BindRosBridge(module);
+  BindSiteIndex(module);
 }

@@ -52,9 +52,11 @@ from .results import (
     NoiseScale,
     PoseGraph,
     RpeResult,
+    SiteCandidate,
     StageTimes,
     Trajectory,
 )
+from .sites import SiteIndex
 
 __version__: str = _core.__version__
 __all__ = [
@@ -106,6 +108,8 @@ __all__ = [
     "RpeResult",
     "RunResult",
     "SessionInfo",
+    "SiteCandidate",
+    "SiteIndex",
     "StageTimes",
     "Trajectory",
     "UsageError",

@@ -80,7 +80,9 @@ def test_drives_of_a_site_are_merged(built):
     assert {part.joined_with for part in site.results.parts} == {0}
     told = json.loads((out / "sites.json").read_text())
     assert told["sites"][1]["map"] == report.sites[1]["map"]
-    stages = {each["stage"]: each for each in json.loads((out / "report.json").read_text())["stages"]}
+    stages = {
+        each["stage"]: each for each in json.loads((out / "report.json").read_text())["stages"]
+    }
     assert stages["map"]["tasks"] == 3 and stages["map"]["cpu_s"] > 0
     assert stages["solve"]["bytes"] > 0
 
@@ -99,6 +101,24 @@ def test_a_rerun_does_only_what_is_missing(built, folder, client):
     assert [each.reused for each in again.stages] == [3, again.stages[1].tasks, 1]
 
 
+def test_an_index_tells_which_drives_to_compare(built, folder, client):
+    out, report = built
+    ended = []
+    found = build_fleet(
+        find_drives([f"{folder}/*"], {}),
+        out,
+        client,
+        FleetSettings(candidates=1),
+        watch=lambda stage, record: ended.append((stage, record)),
+    )
+    assert [each.stage for each in found.stages] == ["map", "index", "rank", "verify", "solve"]
+    ranked = {record["name"]: record["ranked"] for stage, record in ended if stage == "rank"}
+    assert [ranked[name][0][0] for name in ("monday", "tuesday")] == ["tuesday", "monday"]
+    assert found.sites == report.sites
+    again = build_fleet(find_drives([f"{folder}/*"], {}), out, client, FleetSettings(candidates=1))
+    assert all(each.reused == each.tasks for each in again.stages)
+
+
 def test_bad_drives_are_left_out(built, folder, client, tmp_path):
     drives = tmp_path / "drives"
     (drives / "empty").mkdir(parents=True)
@@ -115,7 +135,9 @@ def test_bad_drives_are_left_out(built, folder, client, tmp_path):
     assert "the same recording" in errors["twin"]
     assert [each["drives"] for each in report.sites] == [["elsewhere"], ["monday", "tuesday"]]
     with pytest.raises(sslcd.BadInputError, match="none of the 2 drives .*report.json"):
-        build_fleet(find_drives([f"{drives}/empty", f"{drives}/broken"], {}), tmp_path / "o", client)
+        build_fleet(
+            find_drives([f"{drives}/empty", f"{drives}/broken"], {}), tmp_path / "o", client
+        )
     assert json.loads((tmp_path / "o" / "report.json").read_text())["quarantined"]
     assert not (tmp_path / "o" / "sites.json").exists()
 

@@ -132,7 +132,9 @@ def test_a_drive_is_localised(made, drive):
     assert answers[-1].frame == 24
     found = [each for each in answers if each.accepted]
     assert found, answers
-    truth = dict(zip(*(getattr(made.results.trajectories["first"], n) for n in ("frames", "poses"))))
+    truth = dict(
+        zip(*(getattr(made.results.trajectories["first"], n) for n in ("frames", "poses")))
+    )
     for each in found:
         assert np.linalg.norm(each.T_map_cam[:3, 3] - truth[each.frame][:3, 3]) < 0.5
         assert each.covariance.shape == (6, 6) and each.probability > 0.9
@@ -155,7 +157,9 @@ def test_merge(site, other, drive, tmp_path):
         site.merge(other, progress=lambda done, total: {}[done])
     assert open(site.path, "rb").read() == before
     steps = []
-    report = site.merge([other.path], out=tmp_path / "out.db", progress=lambda *now: steps.append(now))
+    report = site.merge(
+        [other.path], out=tmp_path / "out.db", progress=lambda *now: steps.append(now)
+    )
     assert steps[-1] == (25, 25)
     assert [(each.old_name, each.name, each.frames) for each in report.added] == [
         ("second", "second", 25)

@@ -36,17 +36,50 @@ def _parser() -> argparse.ArgumentParser:
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    build.add_argument("drives", nargs="+", metavar="DRIVE", help="dataset folder: path, URL, pattern, NAME=FOLDER, @LIST")
+    build.add_argument(
+        "drives",
+        nargs="+",
+        metavar="DRIVE",
+        help="dataset folder: path, URL, pattern, NAME=FOLDER, @LIST",
+    )
     build.add_argument("--out", required=True, help="folder of the outputs, which all workers see")
     where = build.add_mutually_exclusive_group()
-    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster; default: a cluster on this machine")
-    where.add_argument("--workers", type=int, default=os.cpu_count(), help="processes on this machine; default: %(default)s")
-    build.add_argument("--memory", default="auto", help="most of each of them, e.g. 2GB; default: an equal share")
-    build.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="an option of the mapper, as sslcd_run takes it")
-    build.add_argument("--candidates", type=int, default=10, help="drives that each one is compared with; default: %(default)s, 0: all")
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="of a Dask cluster; default: a cluster on this machine",
+    )
+    where.add_argument(
+        "--workers",
+        type=int,
+        default=os.cpu_count(),
+        help="processes on this machine; default: %(default)s",
+    )
+    build.add_argument(
+        "--memory", default="auto", help="most of each of them, e.g. 2GB; default: an equal share"
+    )
+    build.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="an option of the mapper, as sslcd_run takes it",
+    )
+    build.add_argument(
+        "--candidates",
+        type=int,
+        default=10,
+        help="drives that each one is compared with; default: %(default)s, 0: all",
+    )
     for name in ("format", "detections", "odometry"):
         build.add_argument(f"--{name}", default="", help="of the dataset folders, as of sslcd_run")
-    build.add_argument("--storage", action="append", default=[], metavar="KEY=VALUE", help="an option for fsspec, e.g. anon=true")
+    build.add_argument(
+        "--storage",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="an option for fsspec, e.g. anon=true",
+    )
     return parser
 
 

@@ -7,13 +7,13 @@ from typing import Dict, Iterator, List, Optional, Sequence
 from distributed import Client
 
 from .. import _core
-from ..errors import BadInputError, OutputError, UsageError
-from .candidates import Pair, all_pairs
+from ..errors import BadInputError, NoSolutionError, OutputError, UsageError
+from .candidates import MAPS_PER_INDEX, Pair, all_pairs, index_maps, pairs_of, rank_maps
 from .cluster import check_workers
 from .components import Components
 from .content import FOLDERS, publish_text
 from .drives import Drive
-from .report import FleetReport, Progress, StageStatistics
+from .report import FleetReport, Progress, StageStatistics, Watch
 from .run_tasks import Task, in_order, run_tasks
 from .settings import FleetSettings
 from .tasks import Record, map_drive, solve_site, verify_pair
@@ -24,6 +24,7 @@ def build_fleet(
     out: str,
     client: Client,
     settings: FleetSettings = FleetSettings(),
+    watch: Optional[Watch] = None,
 ) -> FleetReport:
     """Maps drives, finds out which are of one site, and merges those.
 
@@ -36,6 +37,7 @@ def build_fleet(
         out: a folder that all workers see. It gets sites.json, report.json, and maps.
         client: of a Dask cluster whose workers have the same version of sslcd.
         settings: options of the mapper and of the drives' files.
+        watch: called with the name of the stage and the record of each task when it ends.
 
     Raises:
         OutputError: `out` cannot be written.
@@ -47,7 +49,7 @@ def build_fleet(
     out = os.path.abspath(out)
     make_folders(out)
     check_workers(client, out)
-    report = FleetReport(_core.__version__, settings.for_report())
+    report = FleetReport(_core.__version__, settings.for_report(), watch=watch)
     maps = _map_drives(drives, out, client, settings, report)
     if maps:
         components = _verify(maps, out, client, settings, report)
@@ -77,7 +79,7 @@ def make_folders(out: str) -> None:
 def _stage(report: FleetReport, name: str, total: int) -> Progress:
     statistics = StageStatistics(name)
     report.stages.append(statistics)
-    return Progress(statistics, total)
+    return Progress(statistics, total, watch=report.watch)
 
 
 def _map_drives(
@@ -96,7 +98,9 @@ def _map_drives(
         if not error:
             twin = by_content.setdefault(record["content"], record)
             if twin is not record:
-                error = f"has the same files as {twin['url']}: the same recording, which counts once"
+                error = (
+                    f"has the same files as {twin['url']}: the same recording, which counts once"
+                )
         if error:
             names = {key: record[key] for key in ("name", "url")}
             report.quarantined.append({**names, "error": error})
@@ -107,6 +111,35 @@ def _map_drives(
     return maps
 
 
+def _candidates(
+    maps: List[Record], out: str, client: Client, settings: FleetSettings, report: FleetReport
+) -> List[Pair]:
+    """The pairs of drives that are to be compared, the most promising first."""
+    if not 0 < settings.candidates < len(maps) - 1:
+        return all_pairs([record["name"] for record in maps])
+    shards = [maps[i : i + MAPS_PER_INDEX] for i in range(0, len(maps), MAPS_PER_INDEX)]
+    index: Iterator[Task] = (
+        ({"first": shard[0]["name"]}, index_maps, (shard, out, settings)) for shard in shards
+    )
+    indices = _all(run_tasks(client, index, _stage(report, "index", len(shards))), "first")
+    rank: Iterator[Task] = (
+        ({"name": record["name"]}, rank_maps, (record, indices, out, settings)) for record in maps
+    )
+    return pairs_of(_all(run_tasks(client, rank, _stage(report, "rank", len(maps))), "name"))
+
+
+def _all(records: Iterator[Record], name: str) -> List[Record]:
+    """The records in order. Without one of them the sites could not be told, so it must be there."""
+    ordered = in_order(records, name)
+    for record in ordered:
+        if record["error"]:
+            raise NoSolutionError(
+                f"the maps could not be compared, at {record[name]}: {record['error']}; the same "
+                "command goes on, --candidates 0 does without the index"
+            )
+    return ordered
+
+
 def _verify(
     maps: List[Record], out: str, client: Client, settings: FleetSettings, report: FleetReport
 ) -> Components:
@@ -115,7 +148,7 @@ def _verify(
     in which tasks end."""
     by_name = {record["name"]: record for record in maps}
     components = Components(by_name)
-    pairs = all_pairs(maps)
+    pairs = _candidates(maps, out, client, settings, report)
 
     def tasks() -> Iterator[Optional[Task]]:
         for pair in pairs:
@@ -144,7 +177,8 @@ def _solve(
     by_name = {record["name"]: record for record in maps}
     progress = _stage(report, "solve", len(groups))
     while groups:
-        groups = sorted(groups, key=len, reverse=True)  # the longest task first
+        # the longest tasks first, so that none is left over at the end
+        groups = sorted(groups, key=lambda group: -sum(by_name[n]["bytes"] for n in group))
         tasks: Iterator[Task] = (
             ({"drives": group}, solve_site, ([by_name[name] for name in group], out, settings))
             for group in groups

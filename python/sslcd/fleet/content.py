@@ -11,7 +11,7 @@ import uuid
 from typing import Any, Dict, Iterator
 
 #: Folders of a build within the folder of its outputs.
-FOLDERS = ("drives", "pairs", "sites")
+FOLDERS = ("drives", "index", "pairs", "sites")
 
 
 def digest(value: Any) -> str:

@@ -65,7 +65,9 @@ def _lines_of(given: Sequence[str]) -> Iterator[str]:
             with open(text[1:], encoding="utf-8") as file:
                 yield from (line.strip() for line in file if line.strip() and line[0] != "#")
         except (OSError, UnicodeDecodeError) as problem:
-            raise BadInputError(f"{text[1:]}: the list of drives cannot be read: {problem}") from None
+            raise BadInputError(
+                f"{text[1:]}: the list of drives cannot be read: {problem}"
+            ) from None
 
 
 def _last_part(url: str) -> str:

@@ -5,9 +5,12 @@ import json
 import sys
 import time
 from dataclasses import asdict, dataclass, field
-from typing import Any, Dict, List, TextIO
+from typing import Any, Callable, Dict, List, Optional, TextIO
 
 from .tasks import Record
+
+#: Called with the name of a stage and the record of a task that has ended.
+Watch = Callable[[str, Record], Any]
 
 
 @dataclass
@@ -21,6 +24,7 @@ class StageStatistics:
     skipped: int = 0  #: that were not necessary
     cpu_s: float = 0.0  #: processor time of the tasks
     task_s: float = 0.0  #: their time on the clock, summed up
+    longest_s: float = 0.0  #: processor time of the longest one
     wall_s: float = 0.0  #: of the stage
     bytes: int = 0  #: of the outputs
 
@@ -30,6 +34,7 @@ class StageStatistics:
         self.reused += bool(record.get("reused"))
         self.failed += bool(record["error"])
         self.cpu_s += record.get("cpu_s", 0.0)
+        self.longest_s = max(self.longest_s, record.get("cpu_s", 0.0))
         self.task_s += record.get("wall_s", 0.0)
         self.bytes += record.get("bytes", 0)
 
@@ -49,6 +54,7 @@ class FleetReport:
     #: drives and error of sites whose maps could not be merged
     failed_sites: List[Dict[str, Any]] = field(default_factory=list)
     stages: List[StageStatistics] = field(default_factory=list)
+    watch: Optional[Watch] = field(default=None, repr=False)  #: of build_fleet
 
     @property
     def complete(self) -> bool:
@@ -57,7 +63,9 @@ class FleetReport:
 
     def json(self) -> str:
         """The text of report.json."""
-        return json.dumps(asdict(self), indent=2) + "\n"
+        names = ("version", "settings", "drives", "quarantined", "sites", "failed_sites")
+        told = {name: getattr(self, name) for name in names}
+        return json.dumps({**told, "stages": [asdict(s) for s in self.stages]}, indent=2) + "\n"
 
     def sites_json(self) -> str:
         """The text of sites.json: what is the same whenever the same drives are built."""
@@ -69,8 +77,14 @@ class FleetReport:
 class Progress:
     """Lines about a stage: on a terminal one that is rewritten, otherwise one for each tenth."""
 
-    def __init__(self, statistics: StageStatistics, total: int, stream: TextIO = sys.stderr) -> None:
-        self.statistics, self._total, self._stream = statistics, total, stream
+    def __init__(
+        self,
+        statistics: StageStatistics,
+        total: int,
+        stream: TextIO = sys.stderr,
+        watch: Optional[Watch] = None,
+    ) -> None:
+        self.statistics, self._total, self._stream, self._watch = statistics, total, stream, watch
         self._begin = time.perf_counter()
         self._shown = -1
         self._terminal = stream.isatty()
@@ -78,6 +92,8 @@ class Progress:
     def ended(self, record: Record) -> None:
         """Counts a task."""
         self.statistics.add(record)
+        if self._watch is not None:
+            self._watch(self.statistics.stage, record)
         self._show(False)
 
     def skipped(self) -> None:

@@ -20,8 +20,8 @@ from .settings import FleetSettings
 Record = Dict[str, Any]
 
 
-def _measured(work: Callable[[], Record]) -> Record:
-    """The record of some work with its times, and with its error."""
+def measured(work: Callable[[], Record]) -> Record:
+    """The record of some work with its times, and with its error. `fatal`: others would fail alike."""
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         record = {"error": "", "fatal": False, "reused": False, **work()}
@@ -53,7 +53,7 @@ def map_drive(drive: Drive, out: str, settings: FleetSettings) -> Record:
         record["bytes"] = os.path.getsize(path)
         return record
 
-    return {"name": drive.name, "url": drive.url, **_measured(work)}
+    return {"name": drive.name, "url": drive.url, **measured(work)}
 
 
 def _make_map(drive: Drive, path: str, settings: FleetSettings) -> None:
@@ -79,7 +79,7 @@ def verify_pair(query: Record, target: Record, out: str, settings: FleetSettings
         publish_text(json.dumps(told), path)
         return told
 
-    return {"query": query["name"], "target": target["name"], **_measured(work)}
+    return {"query": query["name"], "target": target["name"], **measured(work)}
 
 
 def _localise(query: Record, target: Record) -> Record:
@@ -108,7 +108,7 @@ def solve_site(members: List[Record], out: str, settings: FleetSettings) -> Reco
         told["bytes"] = os.path.getsize(path) if told["map"] else 0
         return told
 
-    return {"drives": [each["name"] for each in members], **_measured(work)}
+    return {"drives": [each["name"] for each in members], **measured(work)}
 
 
 def _merge(members: List[Record], path: str, groups_path: str) -> Record:
@@ -138,4 +138,9 @@ def _groups(site: Map) -> Record:
     landmarks = sum(each.state == "confirmed" for each in results.objects)
     loops = sum(each.accepted for each in results.loops)
     frames = sum(session.frames for session in info.sessions)
-    return {"groups": list(groups.values()), "landmarks": landmarks, "loops": loops, "frames": frames}
+    return {
+        "groups": list(groups.values()),
+        "landmarks": landmarks,
+        "loops": loops,
+        "frames": frames,
+    }
