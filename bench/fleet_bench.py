@@ -41,8 +41,8 @@ def sixty():
 
 
 def five_hundred():
-    return {f'site{site:03}-{visit}': ['--size', '0.3', '--case', '4', '--layout', ('lot', 'street')[site % 2],
-                                       '--seed', str(1000 + site), '--visit', str(visit), '--ate-m', '0']
+    kinds = (['--case', '4', '--layout', 'lot', '--size', '0.3'], ['--case', '2', '--layout', 'street', '--size', '0.4'])
+    return {f'site{site:03}-{visit}': [*kinds[site % 2], '--seed', str(1000 + site), '--visit', str(visit), '--ate-m', '0']
             for site in range(SMALL_SITES) for visit in range(SMALL_VISITS)}
 
 

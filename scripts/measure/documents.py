@@ -9,7 +9,8 @@ from store import Store
 from tables import TABLES
 
 FIGURES = 'docs/figures.json'
-DOCUMENTS = ['README.md', 'docs/results.md', 'docs/hosts.md', 'docs/sessions.md', 'docs/change.md']
+DOCUMENTS = ['README.md', 'docs/results.md', 'docs/hosts.md', 'docs/sessions.md', 'docs/change.md',
+             'docs/scale.md']
 MARK = re.compile(r'(<!-- figures (\w+) -->\n)(.*?)(<!-- /figures -->)', re.DOTALL)
 
 

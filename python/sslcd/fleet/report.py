@@ -81,13 +81,14 @@ class Progress:
         self,
         statistics: StageStatistics,
         total: int,
-        stream: TextIO = sys.stderr,
+        stream: Optional[TextIO] = None,
         watch: Optional[Watch] = None,
     ) -> None:
-        self.statistics, self._total, self._stream, self._watch = statistics, total, stream, watch
+        self.statistics, self._total, self._watch = statistics, total, watch
+        self._stream = stream or sys.stderr
         self._begin = time.perf_counter()
         self._shown = -1
-        self._terminal = stream.isatty()
+        self._terminal = self._stream.isatty()
 
     def ended(self, record: Record) -> None:
         """Counts a task."""
