@@ -144,7 +144,7 @@ def test_bad_drives_are_left_out(built, folder, client, tmp_path):
 
 def test_drives_by_url(folder, client, tmp_path):
     memory = fsspec.filesystem("memory")
-    memory.put(str(folder / "monday"), "/bucket/drives/remote", recursive=True)
+    memory.put(str(folder / "elsewhere"), "/bucket/drives/remote", recursive=True)
     memory.pipe("/bucket/drives/remote/image_2/000000.png", b"not needed")
     (drive,) = find_drives(["memory://bucket/drives/*"], {})
     assert drive.name == "remote" and drive.url.startswith("memory://")
@@ -209,7 +209,7 @@ def test_mistakes_on_the_command_line(folder, tmp_path, capsys, monkeypatch):
 
 
 def test_outputs_that_cannot_be_written(folder, client, tmp_path, monkeypatch):
-    drives = find_drives([str(folder / "monday")], {})
+    drives = find_drives([str(folder / "elsewhere")], {})
     (tmp_path / "file").write_text("")
     with pytest.raises(sslcd.OutputError, match="cannot be made"):
         build_fleet(drives, tmp_path / "file" / "out", client)

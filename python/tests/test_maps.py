@@ -25,14 +25,23 @@ def site(made, tmp_path):
     return sslcd.Map(shutil.copy(made.path, tmp_path / "site.db"))
 
 
-@pytest.fixture
-def other(made, drive, tmp_path):
-    """A map of a part of the drive, with other numbers of frames."""
-    map_ = sslcd.Map(tmp_path / "other.db")
+@pytest.fixture(scope="module")
+def other(made, drive, tmp_path_factory):
+    """A map of a part of the drive."""
+    map_ = sslcd.Map(tmp_path_factory.mktemp("map") / "other.db")
     with map_.start_session("second", **context_of(drive)) as session:
         for frame in list(drive)[:25]:
             session.add(frame)
     return map_
+
+
+@pytest.fixture(scope="module")
+def merged(made, other, tmp_path_factory):
+    """The map of both, and what was told while they were merged."""
+    map_ = sslcd.Map(tmp_path_factory.mktemp("map") / "merged.db")
+    steps = []
+    report = made.merge([other.path], out=map_.path, progress=lambda *now: steps.append(now))
+    return map_, report, steps
 
 
 def test_a_session_is_a_plain_run(made, drive, offline):
@@ -151,45 +160,35 @@ def test_a_drive_is_localised(made, drive):
         sslcd.Localiser(made, labels=drive.labels)
 
 
-def test_merge(site, other, drive, tmp_path):
+def test_merge(merged, site, other):
+    map_, report, steps = merged
+    assert steps[-1] == (25, 25) and map_.verify() == []
+    assert [(each.old_name, each.name, each.frames) for each in report.added] == [
+        ("second", "second", 25)
+    ]
+    assert [each.name for each in map_.sessions] == ["first", "second"]
     before = open(site.path, "rb").read()
     with pytest.raises(KeyError):
         site.merge(other, progress=lambda done, total: {}[done])
     assert open(site.path, "rb").read() == before
-    steps = []
-    report = site.merge(
-        [other.path], out=tmp_path / "out.db", progress=lambda *now: steps.append(now)
-    )
-    assert steps[-1] == (25, 25)
-    assert [(each.old_name, each.name, each.frames) for each in report.added] == [
-        ("second", "second", 25)
-    ]
-    assert open(site.path, "rb").read() == before
-    site.merge(other)
-    merged = sslcd.Map(tmp_path / "out.db")
-    assert [each.name for each in merged.sessions] == ["first", "second"]
-    for name in ("first", "second"):
-        same = [each.results.trajectories[name].tum() for each in (site, merged)]
-        assert same[0] == same[1]
     with pytest.raises(sslcd.UsageError, match="the same drive"):
-        site.merge(other, rename=True)
-    assert site.verify() == []
+        map_.merge(other, rename=True)
     site.compact()
 
 
-def test_what_has_changed(site, other):
+def test_what_has_changed(made, merged):
     with pytest.raises(sslcd.UsageError, match="one session"):
-        site.diff()
-    site.merge(other)
-    history = site.history
+        made.diff()
+    map_ = merged[0]
+    history = map_.history
     assert all(len(place.seen) == 2 for place in history.places)
     outcome = history.between(0, 0, 1)
     total = outcome.stayed + outcome.departed + outcome.replaced + outcome.arrived + outcome.empty
     assert total == pytest.approx(1)
-    assert set(history.rates) <= set(site.info.labels)
+    assert set(history.rates) <= set(map_.info.labels)
     with pytest.raises(sslcd.UsageError, match="the earlier session comes first"):
         history.between(0, 1, 1)
-    diff = site.diff("first", "second")
+    diff = map_.diff("first", "second")
     assert (diff.before, diff.after) == ("first", "second")
     assert diff.stayed > 0
     for change in diff.changes:

@@ -8,7 +8,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Tupl
 from distributed import Client, Future, as_completed
 from distributed.scheduler import KilledWorker
 
-from ..errors import OutputError
+from ..errors import NoSolutionError, OutputError
 from .report import Progress
 from .tasks import Record
 
@@ -28,12 +28,12 @@ def run_tasks(
     sent; None is one that is not necessary.
 
     A task whose worker dies runs again on another one; one that has ended several workers has a
-    record with an error. Raises OutputError if a task cannot write its output: all others would
+    record with an error. Raises NoSolutionError if the scheduler is lost, OutputError if a task cannot write its output: all others would
     fail, too. What is done then stays.
     """
     waiting = iter(tasks)
     about: Dict[Future, Record] = {}
-    running = as_completed()
+    running = as_completed(loop=client.loop)
     threads = max(1, sum(client.nthreads().values()))
 
     def fill() -> None:
@@ -72,6 +72,11 @@ _END: Any = object()
 
 
 def _record_of(future: Future, names: Record) -> Record:
+    if future.cancelled():
+        raise NoSolutionError(
+            "the scheduler, or the connection to it, was lost; what is done is kept, and the same "
+            "command goes on"
+        )
     failure = future.exception()
     if failure is None:
         return future.result()
