@@ -8,7 +8,9 @@ import os
 import shutil
 import tempfile
 import uuid
-from typing import Any, Dict, Iterator
+from typing import Any, Dict, Iterator, Optional
+
+from distributed import get_worker
 
 #: Folders of a build within the folder of its outputs.
 FOLDERS = ("drives", "index", "pairs", "sites")
@@ -60,9 +62,18 @@ def read_json(path: str) -> Dict[str, Any]:
 
 @contextlib.contextmanager
 def scratch() -> Iterator[str]:
-    """A folder on the local disk of the worker, gone afterwards. SQLite's log works on no other."""
-    with tempfile.TemporaryDirectory(prefix="sslcd-fleet-") as folder:
+    """A folder on the local disk of the worker, gone afterwards. SQLite's log works on no other. What
+    a killed worker leaves there is removed by Dask."""
+    with tempfile.TemporaryDirectory(prefix="sslcd-fleet-", dir=_local_folder()) as folder:
         yield folder
+
+
+def _local_folder() -> Optional[str]:
+    """That of the worker; None: this is no worker."""
+    try:
+        return get_worker().local_directory
+    except ValueError:
+        return None
 
 
 @contextlib.contextmanager
