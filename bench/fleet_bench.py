@@ -174,7 +174,7 @@ def merge(folder, sim):
         for site, made in maps.items():
             for count in (1, 2, 4, 6, 8, 10):
                 begin = time.process_time()
-                out = f'{work}/{site}-{count}.db'
+                out = f'{work}/{site}-of-{count}.db'
                 if count > 1:
                     made[0][0].merge([one for one, _ in made[1:count]], out=out)
                 seconds = time.process_time() - begin if count > 1 else made[0][1]
