@@ -13,8 +13,6 @@
 // degrees, or in the copy) of all attempts; median path to the first answer, its largest value, and
 // the share of stretches found within 50 m; median error of the first answers; p95 of the time of
 // an attempt.
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,43 +20,23 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "judged_map.h"
 #include "recorded_sessions.h"
 #include "sslcd/core/error.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/pipeline/localiser.h"
 #include "sslcd/pipeline/options.h"
-#include "sslcd/store/map_session.h"
 
 namespace sslcd {
 namespace {
 
 constexpr double kWrongM = 5, kWrongRad = M_PI / 18;
 constexpr int kShared = 6;
-
-struct MapCamera {
-  Pose truth, T_map_cam;
-  bool copy = false;
-};
-
-// A map in a file of its own, with the true poses of its cameras.
-struct JudgedMap {
-  ReferenceMap reference;
-  std::vector<MapCamera> cameras;
-
-  template <class Distance>
-  const MapCamera& Nearest(const Distance& distance) const {
-    return *std::min_element(
-        cameras.begin(), cameras.end(),
-        [&](const MapCamera& a, const MapCamera& b) { return distance(a) < distance(b); });
-  }
-};
 
 struct Figures {
   int stretches = 0, sharing = 0, sharing_found = 0, elsewhere = 0, elsewhere_found = 0;
@@ -70,55 +48,6 @@ double Quantile(std::vector<double> values, double share) {
   if (values.empty()) return -1;
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-JudgedMap MapOf(const std::vector<Session>& sessions, const MapperContext& context) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("relocalise_bench." + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  const std::string path = folder / "map.db";
-  std::vector<const Session*> by_id;
-  for (const Session& session : sessions) {
-    by_id.push_back(&session);
-    MapSession adding =
-        MapSession::Begin(path, {std::to_string(by_id.size())}, context, std::nullopt);
-    for (const Frame& frame : session.frames) adding.AddFrame(frame);
-    adding.Refine();
-    adding.End();
-  }
-  JudgedMap map;
-  const MapStore store(path);
-  map.reference = store.Reference();
-  for (const SessionPath& drive : store.Results().paths)
-    for (std::size_t i = 0; i < drive.frames.size(); ++i) {
-      const Session& session = *by_id[drive.session - 1];
-      map.cameras.push_back({session.truth[i], drive.trajectory.poses[i], session.copy});
-    }
-  std::filesystem::remove_all(folder);
-  return map;
-}
-
-// Landmarks of the map that the stretch has seen twice, by true poses.
-int Shared(const JudgedMap& map, const Session& stretch) {
-  constexpr double kNear = 60, kSame = 1;  // [m]
-  const Eigen::Matrix3d to_layout = map.reference.gravity.Basis().transpose();
-  std::map<int, int> seen;
-  for (std::size_t i = 0; i < stretch.frames.size(); ++i) {
-    const auto distance = [&](const MapCamera& camera) {
-      return camera.copy ? std::numeric_limits<double>::infinity()
-                         : (camera.truth.translation() - stretch.truth[i].translation()).norm();
-    };
-    const MapCamera& near = map.Nearest(distance);
-    if (distance(near) > kNear) continue;
-    const Pose T_map_cam = near.T_map_cam * near.truth.inverse() * stretch.truth[i];
-    for (const Detection& detection : stretch.frames[i].detections) {
-      const Vec3 at = to_layout * (T_map_cam * detection.T_cam_object.translation());
-      for (const LayoutObject& object : map.reference.objects)
-        if ((object.position - at).head<2>().norm() < kSame) ++seen[object.id];
-    }
-  }
-  return static_cast<int>(
-      std::count_if(seen.begin(), seen.end(), [](const auto& each) { return each.second > 1; }));
 }
 
 // How far an answer is off: [m, rad]; infinite in a copy.
@@ -167,20 +96,6 @@ void Print(const std::string& name, const JudgedMap& map, const Figures& f) {
               f.elsewhere_found, f.wrong, Quantile(f.path_m, .5), Quantile(f.path_m, 1),
               f.within_50_m, Quantile(f.error_m, .5), Quantile(f.ms, .95));
   std::fflush(stdout);
-}
-
-// A session of its own: frames from 0 on, odometry from another origin.
-Session Cut(const Session& drive, std::size_t from, std::size_t to, int turn, const Vec3& up) {
-  Session stretch;
-  const Pose T_own_odom(lie::SO3<double>::Exp(Vec3((0.7 + turn) * up)), Vec3(turn, 0, 2));
-  const Pose first(lie::SO3<double>(), drive.frames[from].T_odom_cam.translation());
-  for (std::size_t i = from; i < to; ++i) {
-    stretch.frames.push_back(drive.frames[i]);
-    stretch.frames.back().T_odom_cam = T_own_odom * first.inverse() * drive.frames[i].T_odom_cam;
-    stretch.truth.push_back(drive.truth[i]);
-  }
-  StartUpright(up, drive.frames.front().T_odom_cam, stretch);
-  return stretch;
 }
 
 void RunDrive(const DatasetRequest& request, double share, double stretch_m) {

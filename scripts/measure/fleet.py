@@ -58,7 +58,8 @@ def fleet(sets):
     first = result['one']['export']
     rows = [[title, f'{one["right"]} of {one["sites"]}', one['wrong_merges'], one['left_out'],
              ('yes' if one['export'] == first else 'no') if '60' in title else '-',
-             number(one['cpu_s'], 0), number(one['wall_s'], 0), number(one['speedup_by_cpu']),
+             number(one['cpu_s'], 0), number(one['wall_s'], 0),
+             number(one['speedup_by_cpu']) if one is result['two'] else '-',
              number(one['memory_bytes'] / 1e9) if 'memory_bytes' in one else '-'] for title, one in builds]
     header = ['build', 'sites right', 'wrong merges', 'drives left out', 'same bytes as with one worker',
               'processor time [s]', 'on the clock [s]', 'speed-up of two free cores, computed',

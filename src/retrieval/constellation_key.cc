@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "retrieval/constellation_key.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sslcd {
@@ -59,7 +60,8 @@ SearchedConstellation::SearchedConstellation(const Constellation& one) : one_(on
         const float away = (static_cast<float>(offset - 1) +
                             (static_cast<float>(place) + 0.5f) / 16 - inside_[i]) /
                            kNoise;
-        difference_[i][offset][place] = away * away;
+        difference_[i][offset][place] =
+            static_cast<std::uint8_t>(std::min(kDifferenceSteps * away * away, 255.f));
       }
   }
 }

@@ -24,6 +24,8 @@ struct Probe {
   float cost = 0;             ///< how improbable it is, against the most probable cell [nats]
 };
 
+inline constexpr int kDifferenceSteps = 8;
+
 /// A constellation that is searched in an index.
 class SearchedConstellation {
  public:
@@ -34,20 +36,21 @@ class SearchedConstellation {
   /// Appends the cells around it whose cost is at most `most_cost`.
   void AppendProbes(float most_cost, std::vector<Probe>& probes) const;
 
-  /// Squared distance of a constellation in a cell, over the noise: about 8 if both are the same
-  /// objects.
-  float Difference(std::uint16_t offsets, std::uint32_t inside) const {
-    float sum = 0;
-    for (int i = 0; i < kCoordinates; ++i)
-      sum += difference_[i][offsets >> 2 * i & 3][inside >> 4 * i & 15];
+  /// Squared distance of a constellation in a cell, over the noise, in steps of 1/kDifferenceSteps:
+  /// about 8 if both are the same objects. Stops above `most`, a number of steps.
+  int Difference(std::uint16_t offsets, std::uint32_t inside, int most) const {
+    int sum = 0;
+    for (int i = 0; i < kCoordinates && sum <= most; i += kCoordinates / 2)
+      for (int k = i; k < i + kCoordinates / 2; ++k)
+        sum += difference_[k][offsets >> 2 * k & 3][inside >> 4 * k & 15];
     return sum;
   }
 
  private:
   Constellation one_;
   std::array<int, kCoordinates> cell_{};
-  std::array<float, kCoordinates> inside_{};  // in [0, 1)
-  float difference_[kCoordinates][4][16];     // by offset and place in the cell
+  std::array<float, kCoordinates> inside_{};      // in [0, 1)
+  std::uint8_t difference_[kCoordinates][4][16];  // by offset and place in the cell
 };
 
 }  // namespace sslcd

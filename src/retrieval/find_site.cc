@@ -16,12 +16,12 @@ namespace sslcd {
 namespace {
 
 // All set by hand on generated sites (docs/scale.md).
-constexpr float kMostCost = 4.f;  // of a probe [nats]
-constexpr std::size_t kMostProbes = 60000;
-constexpr std::size_t kMostVisits = 600000;  // entries that are read
-constexpr std::size_t kMostFits = 150;       // poses that are aligned
-constexpr float kMostDifference = 16;        // of a vote's constellation
-constexpr std::size_t kAhead = 16;           // lookups that are fetched from memory ahead
+constexpr float kMostCost = 4;                     // of a probe [nats]
+constexpr std::size_t kMostProbes = 60000;         // cells that are looked up
+constexpr std::size_t kMostVisits = 800000;        // entries that are read
+constexpr std::size_t kMostFits = 150;             // poses that are aligned
+constexpr int kMostSteps = 10 * kDifferenceSteps;  // difference of a vote's constellation
+constexpr std::size_t kAhead = 16;                 // lookups that are fetched from memory ahead
 
 struct Stretch {
   std::vector<SitePoint> points;  // from their middle
@@ -101,7 +101,7 @@ std::vector<Lookup> Lookups(const SiteFile& file, const std::vector<SearchedCons
     const auto entries = static_cast<float>(lookup.bucket.size());
     const float likely = std::exp(-probes[i].cost);
     lookup.price = entries / likely;
-    lookup.weight = std::log1p(likely * static_cast<float>(file.header().points) / entries);
+    lookup.weight = std::log(static_cast<float>(file.header().points) / entries);
     lookups.push_back(lookup);
   }
   KeepCheapest(lookups);
@@ -132,22 +132,25 @@ class Headings {
   std::array<float, kSteps> sine_{};
 };
 
-std::vector<PoseVote> LikelyPoses(const SiteFile& file, const std::vector<SitePoint>& points) {
+std::vector<PoseVote> LikelyPoses(const SiteFile& file, const std::vector<SitePoint>& points,
+                                  PoseVotes& votes) {
   std::vector<SearchedConstellation> all;
   VisitConstellations(points, NearestNeighbours(points),
                       [&](const Constellation& one) { all.emplace_back(one); });
   const Headings headings;
-  PoseVotes votes;
+  votes.Clear();
   const std::vector<Lookup> lookups = Lookups(file, all);
   for (std::size_t i = 0; i < lookups.size(); ++i) {
     if (i + kAhead < lookups.size()) __builtin_prefetch(lookups[i + kAhead].bucket.first);
     const Lookup& lookup = lookups[i];
     const SearchedConstellation& one = all[lookup.constellation];
     const std::uint8_t yaw = StepsOfTurn(one.constellation().axis_x, one.constellation().axis_y);
-    for (const SiteEntry& entry : lookup.bucket)
-      if (entry.site < file.sites() &&
-          one.Difference(lookup.offsets, entry.inside) < kMostDifference)
-        votes.Add(headings.VoteOf(entry, one.constellation(), yaw, lookup.weight));
+    for (const SiteEntry& entry : lookup.bucket) {
+      const int steps = one.Difference(lookup.offsets, entry.inside, kMostSteps);
+      const float weight = lookup.weight - static_cast<float>(steps) / (2 * kDifferenceSteps);
+      if (steps <= kMostSteps && weight > 0 && entry.site < file.sites())
+        votes.Add(headings.VoteOf(entry, one.constellation(), yaw, weight));
+    }
   }
   return votes.Best(kMostFits);
 }
@@ -155,10 +158,10 @@ std::vector<PoseVote> LikelyPoses(const SiteFile& file, const std::vector<SitePo
 }  // namespace
 
 std::vector<SiteCandidate> FindSites(const SiteFile& file, const std::vector<SiteObject>& objects,
-                                     int most) {
+                                     int most, PoseVotes& votes) {
   const Stretch stretch = StretchOf(file, objects);
   std::map<std::uint32_t, SiteFit> fits;  // the best of each site
-  for (const PoseVote& vote : LikelyPoses(file, stretch.points)) {
+  for (const PoseVote& vote : LikelyPoses(file, stretch.points, votes)) {
     const SiteFit fit = FitSite(stretch.points, file.points(vote.site), vote.pose);
     const auto [known, fresh] = fits.insert({vote.site, fit});
     if (!fresh && fit.score > known->second.score) known->second = fit;

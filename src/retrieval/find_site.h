@@ -3,13 +3,14 @@
 
 #include <vector>
 
+#include "retrieval/pose_votes.h"
 #include "retrieval/site_file.h"
 #include "sslcd/retrieval/site_index.h"
 
 namespace sslcd {
 
-/// SiteIndex::Find.
+/// SiteIndex::Find. `votes` is memory to work with, so that it is not asked for again and again.
 std::vector<SiteCandidate> FindSites(const SiteFile& file, const std::vector<SiteObject>& stretch,
-                                     int most);
+                                     int most, PoseVotes& votes);
 
 }  // namespace sslcd

@@ -66,7 +66,10 @@ bool AreNear(const PoseVote& a, const PoseVote& b) {
 
 }  // namespace
 
-PoseVotes::PoseVotes() {
+PoseVotes::PoseVotes() { Clear(); }
+
+void PoseVotes::Clear() {
+  votes_.clear();
   for (auto& table : table_) table.assign(std::size_t{1} << kTableBits, 0);
 }
 

@@ -23,14 +23,15 @@ class PoseVotes {
  public:
   PoseVotes();
 
+  /// Forgets all votes and keeps the memory, 4 MiB and more.
+  void Clear();
+
   /// Coordinates below 10^6 m.
   void Add(const PoseVote& vote);
 
   /// The means of the cells with most weight, distinct poses, best first. O(votes + size of the
   /// tables)
   std::vector<PoseVote> Best(std::size_t most) const;
-
-  std::size_t size() const { return votes_.size(); }
 
  private:
   struct Counted {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sslcd {
 namespace {
@@ -151,17 +152,21 @@ float Score(const std::vector<SitePoint>& points, const Window& window,
   const float peak = std::log(kSeen / (2 * static_cast<float>(M_PI) * kSigma * kSigma));
   const float missed = std::log(1 - kSeen);
   std::vector<char> amid(window.points().size(), 0);
+  std::map<int, float> chance;  // log density by label
+  for (const SitePoint& point : points) chance.insert({point.label, 0});
+  for (auto& [label, density] : chance) density = std::log(window.Density(label));
   float score = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float x = at.AtX(points[i]), y = at.AtY(points[i]);
     window.Visit(x, y, [&](int j) {
       const SitePoint& other = window.points()[j];
-      if (std::hypot(other.x - x, other.y - y) < kAmid && amid[j] == 0) amid[j] = 1;
+      const float d2 = (other.x - x) * (other.x - x) + (other.y - y) * (other.y - y);
+      if (d2 < kAmid * kAmid && amid[j] == 0) amid[j] = 1;
     });
     float gain = missed;
     if (matches[i].point >= 0) {
-      gain = std::max(gain, peak - matches[i].squared / (2 * kSigma * kSigma) -
-                                std::log(window.Density(points[i].label)));
+      gain = std::max(
+          gain, peak - matches[i].squared / (2 * kSigma * kSigma) - chance.at(points[i].label));
       amid[matches[i].point] = 2;
     }
     score += gain;

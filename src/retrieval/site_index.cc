@@ -1,22 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/retrieval/site_index.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
+#include <mutex>
 #include <utility>
 
 #include "formats/atomic_file.h"
 #include "retrieval/find_site.h"
+#include "retrieval/pose_votes.h"
 #include "retrieval/site_file.h"
 #include "retrieval/site_tables.h"
-#include "sslcd/core/error.h"
 
 namespace sslcd {
 
 struct SSLCD_HIDDEN SiteIndex::Impl {
   SiteFile file;
+  // Memory of searches that have ended, for the next ones.
+  std::mutex mutex;
+  std::vector<std::unique_ptr<PoseVotes>> idle;
+
+  std::unique_ptr<PoseVotes> TakeVotes() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (idle.empty()) return std::make_unique<PoseVotes>();
+    std::unique_ptr<PoseVotes> votes = std::move(idle.back());
+    idle.pop_back();
+    return votes;
+  }
+  void GiveBack(std::unique_ptr<PoseVotes> votes) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    idle.push_back(std::move(votes));
+  }
 };
 
 void SiteIndex::Build(const std::vector<Site>& sites, const std::string& path) {
@@ -26,7 +38,7 @@ void SiteIndex::Build(const std::vector<Site>& sites, const std::string& path) {
 }
 
 SiteIndex::SiteIndex(const std::string& path, SiteIndexCheck check)
-    : impl_(new Impl{SiteFile(path, check)}) {}
+    : impl_(new Impl{SiteFile(path, check), {}, {}}) {}
 SiteIndex::~SiteIndex() = default;
 SiteIndex::SiteIndex(SiteIndex&&) noexcept = default;
 SiteIndex& SiteIndex::operator=(SiteIndex&&) noexcept = default;
@@ -53,7 +65,10 @@ Site SiteIndex::ReadSite(int number) const {
 }
 
 std::vector<SiteCandidate> SiteIndex::Find(const std::vector<SiteObject>& stretch, int most) const {
-  return FindSites(impl_->file, stretch, most);
+  std::unique_ptr<PoseVotes> votes = impl_->TakeVotes();
+  std::vector<SiteCandidate> found = FindSites(impl_->file, stretch, most, *votes);
+  impl_->GiveBack(std::move(votes));
+  return found;
 }
 
 struct SSLCD_HIDDEN SiteIndexBuilder::Impl {

@@ -39,6 +39,25 @@ SiteTables::Row RowOf(const Site& site) {
           0};
 }
 
+struct Placed {
+  float x, y;
+  const std::string* label;
+};
+
+// The order does not depend on that of the objects, so that what is read from an index gives the
+// same again.
+std::vector<Placed> SortedByX(const Site& site, const SiteTables::Row& row) {
+  std::vector<Placed> sorted;
+  for (const SiteObject& object : site.objects)
+    if (IsPlaced(object))
+      sorted.push_back({static_cast<float>(object.x - row.x), static_cast<float>(object.y - row.y),
+                        &object.label});
+  std::sort(sorted.begin(), sorted.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.x, a.y, *a.label) < std::tie(b.x, b.y, *b.label);
+  });
+  return sorted;
+}
+
 }  // namespace
 
 void AddSite(const Site& site, SiteTables& tables) {
@@ -56,17 +75,11 @@ void AddSite(const Site& site, SiteTables& tables) {
                     ": with its labels there are more than 65535; use the labels of the "
                     "detector's classes");
   row.first_point = tables.points.size();
-  for (const SiteObject& object : site.objects) {
-    if (!IsPlaced(object)) continue;
+  for (const Placed& placed : SortedByX(site, row)) {
     const auto number = static_cast<std::uint16_t>(tables.labels.size());
-    const std::uint16_t label = tables.labels.insert({object.label, number}).first->second;
-    tables.points.push_back(
-        {static_cast<float>(object.x - row.x), static_cast<float>(object.y - row.y), label, 0});
+    const std::uint16_t label = tables.labels.insert({*placed.label, number}).first->second;
+    tables.points.push_back({placed.x, placed.y, label, 0});
   }
-  std::sort(tables.points.begin() + static_cast<std::ptrdiff_t>(row.first_point),
-            tables.points.end(), [](const SitePoint& a, const SitePoint& b) {
-              return std::tie(a.x, a.y, a.label) < std::tie(b.x, b.y, b.label);
-            });
   tables.names.insert(site.name);
   tables.sites.push_back(std::move(row));
 }

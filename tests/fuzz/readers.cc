@@ -19,6 +19,7 @@
 #include "sslcd/formats/detections.h"
 #include "sslcd/formats/poses.h"
 #include "sslcd/pipeline/options.h"
+#include "sslcd/retrieval/site_index.h"
 #include "targets.h"
 
 namespace sslcd::fuzz {
@@ -45,6 +46,16 @@ void LoadConfiguration(const std::string& text) {
   Check(options);
   const std::string dump = DumpConfig(fields, false);
   MustSucceed("loading a dump", [&] { LoadConfigText(dump, "dump", fields); });
+}
+
+// Without the checksum of the content, as of a file that was made to deceive.
+void ReadSites(const std::string& bytes) {
+  const SiteIndex index(FileWith(bytes), SiteIndexCheck::kHeader);
+  std::vector<SiteObject> stretch;
+  for (int site = 0; site < index.size() && stretch.size() < 100; ++site)
+    for (const SiteObject& object : index.ReadSite(site).objects) stretch.push_back(object);
+  index.Find(stretch);
+  for (int site = 0; site < index.size(); ++site) index.name(site);
 }
 
 // A setting per line.
@@ -82,6 +93,7 @@ Targets Readers() {
       {"run_json", ReadAndWrite(ReadRunJson, RunJson)},
       {"sequence_yaml", ReadAndWrite(ReadSequenceYaml, SequenceYamlText)},
       {"settings", Set},
+      {"sites", ReadSites},
       {"times", ReadOnly(ReadTimes)},
       {"timestamps", ReadOnly(ReadTimestamps)},
       {"tracklets", ReadOnly(ReadTracklets)},
