@@ -23,6 +23,11 @@ constexpr std::size_t kMostFits = 150;             // poses that are aligned
 constexpr int kMostSteps = 10 * kDifferenceSteps;  // difference of a vote's constellation
 constexpr std::size_t kAhead = 16;                 // lookups that are fetched from memory ahead
 
+// Objects beyond are no objects, and constellations so far from the middle belong to no stretch.
+// [m]
+constexpr double kFarthestObject = 1e8;
+constexpr float kFarFromMiddle = 1e5;
+
 struct Stretch {
   std::vector<SitePoint> points;  // from their middle
   double x = 0, y = 0;            // the middle
@@ -43,7 +48,9 @@ Stretch StretchOf(const SiteFile& file, const std::vector<SiteObject>& objects) 
   std::vector<std::pair<const SiteObject*, std::uint16_t>> known;
   for (const SiteObject& object : objects) {
     const auto label = numbers.find(object.label);
-    if (label == numbers.end() || !std::isfinite(object.x) || !std::isfinite(object.y)) continue;
+    const bool placed =
+        std::abs(object.x) < kFarthestObject && std::abs(object.y) < kFarthestObject;
+    if (label == numbers.end() || !placed) continue;
     known.emplace_back(&object, label->second);
     stretch.x += object.x;
     stretch.y += object.y;
@@ -135,8 +142,9 @@ class Headings {
 std::vector<PoseVote> LikelyPoses(const SiteFile& file, const std::vector<SitePoint>& points,
                                   PoseVotes& votes) {
   std::vector<SearchedConstellation> all;
-  VisitConstellations(points, NearestNeighbours(points),
-                      [&](const Constellation& one) { all.emplace_back(one); });
+  VisitConstellations(points, NearestNeighbours(points), [&](const Constellation& one) {
+    if (std::hypot(one.x, one.y) < kFarFromMiddle) all.emplace_back(one);
+  });
   const Headings headings;
   votes.Clear();
   const std::vector<Lookup> lookups = Lookups(file, all);

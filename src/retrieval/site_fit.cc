@@ -23,7 +23,7 @@ constexpr int kMostCells = 512;      // of the grid, each axis
 class Window {
  public:
   Window(const Span<SitePoint>& site, const FlatPose& pose, float reach)
-      : side_(std::clamp(static_cast<int>(2 * reach / kCell) + 1, 1, kMostCells)),
+      : side_(1 + static_cast<int>(std::min(2 * reach / kCell, kMostCells - 1.f))),
         left_(pose.x - reach),
         bottom_(pose.y - reach),
         start_(static_cast<std::size_t>(side_) * side_ + 1, 0) {
@@ -65,8 +65,10 @@ class Window {
   }
 
  private:
+  // -2: far outside, or not a number.
   static int ColumnOf(float metres) {
-    return static_cast<int>(std::clamp(std::floor(metres / kCell), -2.f, kMostCells + 2.f));
+    const float cells = std::floor(metres / kCell);
+    return cells >= -2 ? static_cast<int>(std::min(cells, kMostCells + 2.f)) : -2;
   }
   int CellOf(float x, float y) const {
     const int column = ColumnOf(x - left_), row = ColumnOf(y - bottom_);

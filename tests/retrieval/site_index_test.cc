@@ -103,6 +103,8 @@ TEST_F(SiteIndexTest, StretchesThatTellNothing) {
   EXPECT_TRUE(index.Find(strange, -1).empty());
   strange.push_back({"Car", 1e9, -1e9});
   EXPECT_NO_THROW(index.Find(strange));
+  strange.back() = {"Car", 1e300, kNaN};
+  EXPECT_EQ(index.Find(strange)[0].site, 1);
   for (SiteObject& object : strange) object.label = "House";
   EXPECT_TRUE(index.Find(strange).empty());
 }
