@@ -9,6 +9,7 @@
 #include "geo_arguments.h"
 #include "map_diff.h"
 #include "map_export/export_map.h"
+#include "map_merge.h"
 #include "sslcd/core/error.h"
 #include "sslcd/store/map_session.h"
 #include "store/session_view.h"
@@ -21,6 +22,7 @@ struct MapCommandArguments {
   GeoArguments geo;
   bool json = false;
   MapDiffArguments diff;
+  MapMergeArguments merge;
 };
 
 struct MapCounts {
@@ -152,6 +154,10 @@ int Diff(const MapCommandArguments& a, const Console& console) {
   return 0;
 }
 
+int Merge(const MapCommandArguments& a, const Console& console) {
+  return MergeInto(a.file, a.merge, console);
+}
+
 using MapFunction = int (*)(const MapCommandArguments&, const Console&);
 struct MapSubcommand {
   const char *name, *meaning;
@@ -169,6 +175,9 @@ const MapSubcommand kMapSubcommands[] = {
     {"diff", "what has changed between two sessions", Diff,
      Examples(
          {"map diff site.db", "map diff site.db --from monday --to tuesday --csv changes.csv"})},
+    {"merge", "add the sessions of other maps", Merge,
+     Examples({"map merge site.db robot2.db",
+               "map merge monday.db tuesday.db wednesday.db --out week.db --rename"})},
     {"compact", "update an older schema and return unused space to the disk", Compact,
      Examples({"map compact site.db"})},
     {"end", "end a session that was interrupted, with the frames that it has", End,
@@ -199,6 +208,7 @@ Command AddMapCommand(CLI::App& app, Console& console) {
       one->add_option("--csv", diff.csv, "file to write with a row per change");
       one->add_flag("--json", diff.json, "print JSON");
     }
+    if (row.run == Merge) arguments->merge.AddTo(*one);
     if (row.run == PrintInfo || row.run == Verify)
       one->add_flag("--json", arguments->json, "print JSON");
   }

@@ -13,23 +13,6 @@
 #include "store/site.h"
 
 namespace sslcd::apps {
-namespace {
-
-void CheckLengths(const MapInfo& info, const std::string& map, const Frame& frame) {
-  for (const Detection& detection : frame.detections)
-    for (const CueRow& row : kCueRows) {
-      const int known = info.vector_length[row.cue];
-      const int length = static_cast<int>(detection.appearance[row.cue].size());
-      if (known > 0 && length > 0 && length != known)
-        throw Error(ErrorKind::kBadInput,
-                    "frame " + std::to_string(frame.index) + ": its " + row.name +
-                        " vectors have " + std::to_string(length) + " values, and those of " + map +
-                        " " + std::to_string(known) + "; use the model that the map was made with");
-    }
-}
-
-}  // namespace
-
 void AddTo(CLI::App& command, StretchArguments& stretch) {
   command.add_option("--from", stretch.from, "first frame of the stretch")
       ->check(CLI::NonNegativeNumber);
@@ -67,7 +50,7 @@ std::vector<Attempt> LocaliseInMap(const std::string& map, const Dataset& datase
   for (Frame frame : stretch) {
     if (Interrupted()) break;
     if (LacksColour(frame)) AddColours(frame, options.colour, hooks);
-    CheckLengths(info, map, frame);
+    CheckVectorLengths(info, map, frame);
     std::optional<Localisation> found = localiser.AddFrame(frame);
     progress.Report(++done, static_cast<int>(stretch.size()));
     // a short stretch, or what came after the last attempt

@@ -116,6 +116,11 @@ int Run(int argc, char** argv) {
       AddWriter(app, "halv", "HALV-sim: four calibrated cases with revisits", arguments);
   AddTables(halv_command, halv.scene, halv.drift, halv.detector, halv.appearance,
             arguments.render_options);
+  halv_command
+      ->add_option("--visit", halv.visit,
+                   "another drive through the world of this seed: the same path and objects, other "
+                   "noise")
+      ->capture_default_str();
   CLI::Option* render = halv_command->add_flag("--render", arguments.render,
                                                "stereo images too: image_2, image_3; needs Embree");
   halv_command

@@ -8,8 +8,8 @@
 #     vision  and ONNX Runtime, to run models (docs/models.md), before or after the build; all else is
 #             installed where that cannot be had
 #     test    and what the tests need, with clang-format, Embree for sslcd_sim --render, pybind11 and
-#             NumPy for the Python package, ROS 1 for sslcd_node, Chromium for reports, and MkDocs
-#             (default)
+#             NumPy for the Python package, Dask for its fleets, ROS 1 for sslcd_node, Chromium for
+#             reports, and MkDocs (default)
 #     dev     and clang-tidy, Doxygen, Google Benchmark, mypy and Shapely
 #     fuzz    build, and clang with libFuzzer, for scripts/fuzz.sh
 set -euo pipefail
@@ -23,7 +23,8 @@ ros=(libroscpp-dev libnav-msgs-dev libsensor-msgs-dev libstd-srvs-dev libtf2-msg
      python3-std-srvs python3-tf2-msgs python3-visualization-msgs)
 python=(python3-dev python3-venv)
 test=(libgtest-dev libgmock-dev python3 file pkgconf clang-14 clang-format-14
-      libembree-dev chromium mkdocs-material python3-dev python3-venv python3-numpy python3-pytest pybind11-dev "${ros[@]}")
+      libembree-dev chromium mkdocs-material python3-dev python3-venv python3-numpy python3-pytest
+      pybind11-dev python3-distributed python3-fsspec "${ros[@]}")
 dev=(clang-tidy-14 doxygen libbenchmark-dev python3-shapely mypy git)
 fuzz=(clang-14 libclang-rt-14-dev)
 any_clang=(clang libclang-rt-dev)
@@ -42,10 +43,10 @@ case "$what" in
   *) echo "usage: scripts/install_deps.sh [build|python|vision|test|dev|fuzz]" >&2; exit 2 ;;
 esac
 
-# Debian 13 has no clang 14, and some releases have no ROS 1 or no Chromium in their archive: the
+# Debian 13 has no clang 14, and some releases have no ROS 1, no Chromium or no Dask in their archive: the
 # checks that need them are skipped there.
 in_this_release() {
-  [[ $1 != clang-* && $1 != chromium && " ${ros[*]} " != *" $1 "* ]] || apt-cache show "$1" >/dev/null 2>&1
+  [[ $1 != clang-* && $1 != chromium && $1 != python3-distributed && " ${ros[*]} " != *" $1 "* ]] || apt-cache show "$1" >/dev/null 2>&1
 }
 
 missing=()

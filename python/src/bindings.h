@@ -16,7 +16,10 @@ void BindEvaluation(py::module_& module);
 void BindFormats(py::module_& module);
 void BindGraph(py::module_& module);
 void BindMapper(py::module_& module);
+void BindMapSession(py::module_& module);
+void BindMaps(py::module_& module);
 void BindMatch(py::module_& module);
 void BindRosBridge(py::module_& module);
+void BindSiteIndex(py::module_& module);
 
 }  // namespace sslcd::python

@@ -60,6 +60,9 @@ PYBIND11_MODULE(_core, module) {
   BindFormats(module);
   BindGraph(module);
   BindMapper(module);
+  BindMapSession(module);
+  BindMaps(module);
   BindMatch(module);
   BindRosBridge(module);
+  BindSiteIndex(module);
 }

@@ -16,7 +16,21 @@ from .graphs import read_g2o, solve_graph
 from .inputs import Camera, Frame
 from .kitti import kitti_cuboids
 from .layouts import Layout, PlaceAnswer, PlaceQuery, match, read_layout_pairs
+from .map_results import (
+    ChangeRates,
+    Localisation,
+    MapDiff,
+    MapInfo,
+    MapResults,
+    MergedSession,
+    MergeReport,
+    PlaceChange,
+    PlaceHistory,
+    PlaceOutcome,
+    SessionInfo,
+)
 from .mapper import Mapper
+from .maps import Localiser, Map, MapHistory, MapSession
 from .options import complete_options, default_options, read_options
 from .results import (
     AdjustmentSummary,
@@ -38,9 +52,11 @@ from .results import (
     NoiseScale,
     PoseGraph,
     RpeResult,
+    SiteCandidate,
     StageTimes,
     Trajectory,
 )
+from .sites import SiteIndex
 
 __version__: str = _core.__version__
 __all__ = [
@@ -51,6 +67,7 @@ __all__ = [
     "BadConfigError",
     "BadInputError",
     "Camera",
+    "ChangeRates",
     "Dataset",
     "Error",
     "ErrorStats",
@@ -61,22 +78,38 @@ __all__ = [
     "Hypothesis",
     "Improvement",
     "Layout",
+    "Localisation",
+    "Localiser",
     "LoopClosure",
     "LoopSearchSummary",
+    "Map",
     "MapChanges",
+    "MapDiff",
+    "MapHistory",
+    "MapInfo",
     "MapObject",
     "MapPart",
+    "MapResults",
+    "MapSession",
     "MapUpdate",
     "Mapper",
     "MatchResult",
+    "MergeReport",
+    "MergedSession",
     "NoSolutionError",
     "NoiseScale",
     "OutputError",
     "PlaceAnswer",
+    "PlaceChange",
+    "PlaceHistory",
+    "PlaceOutcome",
     "PlaceQuery",
     "PoseGraph",
     "RpeResult",
     "RunResult",
+    "SessionInfo",
+    "SiteCandidate",
+    "SiteIndex",
     "StageTimes",
     "Trajectory",
     "UsageError",

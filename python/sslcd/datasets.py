@@ -33,8 +33,9 @@ class Dataset:
     Ground truth is for evaluation only and never enters the frames.
     """
 
-    def __init__(self, core: Any) -> None:
+    def __init__(self, core: Any, path: str = "") -> None:
         self._core = core
+        self.path = path  #: of its folder
 
     def __len__(self) -> int:
         return len(self._core)
@@ -118,7 +119,9 @@ def load_dataset(
         "odometry": os.fspath(odometry),
         "groundtruth": os.fspath(groundtruth),
     }
-    return Dataset(_core.load_dataset(os.fspath(path), parts, score, max_frames))
+    return Dataset(
+        _core.load_dataset(os.fspath(path), parts, score, max_frames), os.path.abspath(path)
+    )
 
 
 class RunResult:

@@ -325,6 +325,20 @@ class Hypothesis(_Compact):
     sigma: float  #: horizontal standard deviation per axis of the matched objects [m]
 
 
+@dataclass(frozen=True)
+class SiteCandidate:
+    """A map that a stretch of a drive may be from, and where: a point p of the stretch is at
+    Rz(yaw) p + (x, y) of the map's layout, to about a metre."""
+
+    site: int  #: number in the index
+    name: str
+    score: float  #: log likelihood ratio of the objects under the pose, against chance [nats]
+    matches: int  #: objects of the stretch with one of the map at their place
+    yaw: float  #: [rad]
+    x: float  #: [m]
+    y: float
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MatchResult(_Compact):
     """The pose of the local layout in the global one, or the reason of the refusal."""

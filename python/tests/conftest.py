@@ -63,8 +63,12 @@ def pair():
     }
 
 
+def context_of(dataset):
+    return {"labels": dataset.labels, "up": dataset.up, "camera": dataset.camera}
+
+
 def mapper_for(dataset, options=None, kind=sslcd.Mapper, **more):
-    return kind(options, labels=dataset.labels, up=dataset.up, camera=dataset.camera, **more)
+    return kind(options, **context_of(dataset), **more)
 
 
 def arrays_of(frame):

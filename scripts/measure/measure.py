@@ -7,6 +7,7 @@ import os
 
 from bench import bench_sets
 from change import change_sets
+from fleet import fleet_sets
 from halv import halv_sets
 from pairs import city_sets, pair_sets
 from program import Program, processor
@@ -18,7 +19,7 @@ from store import Store, last_code_commit, same_code
 
 PARTS = {'loops': loop_sets, 'kitti': kitti_sets, 'pairs': pair_sets, 'city': city_sets,
          'halv': halv_sets, 'sessions': session_sets, 'relocalise': relocalise_sets, 'retrieval': retrieval_sets,
-         'change': change_sets, 'stream': stream_sets, 'bench': bench_sets}
+         'change': change_sets, 'fleet': fleet_sets, 'stream': stream_sets, 'bench': bench_sets}
 USUAL = ['loops', 'kitti', 'pairs']  # what takes seconds a set
 
 

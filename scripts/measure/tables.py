@@ -5,6 +5,7 @@ import math
 
 from cells import LOOPS, arrow, mean, note, number, percent, role, table
 from pairs import CITY_OBJECTS
+from fleet import fleet, fleet_merge, fleet_stages
 from retrieval_tables import retrieval, retrieval_real, retrieval_size
 from session_tables import (change, change_still, relocalise, relocalise_halv, sessions,
                             sessions_halv)
@@ -248,7 +249,7 @@ def bench(set_name, key, sets):
 TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_map, pairs, city,
                                   sessions, sessions_halv, relocalise, relocalise_halv,
                                   retrieval, retrieval_size, retrieval_real,
-                                  change, change_still, stream, halv_ate,
+                                  change, change_still, fleet, fleet_merge, fleet_stages, stream, halv_ate,
                                   halv_viewpoints)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):

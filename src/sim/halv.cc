@@ -94,16 +94,19 @@ HalvSequence MakeHalv(std::uint64_t seed, const HalvOptions& options) {
   sequence.scene = MakeHalvWorld(seed, options.scene);
   const World& world = sequence.scene.world;
   const HalvDrift& drift = options.drift;
+  constexpr std::uint64_t kVisit = 1000003;  // far from the seeds that people take
+  if (options.visit < 0) throw Error(ErrorKind::kUsage, "visit is a number of a drive, 0 or more");
+  const std::uint64_t noise = seed + kVisit * static_cast<std::uint64_t>(options.visit);
   const double ate = drift.ate_m < 0 ? HalvAte(options.scene.case_number) : drift.ate_m;
   if (ate == 0) {
-    sequence.odometry = SimulateOdometry(world.truth, drift.shape, seed);
+    sequence.odometry = SimulateOdometry(world.truth, drift.shape, noise);
   } else {
     CalibratedOdometry result =
-        SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, seed);
+        SimulateOdometryWithAte(world.truth, drift.shape, ate, drift.ate_spread, noise);
     sequence.odometry = std::move(result.odometry);
     sequence.drift_factor = result.factor;
   }
-  sequence.detections = SimulateDetections(world, options.detector, seed);
+  sequence.detections = SimulateDetections(world, options.detector, noise);
   SortByScore(sequence.detections);
   AddAppearance(world, options.appearance, seed, sequence.detections);
   return sequence;

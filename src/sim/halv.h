@@ -52,6 +52,9 @@ struct HalvOptions {
   HalvDrift drift;
   DetectorNoise detector = HalvDetector();
   AppearanceNoise appearance;
+  /// the number of the drive through the world of the seed, from 0 on: each has another noise of
+  /// odometry and detections, and sees the same objects on the same path
+  int visit = 0;
 };
 
 /// A place for one vehicle, occupied or free: its centre in the world and its heading from +z

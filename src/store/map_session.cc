@@ -11,6 +11,7 @@
 #include "sslcd/core/error.h"
 #include "sslcd/core/log.h"
 #include "store/frame_bytes.h"
+#include "store/new_session.h"
 #include "store/site.h"
 #include "store/view_answers.h"
 #include "store/writable_map.h"
@@ -23,27 +24,19 @@ constexpr int kFramesPerBatch = 10;
 // New results are stored for readers after this many new frames, if they are a tenth of the map.
 constexpr int kFramesPerResult = 200;
 
-// The name becomes that of a folder (`sslcd_run map export`).
-void CheckName(const std::string& name) {
-  const bool printable = std::all_of(name.begin(), name.end(), [](char c) {
-    return static_cast<unsigned char>(c) >= ' ' && c != '/' && c != '\x7f';
-  });
-  if (name.empty() || name == "." || name == ".." || !printable)
-    throw Error(ErrorKind::kUsage, "'" + name +
-                                       "' cannot be the name of a session: give it a name "
-                                       "without slashes and control characters");
-}
-
 }  // namespace
 
 struct SSLCD_HIDDEN MapSession::Impl {
   Impl(const std::string& path, Database::Access access) : map(path, access) {}
 
+  void AddLabels(const LabelTable& labels);
+  void Start(SessionInfo session);
+  bool Knows(const MapperContext& context) const;
+  void UseHost(const MapperContext& context);
   void MakeMapper(const MapperContext& context);
   void Replay();
   void RepeatInput(const StoredInput& input);
   void LearnLabels(const Frame& frame);
-  void CheckVectors(const Frame& frame) const;
   void Append(InputKind kind, std::string content);
   void Store(bool with_results);
   int FramesOfMap() const;
@@ -52,7 +45,7 @@ struct SSLCD_HIDDEN MapSession::Impl {
 
   WritableMap map;
   ViewAligner aligner;  // of the host
-  bool without_boxes = false;
+  bool without_boxes = false, has_aligner = false;
   std::shared_ptr<ViewAnswers> views = std::make_shared<ViewAnswers>();
   Options options;
   std::optional<Mapper> mapper;
@@ -77,7 +70,7 @@ int MapSession::stored_frames() const { return impl_->stored_frames; }
 FilterReport MapSession::filter() const { return impl_->filter; }
 Mapper& MapSession::mapper() { return *impl_->mapper; }
 
-void MapSession::Impl::MakeMapper(const MapperContext& context) {
+void MapSession::Impl::UseHost(const MapperContext& context) {
   const std::string& path = map.database.path();
   if (context.place_matcher)
     throw Error(ErrorKind::kUsage, path +
@@ -90,16 +83,29 @@ void MapSession::Impl::MakeMapper(const MapperContext& context) {
                                 ": this drive has another camera than the first one of the map: "
                                 "its detections are associated without their 2D boxes");
   aligner = context.view_aligner;
+}
+
+void MapSession::Impl::MakeMapper(const MapperContext& context) {
+  UseHost(context);
   MapperContext own;
   own.gravity = GravityFrame::FromUp(map.info.up_axis);
   own.labels = map.info.labels;
   own.camera = map.info.camera;
-  if (aligner || map.has_views)
+  has_aligner = has_aligner || aligner || map.has_views;
+  if (has_aligner)
     own.view_aligner = [answers = views](const std::vector<ViewPair>& pairs) {
       return answers->Answer(pairs);
     };
-  options = OptionsOf(map.info, path);
+  options = OptionsOf(map.info, map.database.path());
   mapper.emplace(options, own);
+}
+
+// Whether the mapper is the one that this context would make.
+bool MapSession::Impl::Knows(const MapperContext& context) const {
+  if (context.view_aligner && !has_aligner) return false;
+  for (const auto& [name, label] : context.labels.entries())
+    if (map.info.labels[name].symmetry != label.symmetry) return false;
+  return true;
 }
 
 void MapSession::Impl::RepeatInput(const StoredInput& input) {
@@ -131,9 +137,26 @@ void MapSession::Impl::Replay() {
   mapper->TakeChanges();
 }
 
+void MapSession::Impl::AddLabels(const LabelTable& labels) {
+  for (const auto& [name, label] : labels.entries()) {
+    map.info.labels.Set(name, label);
+    new_labels.Set(name, label);
+  }
+}
+
+// After the mapper has all earlier sessions.
+void MapSession::Impl::Start(SessionInfo session) {
+  frames_of_results = FramesOfMap();
+  map.info.sessions.push_back(std::move(session));
+  views->AskHost(aligner, this->session().frame_offset);
+  mapper->StartSequence();
+  Append(InputKind::kSequence, "");
+  Store(false);
+}
+
 MapSession MapSession::Begin(const std::string& path, const SessionRequest& request,
                              const MapperContext& context, const std::optional<Options>& options) {
-  CheckName(request.name);
+  CheckSessionName(request.name);
   auto impl = std::make_unique<Impl>(path, Database::Access::kCreate);
   MapInfo& info = impl->map.info;
   if (info.sessions.empty()) {
@@ -144,37 +167,34 @@ MapSession MapSession::Begin(const std::string& path, const SessionRequest& requ
   } else {
     CheckBelongs(info, path, context, options);
   }
-  SessionInfo session;
-  for (const SessionInfo& other : info.sessions) {
-    if (!other.ended)
-      throw Error(ErrorKind::kUsage, path + ": session '" + other.name +
-                                         "' has not been ended; go on with it (--resume), or end "
-                                         "it as it is (`sslcd_run map end`)");
-    if (other.name == request.name)
-      throw Error(ErrorKind::kUsage, path + ": has a session '" + request.name +
-                                         "' already; give this one another name (--session)");
-    if (other.last_frame) session.frame_offset = *other.last_frame + 1;
-  }
-  session.id = info.sessions.empty() ? 1 : info.sessions.back().id + 1;
-  session.name = request.name;
-  session.checksum = FirstChecksum();
-  session.dataset = request.dataset;
-  session.command = request.command;
-  session.program = request.program;
-  session.started = UtcTime();
-  for (const auto& [name, label] : context.labels.entries()) {
-    info.labels.Set(name, label);
-    impl->new_labels.Set(name, label);
-  }
+  SessionInfo session = NewSession(info, path, request);
+  impl->AddLabels(context.labels);
   impl->MakeMapper(context);
   impl->Replay();
-  impl->frames_of_results = impl->FramesOfMap();
-  info.sessions.push_back(std::move(session));
-  impl->views->AskHost(impl->aligner, impl->session().frame_offset);
-  MapSession result(std::move(impl));
-  result.StartSequence();
-  result.impl_->Store(false);
-  return result;
+  impl->Start(std::move(session));
+  return MapSession(std::move(impl));
+}
+
+void MapSession::BeginNext(const SessionRequest& request, const MapperContext& context) {
+  Impl& m = *impl_;
+  const std::string& path = m.map.database.path();
+  if (!m.session().ended) End();
+  CheckBelongs(m.map.info, path, context, std::nullopt);
+  SessionInfo session = NewSession(m.map.info, path, request);
+  const bool is_known = m.Knows(context);
+  m.AddLabels(context.labels);
+  m.filter = {};
+  m.stored_hashes.clear();
+  m.stored_numbers.clear();
+  m.stored_frames = 0;
+  if (is_known) {
+    m.UseHost(context);
+    m.mapper->TakeChanges();
+  } else {
+    m.MakeMapper(context);
+    m.Replay();
+  }
+  m.Start(std::move(session));
 }
 
 MapSession MapSession::Resume(const std::string& path, const MapperContext& context) {
@@ -208,23 +228,6 @@ bool MapSession::IsStored(const Frame& frame) const {
                   "the session as it is (`sslcd_run map end`)");
 }
 
-void MapSession::Impl::CheckVectors(const Frame& frame) const {
-  PerCue<int> lengths = map.info.vector_length;
-  for (const Detection& detection : frame.detections)
-    for (const CueRow& row : kCueRows) {
-      const int length = static_cast<int>(detection.appearance[row.cue].size());
-      int& known = lengths[row.cue];
-      if (length == 0) continue;
-      if (known == 0) known = length;
-      if (length != known)
-        throw Error(ErrorKind::kBadInput,
-                    map.database.path() + ": frame " + std::to_string(frame.index) + " has a " +
-                        row.name + " of " + std::to_string(length) +
-                        " numbers, those of the map have " + std::to_string(known) +
-                        ": they come from another model; use the one that the map was made with");
-    }
-}
-
 void MapSession::Impl::LearnLabels(const Frame& frame) {
   for (const Detection& detection : frame.detections) {
     if (map.info.labels.entries().count(detection.label) == 0) {
@@ -254,7 +257,7 @@ FrameReport MapSession::AddFrame(const Frame& given) {
                 "frame " + std::to_string(frame.index) + ": its number is out of range");
   if (m.without_boxes)
     for (Detection& detection : frame.detections) detection.box.reset();
-  m.CheckVectors(frame);
+  CheckVectorLengths(m.map.info, m.map.database.path(), frame);
   std::string content = FrameBytes(frame);
   frame.index += m.session().frame_offset;
   FrameReport report = m.mapper->AddFrame(frame);

@@ -68,6 +68,24 @@ MapResults MapStore::Results() const {
   return results;
 }
 
+std::vector<Frame> MapStore::Frames(const std::string& session) const {
+  Database& database = impl_->database;
+  const Transaction one_state(database, Transaction::Kind::kRead);
+  for (const SessionInfo& one : ReadInfo(database).sessions) {
+    if (one.name != session) continue;
+    std::vector<Frame> frames;
+    const std::vector<std::string> problems =
+        ReadInputs(database, {one}, [&](const StoredInput& input) {
+          if (input.session == one.id && input.kind == InputKind::kFrame)
+            frames.push_back(FrameOf(input.content));
+        });
+    if (problems.empty()) return frames;
+    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+  }
+  throw Error(ErrorKind::kUsage, database.path() + ": has no session '" + session +
+                                     "'; `sslcd_run map info` lists those that it has");
+}
+
 MapHistory MapStore::History() const {
   const Transaction one_state(impl_->database, Transaction::Kind::kRead);
   CheckResults(impl_->database);

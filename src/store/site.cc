@@ -171,4 +171,21 @@ void CheckBelongs(const MapInfo& info, const std::string& path, const MapperCont
                     "; leave the options out to use those of the map, or begin another one");
 }
 
+void CheckVectorLengths(const MapInfo& info, const std::string& path, const Frame& frame) {
+  PerCue<int> lengths = info.vector_length;
+  for (const Detection& detection : frame.detections)
+    for (const CueRow& row : kCueRows) {
+      const int length = static_cast<int>(detection.appearance[row.cue].size());
+      int& known = lengths[row.cue];
+      if (length == 0) continue;
+      if (known == 0) known = length;
+      if (length != known)
+        throw Error(ErrorKind::kBadInput,
+                    path + ": frame " + std::to_string(frame.index) + " has a " + row.name +
+                        " of " + std::to_string(length) + " numbers, those of the map have " +
+                        std::to_string(known) +
+                        ": they come from another model; use the one that the map was made with");
+    }
+}
+
 }  // namespace sslcd

@@ -83,6 +83,31 @@ class MapTest(MapCase):
         self.assertEqual(compacted.returncode, 0, compacted.stderr)
         self.assertEqual(self.info()['sessions'], info['sessions'])
 
+    def test_maps_are_merged(self):
+        """The result is the map to which the second drive was added as a session."""
+        self.copy()
+        other, out = self.map + '.other', self.map + '.out'
+        done = call('run', self.data, '--map', other, '--session', 'second', '--max-frames', '30')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        def content():
+            with open(self.map, 'rb') as file:
+                return file.read()
+        before = content()
+        merged = call('map', 'merge', self.map, other, '--out', out)
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assertIn("added 'second' of " + other + ', 30 frames', merged.stdout)
+        self.assertEqual(content(), before)
+        self.assertEqual(self.add('--session', 'second', '--max-frames', '30').returncode, 0)
+        for path, folder in ((self.map, self.out + '_a'), (out, self.out + '_b')):
+            self.assertEqual(call('map', 'export', path, '--out', folder).returncode, 0)
+        for name in ('map.json', 'graph.g2o', 'loops.csv', 'second/trajectory_tum.txt'):
+            self.assertEqual(read(f'{self.out}_a/{name}'), read(f'{self.out}_b/{name}'), name)
+        self.refused(call('map', 'merge', self.map, other), 2, 'is the same drive as')
+        self.refused(call('map', 'merge', self.map, self.map), 2, 'with itself')
+        self.refused(call('map', 'merge', self.map, other, '--out', out), 2, 'exists')
+        self.refused(call('map', 'merge', self.map, self.map + '.none'), 3, 'no such map')
+        self.sound()
+
     def test_results_can_be_queried(self):
         with contextlib.closing(sqlite3.connect(f'file:{self.made}?mode=ro', uri=True)) as reader:
             self.assertEqual(reader.execute('SELECT count(*) FROM pose').fetchone(), (40,))

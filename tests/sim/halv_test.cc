@@ -119,6 +119,24 @@ TEST(Halv, SameSeedSameSequence) {
   EXPECT_NE(a.detections.identity, c.detections.identity);
 }
 
+TEST(Halv, AVisitSeesTheSameWorldWithOtherNoise) {
+  HalvOptions options;
+  options.drift.ate_m = 0;
+  const HalvSequence first = MakeHalv(5, options);
+  options.visit = 1;
+  const HalvSequence second = MakeHalv(5, options);
+  const World &a = first.scene.world, &b = second.scene.world;
+  ASSERT_EQ(a.objects.size(), b.objects.size());
+  for (std::size_t i = 0; i < a.objects.size(); ++i)
+    EXPECT_EQ(a.objects[i].T_world_object[0].matrix(), b.objects[i].T_world_object[0].matrix());
+  ASSERT_EQ(a.truth.size(), b.truth.size());
+  EXPECT_EQ(a.truth.poses.back().matrix(), b.truth.poses.back().matrix());
+  EXPECT_NE(first.odometry.poses.back().matrix(), second.odometry.poses.back().matrix());
+  EXPECT_NE(first.detections.identity, second.detections.identity);
+  options.visit = -1;
+  ExpectError([&] { MakeHalv(5, options); }, {"visit"});
+}
+
 TEST(Halv, RowsTellNothingButTheirScores) {
   const HalvSequence sequence = MakeHalv(5);
   int row = 0, in_order = 0, pairs = 0;

@@ -40,6 +40,11 @@ class MapSession {
   /// Goes on with the session that was not ended. The context as before. Throws Error(kUsage) if
   /// there is none.
   static MapSession Resume(const std::string& path, const MapperContext& context);
+  /// Ends this session and begins another one on the same map. The results are those of End() and
+  /// Begin(), without the time to make the mapper again, unless the context brings symmetries of
+  /// labels or a view aligner that the mapper does not know yet. Throws what these two throw; the
+  /// session is ended then, and nothing else may be called but info().
+  void BeginNext(const SessionRequest& request, const MapperContext& context);
   ~MapSession();
   MapSession(MapSession&&) noexcept;
   MapSession& operator=(MapSession&&) noexcept;

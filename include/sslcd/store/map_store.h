@@ -11,6 +11,7 @@
 #include "sslcd/closing/localisation.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/cue.h"
+#include "sslcd/core/detection.h"
 #include "sslcd/core/detection_noise.h"
 #include "sslcd/core/export.h"
 #include "sslcd/core/label.h"
@@ -85,6 +86,11 @@ class MapStore {
   /// What was there when; sessions in the order of MapInfo::sessions. Throws as Results does.
   /// O(inputs + frames * (objects in sight)^2)
   MapHistory History() const;
+
+  /// The frames of a session as they were given to MapSession::AddFrame, without the paths of their
+  /// images. Throws Error(kUsage) if there is no session of this name, and Error(kBadInput) if its
+  /// checksum is wrong.
+  std::vector<Frame> Frames(const std::string& session) const;
 
   /// The confirmed landmarks, to localise in (pipeline/localiser.h). Throws as Results() does.
   ReferenceMap Reference() const;
