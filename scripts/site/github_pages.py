@@ -13,7 +13,9 @@ def on_files(files, config):
     """Adds the pages and programs that stand beside docs/. The reference is Doxygen's."""
     def add(path):
         files.append(File(path, ROOT, config['site_dir'], config['use_directory_urls']))
+    files.remove(files.get_file_from_path('api.md'))  # Doxygen's first page
     add('CONTRIBUTING.md')
+    add('third_party/onnxruntime/LICENSE')
     for name in sorted(os.listdir(os.path.join(ROOT, 'examples'))):
         if name.endswith(('.md', '.cc')):
             add('examples/' + name)
@@ -31,7 +33,7 @@ def here(markdown, source):
         return re.sub(r'\]\(docs/', '](', markdown)
     if source.startswith('examples/'):
         return markdown.replace('](../docs/', '](../')
-    return re.sub(r'\]\(\.\./(CONTRIBUTING\.md|examples/)', r'](\1', markdown)
+    return re.sub(r'\]\(\.\./(CONTRIBUTING\.md|examples/|third_party/)', r'](\1', markdown)
 
 
 def python_markdown(markdown):

@@ -133,6 +133,11 @@ class Documents(unittest.TestCase):
         self.assertLess(lines.index('## Quick start'), 25)
         self.assertLessEqual(read('docs/results.md').count('\n'), 400)
 
+    def test_the_site_lists_all_pages(self):
+        pages = {os.path.basename(page) for page in glob.glob(os.path.join(ROOT, 'docs/*.md'))}
+        listed = set(re.findall(r' (\w+\.md)$', read('mkdocs.yml'), re.MULTILINE))
+        self.assertEqual(pages - {'api.md'}, listed - {'CONTRIBUTING.md'})
+
     def test_examples_are_short_and_listed(self):
         programs = sorted(glob.glob(os.path.join(ROOT, 'examples/*.cc')))
         self.assertGreater(len(programs), 5)
