@@ -13,7 +13,7 @@ package=libonnxruntime-dev  # has the name libonnxruntime.so, which is looked fo
 
 folder=/usr/local/lib
 case "${1:-}" in
-  --is-there) [[ $(/sbin/ldconfig -p) == *libonnxruntime.so* ]]; exit ;;
+  --is-there) [[ $(/sbin/ldconfig -p) =~ libonnxruntime\.so(\.1)?\  ]]; exit ;;
   --to) folder=$(realpath -m -- "${2:?usage: scripts/install_onnxruntime.sh --to FOLDER}") ;;
   "") ;;
   *) sed -n 3,10p "$0" >&2; exit 2 ;;

@@ -67,6 +67,7 @@ bool CorrectTrajectory(MapState& state, LoopLedger& ledger, double scale,
   // confirm them.
   PoseGraph refined = WithRefinedSteps(state.frames, graph);
   if (!SolveAndDecide(graph, loops, options)) return false;
+  refined.vertices = graph.graph.vertices;
   if (state.frames.front().T_refined_cam && !ledger.RefinedByRefused() &&
       SolveKept(refined, loops, options))
     graph.graph = std::move(refined);
