@@ -49,9 +49,11 @@ fs::path FolderOf(const std::string& path) { return fs::absolute(path).parent_pa
 // 0, or errno of the first step that failed.
 int WriteAll(const std::string& path, const std::string& content, int flags,
              Durability durability) {
-  const int file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  int file = -1, code = 0;
+  do
+    file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  while (file < 0 && errno == EINTR);
   if (file < 0) return errno;
-  int code = 0;
   for (std::size_t done = 0; done < content.size() && code == 0;) {
     const ssize_t written = write(file, content.data() + done, content.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -61,7 +63,7 @@ int WriteAll(const std::string& path, const std::string& content, int flags,
       done += static_cast<std::size_t>(written);
   }
   if (code == 0 && durability == Durability::kSynced) code = Synchronise(file);
-  if (close(file) != 0 && code == 0) code = errno;
+  if (close(file) != 0 && errno != EINTR && code == 0) code = errno;  // it is closed all the same
   return code;
 }
 
@@ -143,9 +145,9 @@ void MakeWritableFolder(const std::string& path) {
       Fail(parent.string(), failed, "check the disk");
   const std::string probe = TemporaryName(fs::path(path) / ".sslcd-probe");
   RemoveLitter(fs::path(path) / ".sslcd-probe");
-  if (const int failed = WriteAll(probe, "", kNew, Durability::kUnsynced))
-    Fail(path, failed, "choose another folder");
-  unlink(probe.c_str());
+  int failed = WriteAll(probe, "", kNew, Durability::kUnsynced);
+  if (failed != EEXIST && unlink(probe.c_str()) != 0 && failed == 0) failed = errno;
+  if (failed != 0) Fail(path, failed, "choose another folder");
 }
 
 }  // namespace sslcd
