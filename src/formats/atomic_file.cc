@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "formats/files.h"
 #include "sslcd/core/error.h"
@@ -50,8 +51,7 @@ fs::path FolderOf(const std::string& path) { return fs::absolute(path).parent_pa
 int WriteAll(const std::string& path, const std::string& content, int flags,
              Durability durability) {
   int file = -1, code = 0;
-  do
-    file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  do file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
   while (file < 0 && errno == EINTR);
   if (file < 0) return errno;
   for (std::size_t done = 0; done < content.size() && code == 0;) {
@@ -88,6 +88,18 @@ void RemoveLitter(const std::string& path) {
   }
 }
 
+// Files under temporary names, with their final ones. Removes those that were not renamed, also
+// when memory is short.
+struct Temporaries {
+  std::vector<std::pair<std::string, std::string>> names;
+  Temporaries() = default;
+  Temporaries(const Temporaries&) = delete;
+  Temporaries& operator=(const Temporaries&) = delete;
+  ~Temporaries() {
+    for (const auto& [name, final_name] : names) unlink(name.c_str());
+  }
+};
+
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, const std::string& content,
@@ -100,7 +112,8 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
   std::error_code ignored;
   for (const auto& [path, content] : files)
     if (fs::is_directory(path, ignored)) Fail(path, EISDIR, "name a file");
-  std::vector<std::pair<std::string, std::string>> waiting;  // temporary and final names
+  Temporaries waiting;
+  waiting.names.reserve(files.size());
   for (const auto& [path, content] : files) {
     const fs::file_status status = fs::status(path, ignored);
     const bool special = fs::exists(status) && !fs::is_regular_file(status);
@@ -110,23 +123,23 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
       code = WriteAll(path, content, 0, Durability::kUnsynced);
     } else {
       RemoveLitter(path);
+      std::pair<std::string, std::string> names(temporary, path);
       code = WriteAll(temporary, content, kNew, durability);
-      if (code != EEXIST) waiting.emplace_back(temporary, path);
+      if (code != EEXIST) waiting.names.push_back(std::move(names));
     }
     if (code == 0) continue;
-    for (const auto& [name, final_name] : waiting) unlink(name.c_str());
     if (special) Fail(path, code, "name another file");
     Fail(path, code,
          code == ENOSPC ? "make room or choose another folder" : "choose another folder");
   }
   std::set<fs::path> folders;
-  for (const auto& [temporary, path] : waiting) {
+  for (const auto& [temporary, path] : waiting.names) {
     if (durability == Durability::kSynced) folders.insert(FolderOf(path));
     if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
     const int code = errno;
-    for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // only on failure
     Fail(path, code, "choose another folder");
   }
+  waiting.names.clear();
   for (const fs::path& folder : folders)
     if (const int code = SynchroniseFolder(folder)) Fail(folder.string(), code, "check the disk");
 }

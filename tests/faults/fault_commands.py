@@ -68,11 +68,14 @@ def commands(names=None):
     return [known[name] for name in names] if names else ALL
 
 
-def write_inputs(folder):
+def write_inputs(folder, words):
+    """Those that occur in `words`."""
     shutil.copytree(DATA + '/sim_rectangle', folder + '/data')
-    sequence = Sequence(folder + '/data')
-    MISTAKES['centre'][1](sequence)
-    sequence.write(folder + '/wrong')
-    write_drive(folder + '/stereo', 3)
+    if 'wrong' in words:
+        sequence = Sequence(folder + '/data')
+        MISTAKES['centre'][1](sequence)
+        sequence.write(folder + '/wrong')
+    if 'stereo' in words:
+        write_drive(folder + '/stereo', 3)
     shutil.copy(DATA + '/object_pairs.txt', folder + '/pairs.txt')
     shutil.copy(DATA + '/loops.g2o', folder + '/loops.g2o')

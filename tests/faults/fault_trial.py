@@ -75,7 +75,7 @@ def prepare(binary, shim, command, folder):
     """Makes what is there before, and runs the command twice without a fault: what it writes and calls."""
     name = folder + '/' + re.sub(r'\W+', '_', command.name)
     state = State(binary, shim, command, name + '.template', name, {}, {}, {})
-    write_inputs_once(folder, state.folder)
+    write_inputs(name, command.words)
     for words in command.before:
         kill = re.match(r'KILL (\w+):(\d+) (.*)', words)
         done = state.call(kill[3], (kill[1], kill[2], 'before'), '/dev/null') if kill else state.call(words)
@@ -98,12 +98,6 @@ def prepare(binary, shim, command, folder):
     counts = collections.Counter(line.split()[0] for line in last_run)
     state.counts = {**counts, 'any': sum(counts.values()) - counts['allocations'], 'alloc': int(last_run[-1].split()[1])}
     return state
-
-
-def write_inputs_once(cache, folder):
-    if not os.path.exists(cache + '/inputs'):
-        write_inputs(cache + '/inputs')
-    shutil.copytree(cache + '/inputs', folder)
 
 
 class Trial:
