@@ -15,6 +15,7 @@ from fault_commands import Command, write_inputs
 HOLDS_TIMES = re.compile(r'run\.json|timing\.json|report\.html|out\.html|trials/.*\.json|commit\.txt')
 BESIDE_A_MAP = re.compile(r'out\.db-(wal|shm|journal|lock)')
 TEMPORARY = re.compile(r'\.tmp-\d+$')
+TOLD_BY_DETECT = r'image_\d/\d+\.png: no image that can be read|holds the frames before it'
 ERROR_CODES = (1, 3)  # a result could not be written, an input could not be read
 NO_SOLUTION = (5,)  # the solver has told that it had no memory
 
@@ -118,8 +119,8 @@ class Trial:
             self.reached = any(line.startswith('fault ') for line in file)
         self.message = done.stderr.strip().splitlines()[-1] if done.stderr.strip() else ''
         self.check_ending(done)
-        # an image that cannot be read is left out with a warning, and other frames are not as without it
-        self.warned = 'detect' in self.command.name and re.search(r'stereo/image_\d/\d+\.png.*(read|image)', done.stderr)
+        # detect leaves out an image that it cannot read, or keeps the frames before an error, and says so
+        self.warned = self.command.name.startswith('detect') and re.search(TOLD_BY_DETECT, done.stderr)
         self.check_files(done.returncode)
         if self.command.out.endswith('.db'):
             self.check_map()
