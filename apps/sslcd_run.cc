@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
 
 #include "commands.h"
 #include "examples.h"
@@ -20,9 +21,8 @@ int ExitCode(sslcd::ErrorKind kind) {
   return 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+// The exit code. Throws what the command throws.
+int RunCommandLine(int argc, char** argv) {
   using namespace sslcd::apps;
   CLI::App app(
       "Object-level mapping for visual SLAM: stereo odometry and 3D detections in, a map of "
@@ -59,16 +59,27 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : 2;
   }
+  int code = commands.at(app.get_subcommands().front()->get_name())();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+    std::fprintf(stderr, "error: the results could not be printed: is the output's disk full?\n");
+    if (code == 0) code = 1;
+  }
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using sslcd::apps::Printable;
   try {
-    int code = commands.at(app.get_subcommands().front()->get_name())();
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
-      std::fprintf(stderr, "error: the results could not be printed: is the output's disk full?\n");
-      if (code == 0) code = 1;
-    }
-    return code;
+    return RunCommandLine(argc, argv);
   } catch (const sslcd::Error& error) {
     std::fprintf(stderr, "error: %s\n", Printable(error.what()).c_str());
     return ExitCode(error.kind());
+  } catch (const std::bad_alloc&) {  // whose handler needs no memory
+    std::fputs("error: not enough memory; end other programs, or use fewer frames or threads\n",
+               stderr);
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", Printable(error.what()).c_str());
     return 1;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "formats/files.h"
 #include "sslcd/core/error.h"
@@ -49,9 +50,10 @@ fs::path FolderOf(const std::string& path) { return fs::absolute(path).parent_pa
 // 0, or errno of the first step that failed.
 int WriteAll(const std::string& path, const std::string& content, int flags,
              Durability durability) {
-  const int file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  int file = -1, code = 0;
+  do file = open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+  while (file < 0 && errno == EINTR);
   if (file < 0) return errno;
-  int code = 0;
   for (std::size_t done = 0; done < content.size() && code == 0;) {
     const ssize_t written = write(file, content.data() + done, content.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -61,7 +63,7 @@ int WriteAll(const std::string& path, const std::string& content, int flags,
       done += static_cast<std::size_t>(written);
   }
   if (code == 0 && durability == Durability::kSynced) code = Synchronise(file);
-  if (close(file) != 0 && code == 0) code = errno;
+  if (close(file) != 0 && errno != EINTR && code == 0) code = errno;  // it is closed all the same
   return code;
 }
 
@@ -86,6 +88,18 @@ void RemoveLitter(const std::string& path) {
   }
 }
 
+// Files under temporary names, with their final ones. Removes those that were not renamed, also
+// when memory is short.
+struct Temporaries {
+  std::vector<std::pair<std::string, std::string>> names;
+  Temporaries() = default;
+  Temporaries(const Temporaries&) = delete;
+  Temporaries& operator=(const Temporaries&) = delete;
+  ~Temporaries() {
+    for (const auto& [name, final_name] : names) unlink(name.c_str());
+  }
+};
+
 }  // namespace
 
 void WriteFileAtomically(const std::string& path, const std::string& content,
@@ -98,7 +112,8 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
   std::error_code ignored;
   for (const auto& [path, content] : files)
     if (fs::is_directory(path, ignored)) Fail(path, EISDIR, "name a file");
-  std::vector<std::pair<std::string, std::string>> waiting;  // temporary and final names
+  Temporaries waiting;
+  waiting.names.reserve(files.size());
   for (const auto& [path, content] : files) {
     const fs::file_status status = fs::status(path, ignored);
     const bool special = fs::exists(status) && !fs::is_regular_file(status);
@@ -108,23 +123,23 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
       code = WriteAll(path, content, 0, Durability::kUnsynced);
     } else {
       RemoveLitter(path);
+      std::pair<std::string, std::string> names(temporary, path);
       code = WriteAll(temporary, content, kNew, durability);
-      if (code != EEXIST) waiting.emplace_back(temporary, path);
+      if (code != EEXIST) waiting.names.push_back(std::move(names));
     }
     if (code == 0) continue;
-    for (const auto& [name, final_name] : waiting) unlink(name.c_str());
     if (special) Fail(path, code, "name another file");
     Fail(path, code,
          code == ENOSPC ? "make room or choose another folder" : "choose another folder");
   }
   std::set<fs::path> folders;
-  for (const auto& [temporary, path] : waiting) {
+  for (const auto& [temporary, path] : waiting.names) {
     if (durability == Durability::kSynced) folders.insert(FolderOf(path));
     if (std::rename(temporary.c_str(), path.c_str()) == 0) continue;
     const int code = errno;
-    for (const auto& [name, final_name] : waiting) unlink(name.c_str());  // only on failure
     Fail(path, code, "choose another folder");
   }
+  waiting.names.clear();
   for (const fs::path& folder : folders)
     if (const int code = SynchroniseFolder(folder)) Fail(folder.string(), code, "check the disk");
 }
@@ -143,9 +158,9 @@ void MakeWritableFolder(const std::string& path) {
       Fail(parent.string(), failed, "check the disk");
   const std::string probe = TemporaryName(fs::path(path) / ".sslcd-probe");
   RemoveLitter(fs::path(path) / ".sslcd-probe");
-  if (const int failed = WriteAll(probe, "", kNew, Durability::kUnsynced))
-    Fail(path, failed, "choose another folder");
-  unlink(probe.c_str());
+  int failed = WriteAll(probe, "", kNew, Durability::kUnsynced);
+  if (failed != EEXIST && unlink(probe.c_str()) != 0 && failed == 0) failed = errno;
+  if (failed != 0) Fail(path, failed, "choose another folder");
 }
 
 }  // namespace sslcd

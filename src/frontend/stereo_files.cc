@@ -53,6 +53,10 @@ RigCheck CheckRig(const StereoFiles& files, const StereoCamera& camera,
     if (files.stopped() || left_path.empty() || right_path.empty()) return std::nullopt;
     std::pair<Image, Image> pair{files.load(left_path), files.load(right_path)};
     const auto& [left, right] = pair;
+    if (left.empty() || right.empty())
+      Log(LogLevel::kWarning, (left.empty() ? left_path : right_path) +
+                                  ": no image that can be read; the check of the calibration goes "
+                                  "without its frame");
     if (left.empty() || left.width != right.width || left.height != right.height)
       return std::nullopt;
     if (size.first == 0) size = {left.width, left.height};
