@@ -133,6 +133,7 @@ int Inspect(const ModelArguments& a, const Console& console) {
 Command AddModelCommand(CLI::App& app, Console& console) {
   CLI::App* model = app.add_subcommand("model", "look into networks");
   model->require_subcommand(1);
+  model->footer(Examples({"model inspect yolo11s.onnx"}));
   CLI::App* command = model->add_subcommand(
       "inspect", "print a network's inputs and outputs, and write a description that fits them");
   const auto a = std::make_shared<ModelArguments>();
