@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Maps of many drives, on a cluster in this process."""
 
+import errno
 import json
+import os
 import shutil
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,9 +20,13 @@ fsspec = pytest.importorskip("fsspec")
 
 from distributed import Client  # noqa: E402
 
-from sslcd.fleet import FleetSettings, __main__, build_fleet, find_drives  # noqa: E402
+from sslcd.fleet import Drive, FleetSettings, __main__, build_fleet, find_drives  # noqa: E402
 from sslcd.fleet.components import Components  # noqa: E402
-from sslcd.fleet.content import digest, publish_text  # noqa: E402
+from sslcd.fleet.content import digest, publish, publish_text  # noqa: E402
+from sslcd.fleet.drives import content_of, local_folder  # noqa: E402
+from sslcd.fleet.report import Progress, StageStatistics  # noqa: E402
+from sslcd.fleet.run_tasks import run_tasks  # noqa: E402
+from sslcd.fleet.tasks import groups_of, measured  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -211,7 +218,7 @@ def test_mistakes_on_the_command_line(folder, tmp_path, capsys, monkeypatch):
 def test_outputs_that_cannot_be_written(folder, client, tmp_path, monkeypatch):
     drives = find_drives([str(folder / "elsewhere")], {})
     (tmp_path / "file").write_text("")
-    with pytest.raises(sslcd.OutputError, match="cannot be made"):
+    with pytest.raises(sslcd.OutputError, match="cannot be written: .*name a folder"):
         build_fleet(drives, tmp_path / "file" / "out", client)
 
     def full(*_):
@@ -245,3 +252,169 @@ def test_names_of_outputs():
     settings = FleetSettings()
     assert settings.key("drive", "a") != settings.key("drive", "b")
     assert settings.key("drive", "a") != FleetSettings(["mode=paper"]).key("drive", "a")
+
+
+def test_two_builds_share_a_scheduler(client):
+    stages = []
+    for number in (1, 2):  # as of two processes, at the same time
+        progress = Progress(StageStatistics("map"), 1)
+        task = ({}, lambda number=number: {"error": "", "fatal": False, "number": number}, ())
+        stages.append(run_tasks(client, [task], progress))
+    keys = []
+    submit = client.submit
+    try:
+        client.submit = lambda *given, **more: (keys.append(more["key"]), submit(*given, **more))[1]
+        assert [record["number"] for stage in stages for record in stage] == [1, 2]
+    finally:
+        del client.submit
+    # a number counted in each process would be the same in another one
+    assert len(set(keys)) == 2 and all(len(key.rsplit("-", 1)[1]) == 32 for key in keys)
+
+
+def test_pairs_that_fail_are_told(folder, client, tmp_path, monkeypatch, capsys):
+    def lost(*_):
+        raise OSError(errno.EIO, "Input/output error")
+
+    drives = find_drives([f"{folder}/*day"], {})
+    monkeypatch.setattr("sslcd.fleet.tasks._localise", lost)
+    report = build_fleet(drives, tmp_path, client)
+    assert [each["drives"] for each in report.sites] == [["monday"], ["tuesday"]]
+    (pair,) = report.failed_pairs
+    assert {pair["query"], pair["target"]} == {"monday", "tuesday"} and not report.complete
+    assert (
+        "Input/output"
+        in json.loads((tmp_path / "report.json").read_text())["failed_pairs"][0]["error"]
+    )
+    __main__._tell(report, str(tmp_path))
+    assert "not compared: tuesday, monday: " in capsys.readouterr().err
+    monkeypatch.undo()
+    again = build_fleet(drives, tmp_path, client)
+    assert again.complete and [each["drives"] for each in again.sites] == [["monday", "tuesday"]]
+
+
+def test_a_map_without_its_log_is_not_published(tmp_path):
+    (tmp_path / "map.db").write_text("pages")
+    (tmp_path / "map.db-wal").write_text("")
+    publish(str(tmp_path / "map.db"), str(tmp_path / "out" / "whole.db"))
+    (tmp_path / "map.db-wal").write_text("sessions")
+    with pytest.raises(sslcd.OutputError, match="log could not .*make room"):
+        publish(str(tmp_path / "map.db"), str(tmp_path / "out" / "part.db"))
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["whole.db"]
+
+
+def test_links_in_a_drive(folder, tmp_path):
+    linked = tmp_path / "linked"
+    linked.mkdir()
+    shutil.copytree(folder / "monday", tmp_path / "elsewhere" / "inner")
+    (linked / "inner").symlink_to(tmp_path / "elsewhere" / "inner")
+    (linked / "circle").symlink_to(linked)
+    (linked / "nothing.txt").symlink_to(tmp_path / "nothing")
+    content = content_of(Drive("a", str(linked)), {})
+    assert content == content_of(Drive("b", str(tmp_path / "elsewhere")), {})
+    with open(tmp_path / "elsewhere" / "inner" / "odometry.txt", "a") as file:
+        file.write("\n")
+    assert content != content_of(Drive("a", str(linked)), {})
+
+
+def test_files_outside_of_the_drives(folder, client, tmp_path, monkeypatch):
+    drives = find_drives([f"{folder}/tuesday"], {})
+    for name in ("/data/odometry.txt", "../odometry.txt"):
+        with pytest.raises(sslcd.UsageError, match=f"odometry {name}: is not in the folder"):
+            build_fleet(drives, tmp_path, client, FleetSettings(dataset={"odometry": name}))
+    assert not list(tmp_path.iterdir())
+    monkeypatch.chdir(folder / "monday")  # the loader would look here, too
+    shutil.copy("odometry.txt", tmp_path / "other.txt")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(
+        sslcd.BadInputError, match="has no other.txt; odometry must be in each drive"
+    ):
+        build_fleet(
+            drives, tmp_path / "o", client, FleetSettings(dataset={"odometry": "other.txt"})
+        )
+
+
+def test_whose_fault_an_error_is():
+    def told(problem):
+        def work():
+            raise problem
+
+        return measured(work)
+
+    memory = told(MemoryError())
+    assert not memory["fatal"] and "raise --memory" in memory["error"]
+    for code in (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES):
+        assert told(OSError(code, "no"))["fatal"]
+    assert told(sslcd.OutputError("no"))["fatal"]
+    assert (
+        not told(OSError(errno.EIO, "no"))["fatal"] and not told(sslcd.BadInputError("no"))["fatal"]
+    )
+
+
+def test_a_full_disk_is_not_a_lack_of_credentials(folder, monkeypatch):
+    memory = fsspec.filesystem("memory")
+    memory.put(str(folder / "elsewhere"), "/full/drive", recursive=True)
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(type(memory), "get_file", full)
+    with pytest.raises(OSError, match="No space left") as raised:
+        with local_folder(Drive("drive", "memory://full/drive"), {}):
+            pass
+    assert raised.value.errno == errno.ENOSPC
+
+
+@pytest.mark.parametrize("lost", ["report.json", "sites.json", ".probe"])
+def test_reports_that_cannot_be_written(folder, built, client, monkeypatch, lost):
+    def refuse(real):
+        def call(path, *given, **more):
+            if lost in os.path.basename(str(path)):
+                raise OSError(errno.EROFS, "Read-only file system")
+            return real(path, *given, **more)
+
+        return call
+
+    monkeypatch.setattr("builtins.open", refuse(open))
+    with pytest.raises(sslcd.OutputError, match="cannot be written: .*Read-only.*name a folder"):
+        build_fleet(find_drives([f"{folder}/*"], {}), built[0], client)
+
+
+def test_stamps_from_the_names_of_images(folder, tmp_path):
+    """Poses without stamps: those are the names of the images, also by URL."""
+    drive = tmp_path / "drive"
+    drive.mkdir()
+    (drive / "odometry.txt").write_text("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n")
+    shutil.copy(folder / "monday" / "calib.txt", drive)
+    (drive / "detections.txt").write_text("")
+    (drive / "image_2").mkdir()
+    for name in ("10.500000", "11.000000"):
+        (drive / "image_2" / f"{name}.png").write_text("")
+    memory = fsspec.filesystem("memory")
+    memory.put(str(drive), "/stamps/drive", recursive=True)
+    content = content_of(Drive("a", str(drive)), {})
+    for url in (str(drive), "memory://stamps/drive"):
+        with local_folder(Drive("a", url), {}) as copy:
+            assert [frame.stamp for frame in sslcd.load_dataset(copy)] == [10.5, 11]
+    (drive / "image_2" / "11.000000.png").rename(drive / "image_2" / "12.000000.png")
+    assert content != content_of(Drive("a", str(drive)), {})
+    (drive / "times.txt").write_text("1\n2\n")
+    content = content_of(Drive("a", str(drive)), {})
+    shutil.rmtree(drive / "image_2")
+    assert content == content_of(Drive("a", str(drive)), {})
+
+
+def test_sessions_by_common_map():
+    def groups(offsets, parts):
+        sessions = [SimpleNamespace(name=n, frame_offset=o) for n, o in zip("abcd", offsets)]
+        parts = [SimpleNamespace(first_frame=f, joined_with=j) for f, j in parts]
+        return groups_of(sessions, parts)
+
+    assert groups([0, 10], [(0, 0), (10, 0)]) == [["a", "b"]]
+    assert groups([0, 10], [(0, 0), (10, 1)]) == [["a"], ["b"]]
+    # odometry was lost in b, whose second part has been joined
+    assert groups([0, 10], [(0, 0), (10, 1), (15, 0)]) == [["a", "b"]]
+    # the number of the first frame of b is not 0
+    assert groups([0, 10], [(0, 0), (13, 0)]) == [["a", "b"]]
+    # c is in both maps; d has no frame
+    assert groups([0, 10, 20, 30], [(0, 0), (10, 1), (20, 0), (25, 1)]) == [["a", "b", "c"], ["d"]]
+    assert groups([0], []) == [["a"]] and groups([], []) == []

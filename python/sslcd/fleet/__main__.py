@@ -18,13 +18,14 @@ from .settings import FleetSettings
 
 #: Exit codes, as of sslcd_run.
 _CODES = {OutputError: 1, UsageError: 2, BadInputError: 3, BadConfigError: 4, NoSolutionError: 5}
-_NOT_ALL = 3  # some drives were left out
+_NOT_ALL = 3  # some drives were left out, or pairs of them not compared
 _EXAMPLES = """examples:
   python -m sslcd.fleet build drives/* --out sites
   python -m sslcd.fleet build monday=/data/a/run tuesday=/data/b/run --out sites --workers 8
   python -m sslcd.fleet build 's3://bucket/drives/*' --out /shared/sites --scheduler tcp://head:8786
-exit codes: 0 all drives are in a map, 3 some were left out (report.json says why), otherwise as of
-sslcd_run: 1 output, 2 usage, 3 input, 4 configuration. The same command goes on with a build that was ended."""
+exit codes: 0 all drives are in a map, 3 some were left out or not compared (report.json says why), otherwise
+as of sslcd_run: 1 output, 2 usage, 3 input, 4 configuration, 5 no solution (the scheduler was lost, maps could
+not be ranked). The same command goes on with a build that was ended."""
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -71,8 +72,9 @@ def _parser() -> argparse.ArgumentParser:
         default=10,
         help="drives that each one is compared with; default: %(default)s, 0: all",
     )
-    for name in ("format", "detections", "odometry"):
-        build.add_argument(f"--{name}", default="", help="of the dataset folders, as of sslcd_run")
+    build.add_argument("--format", default="", help="of the dataset folders, as of sslcd_run")
+    for name in ("detections", "odometry"):
+        build.add_argument(f"--{name}", default="", help="file or folder in each dataset folder")
     build.add_argument(
         "--storage",
         action="append",
@@ -120,6 +122,8 @@ def _tell(report: FleetReport, out: str) -> None:
         print(f"left out: {drive['name']} ({drive['url']}): {drive['error']}", file=sys.stderr)
     for failed in report.failed_sites:
         print(f"not merged: {', '.join(failed['drives'])}: {failed['error']}", file=sys.stderr)
+    for pair in report.failed_pairs:
+        print(f"not compared: {pair['query']}, {pair['target']}: {pair['error']}", file=sys.stderr)
     print(
         f"{len(report.sites)} sites of {len(report.drives)} drives, {len(report.quarantined)} left "
         f"out: {os.path.join(out, 'sites.json')}, report.json"

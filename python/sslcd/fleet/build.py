@@ -7,11 +7,11 @@ from typing import Dict, Iterator, List, Optional, Sequence
 from distributed import Client
 
 from .. import _core
-from ..errors import BadInputError, NoSolutionError, OutputError, UsageError
+from ..errors import BadInputError, NoSolutionError, UsageError
 from .candidates import MAPS_PER_INDEX, Pair, all_pairs, index_maps, pairs_of, rank_maps
 from .cluster import check_workers
 from .components import Components
-from .content import FOLDERS, publish_text
+from .content import FOLDERS, publish_text, writing
 from .drives import Drive
 from .report import FleetReport, Progress, StageStatistics, Watch
 from .run_tasks import Task, in_order, run_tasks
@@ -41,11 +41,13 @@ def build_fleet(
 
     Raises:
         OutputError: `out` cannot be written.
-        UsageError: no drives, or workers of another version.
+        UsageError: no drives, workers of another version, files outside the drives.
         BadInputError: no drive could be mapped.
+        NoSolutionError: the scheduler was lost, or the maps could not be ranked.
     """
     if not drives:
         raise UsageError("no drive is given")
+    settings.files()  # raises what is wrong with them
     out = os.path.abspath(out)
     make_folders(out)
     check_workers(client, out)
@@ -54,26 +56,24 @@ def build_fleet(
     if maps:
         components = _verify(maps, out, client, settings, report)
         _solve(maps, components.groups(), out, client, settings, report)
-    publish_text(report.json(), os.path.join(out, "report.json"))
+    with writing(out):
+        publish_text(report.json(), os.path.join(out, "report.json"))
     if not maps:
         raise BadInputError(
             f"none of the {len(drives)} drives could be mapped, e.g. "
             f"{report.quarantined[0]['name']}: {report.quarantined[0]['error']}; report.json in "
             f"{out} has all errors"
         )
-    publish_text(report.sites_json(), os.path.join(out, "sites.json"))
+    with writing(out):
+        publish_text(report.sites_json(), os.path.join(out, "sites.json"))
     return report
 
 
 def make_folders(out: str) -> None:
     """The folders of the outputs. Raises OutputError."""
-    try:
+    with writing(out):
         for folder in FOLDERS:
             os.makedirs(os.path.join(out, folder), exist_ok=True)
-    except OSError as problem:
-        raise OutputError(
-            f"{out}: cannot be made: {problem}; name a folder that all workers can write to"
-        ) from None
 
 
 def _stage(report: FleetReport, name: str, total: int) -> Progress:
@@ -159,9 +159,16 @@ def _verify(
         return {"query": pair[0], "target": pair[1]}, verify_pair, (query, target, out, settings)
 
     progress = _stage(report, "verify", len(pairs))
+    failed: List[Record] = []
     for record in run_tasks(client, tasks(), progress):
-        if record.get("joined"):
+        if record["error"]:
+            failed.append({key: record[key] for key in ("query", "target", "error")})
+        elif record["joined"]:
             components.connect(record["query"], record["target"])
+    failed.sort(key=lambda pair: (pair["query"], pair["target"]))
+    report.failed_pairs += [
+        pair for pair in failed if not components.connected(pair["query"], pair["target"])
+    ]
     return components
 
 

@@ -12,6 +12,7 @@ from distributed import Client, LocalCluster
 
 from ..errors import UsageError
 from . import tasks
+from .content import writing
 
 #: How long a scheduler, and its first worker, are waited for [s].
 PATIENCE_S = 20
@@ -64,7 +65,8 @@ def has_dashboard() -> bool:
 
 
 def check_workers(client: Client, out: str) -> None:
-    """Raises UsageError if a worker has another version of sslcd, or does not see the folder."""
+    """Raises UsageError if a worker has another version of sslcd, or does not see the folder;
+    OutputError if the folder cannot be written to."""
     try:
         versions = client.run(tasks.version)
     except Exception as problem:  # whatever an import may raise there
@@ -77,7 +79,7 @@ def check_workers(client: Client, out: str) -> None:
     if others:
         raise UsageError(f"workers have another version of sslcd than {own} here: {others}")
     probe = os.path.join(out, f".probe-{uuid.uuid4().hex}")
-    with open(probe, "w", encoding="utf-8"):
+    with writing(out), open(probe, "w", encoding="utf-8"):
         pass
     try:
         blind = [worker for worker, sees in client.run(os.path.exists, probe).items() if not sees]

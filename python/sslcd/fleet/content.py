@@ -2,6 +2,7 @@
 """Outputs that are named by what they are made from: whole or missing, and never made twice."""
 
 import contextlib
+import errno
 import hashlib
 import json
 import os
@@ -11,6 +12,8 @@ import uuid
 from typing import Any, Dict, Iterator, Optional
 
 from distributed import get_worker
+
+from ..errors import OutputError
 
 #: Folders of a build within the folder of its outputs.
 FOLDERS = ("drives", "index", "pairs", "sites")
@@ -28,9 +31,26 @@ def place(out: str, folder: str, name: str) -> str:
     return os.path.join(out, folder, name[:2], name)
 
 
+def disk_is_full(problem: BaseException) -> bool:
+    """Whether a disk of the worker has no room, or is read-only."""
+    return isinstance(problem, OSError) and problem.errno in (
+        errno.ENOSPC,
+        errno.EDQUOT,
+        errno.EROFS,
+    )
+
+
+def cannot_write(problem: BaseException) -> bool:
+    """The same, or an output that may not be written."""
+    denied = isinstance(problem, OSError) and problem.errno == errno.EACCES
+    return denied or disk_is_full(problem)
+
+
 def publish(file: str, path: str) -> None:
     """Copies a finished file to its final name: readers see all of it or nothing, and a process that
-    is killed leaves only a temporary name. Raises OSError."""
+    is killed leaves only a temporary name. Raises OSError, and OutputError for a map whose log has
+    not been written into it."""
+    _check_log(file)
     folder = os.path.dirname(path)
     os.makedirs(folder, exist_ok=True)
     temporary = f"{path}.tmp-{uuid.uuid4().hex[:8]}"
@@ -43,6 +63,30 @@ def publish(file: str, path: str) -> None:
     finally:
         with contextlib.suppress(OSError):
             os.remove(temporary)
+
+
+def _check_log(file: str) -> None:
+    """SQLite does not tell where closing a map could not write its log into it, e.g. on a full disk:
+    the file alone would lack the last sessions. Raises OutputError."""
+    log = f"{file}-wal"
+    if os.path.exists(log) and os.path.getsize(log) > 0:
+        raise OutputError(
+            f"{file}: its log could not be written into it; make room on the worker's local disk"
+        )
+
+
+@contextlib.contextmanager
+def writing(out: str) -> Iterator[None]:
+    """What writes the folder of the outputs: OSError becomes OutputError, with a way out."""
+    try:
+        yield
+    except OutputError:  # which is an OSError
+        raise
+    except OSError as problem:
+        raise OutputError(
+            f"{out}: cannot be written: {problem}; make room, or name a folder that all workers can "
+            "write to"
+        ) from None
 
 
 def publish_text(text: str, path: str) -> None:
@@ -62,8 +106,8 @@ def read_json(path: str) -> Dict[str, Any]:
 
 @contextlib.contextmanager
 def scratch() -> Iterator[str]:
-    """A folder on the local disk of the worker, gone afterwards. SQLite's log works on no other. What
-    a killed worker leaves there is removed by Dask."""
+    """A folder on the local disk of the worker, gone afterwards. SQLite's log needs a local disk. Dask
+    removes what a killed worker leaves there."""
     with tempfile.TemporaryDirectory(prefix="sslcd-fleet-", dir=_local_folder()) as folder:
         yield folder
 

@@ -11,9 +11,12 @@ from typing import Any, Dict, Iterator, List, Sequence, Tuple
 import fsspec
 
 from ..errors import BadInputError, UsageError
-from .content import digest, scratch
+from .content import digest, disk_is_full, scratch
 
-_NOT_NEEDED = (".png", ".jpg", ".jpeg", ".webp", ".bin", ".pcd", ".db", ".bag", ".mcap")
+_IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
+_NOT_NEEDED = (*_IMAGES, ".webp", ".bin", ".pcd", ".db", ".bag", ".mcap")
+#: Files of stamps, in the folder of a drive. With another one the names of images just count, too.
+_STAMPS = ("times.txt", *(f"{each}/timestamps.txt" for each in ("oxts", "image_00", "image_02")))
 _NAME = re.compile(r"^([^/\\:=?*]+)=(.+)$")
 
 
@@ -119,8 +122,31 @@ def is_local(fs: Any) -> bool:
     return "file" in ((protocol,) if isinstance(protocol, str) else protocol)
 
 
-def _files(fs: Any, path: str) -> List[str]:
-    return [each for each in sorted(fs.find(path)) if not each.lower().endswith(_NOT_NEEDED)]
+def _files(fs: Any, path: str) -> Tuple[List[str], List[str]]:
+    """The files of a drive that are read. The images whose names are: these may be stamps, where no
+    file has the stamps."""
+    found = sorted(_local_files(path) if is_local(fs) else fs.find(path))
+    files = [each for each in found if not each.lower().endswith(_NOT_NEEDED)]
+    if any(_relative(each, path) in _STAMPS for each in files):
+        return files, []
+    return files, [each for each in found if each.lower().endswith(_IMAGES)]
+
+
+def _local_files(path: str) -> Iterator[str]:
+    """Links to folders are followed, as the loader does; links to nothing are no files, but for
+    images, whose names count. fsspec's find() takes links to folders for files."""
+    seen = set()
+    for folder, inner, names in os.walk(path, followlinks=True):
+        real = os.path.realpath(folder)
+        if real in seen:  # links may lead in a circle
+            inner.clear()
+            continue
+        seen.add(real)
+        inner.sort()
+        files = (os.path.join(folder, name) for name in names)
+        yield from (
+            each for each in files if each.lower().endswith(_IMAGES) or os.path.isfile(each)
+        )
 
 
 def _relative(file: str, path: str) -> str:
@@ -128,16 +154,17 @@ def _relative(file: str, path: str) -> str:
 
 
 def content_of(drive: Drive, storage: Dict[str, Any]) -> str:
-    """A name for the content of a drive's files, but for images: a hash of it where they are on a
-    disk, otherwise of what the storage tells about it (size and checksum or time), so that nothing
-    is downloaded. Raises BadInputError."""
+    """A name for the content of a drive's files: a hash of it where they are on a disk, otherwise of
+    what the storage tells about it (size and checksum or time), so that nothing is downloaded. Of
+    images only the names count. Raises BadInputError."""
     fs, path = open_folder(drive.url, storage)
     try:
-        files = _files(fs, path)
+        files, images = _files(fs, path)
         if not files:
             raise BadInputError(f"{drive.url}: the folder has no files")
         tell = _sha256 if is_local(fs) else lambda file: str(fs.checksum(file))
-        return digest([[_relative(file, path), tell(file)] for file in files])
+        told = [[_relative(file, path), tell(file)] for file in files]
+        return digest(told + [[_relative(image, path)] for image in images])
     except BadInputError:
         raise
     except Exception as problem:
@@ -154,17 +181,24 @@ def _sha256(file: str) -> str:
 
 @contextlib.contextmanager
 def local_folder(drive: Drive, storage: Dict[str, Any]) -> Iterator[str]:
-    """The folder of a drive on this machine: itself, or a copy without images."""
+    """The folder of a drive on this machine: itself, or a copy with empty images."""
     fs, path = open_folder(drive.url, storage)
     if is_local(fs):
         yield path
         return
     with scratch() as folder:
         try:
-            for file in _files(fs, path):
+            files, images = _files(fs, path)
+            named_only = set(images)
+            for file in files + images:
                 target = os.path.join(folder, drive.name, *_relative(file, path).split("/"))
                 os.makedirs(os.path.dirname(target), exist_ok=True)
-                fs.get_file(file, target)
+                if file in named_only:
+                    open(target, "wb").close()
+                else:
+                    fs.get_file(file, target)
         except Exception as problem:
+            if disk_is_full(problem):
+                raise
             raise unreadable(drive.url, problem) from None
         yield os.path.join(folder, drive.name)

@@ -53,18 +53,20 @@ class FleetReport:
     sites: List[Dict[str, Any]] = field(default_factory=list)
     #: drives and error of sites whose maps could not be merged
     failed_sites: List[Dict[str, Any]] = field(default_factory=list)
+    #: query, target and error of pairs that could not be verified, whose drives no other pair connects
+    failed_pairs: List[Dict[str, str]] = field(default_factory=list)
     stages: List[StageStatistics] = field(default_factory=list)
     watch: Optional[Watch] = field(default=None, repr=False)  #: of build_fleet
 
     @property
     def complete(self) -> bool:
-        """Whether every drive is in the map of a site."""
-        return not self.quarantined and not self.failed_sites
+        """Whether every drive is in the map of a site, and no pair that failed may join two sites."""
+        return not (self.quarantined or self.failed_sites or self.failed_pairs)
 
     def json(self) -> str:
         """The text of report.json."""
         names = ("version", "settings", "drives", "quarantined", "sites", "failed_sites")
-        told = {name: getattr(self, name) for name in names}
+        told = {name: getattr(self, name) for name in (*names, "failed_pairs")}
         return json.dumps({**told, "stages": [asdict(s) for s in self.stages]}, indent=2) + "\n"
 
     def sites_json(self) -> str:

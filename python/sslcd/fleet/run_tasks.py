@@ -2,7 +2,7 @@
 """A stage: tasks on the workers, few at a time, so that neither the scheduler nor this process holds
 more than it must."""
 
-import itertools
+import uuid
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Tuple
 
 from distributed import Client, Future, as_completed
@@ -15,8 +15,6 @@ from .tasks import Record
 #: For each thread of the workers: tasks that are sent at a time. A worker has the next one at hand.
 TASKS_PER_THREAD = 3
 
-_numbers = itertools.count()
-
 #: Names of what a task is about, for its record where the task gives none; its function; arguments.
 Task = Tuple[Record, Callable[..., Record], Tuple[Any, ...]]
 
@@ -28,8 +26,11 @@ def run_tasks(
     sent; None is one that is not necessary.
 
     A task whose worker dies runs again on another one; one that has ended several workers has a
-    record with an error. Raises NoSolutionError if the scheduler is lost, OutputError if a task cannot write its output: all others would
-    fail, too. What is done then stays.
+    record with an error. What is done stays when this raises:
+
+    Raises:
+        NoSolutionError: the scheduler is lost.
+        OutputError: a task cannot write its output; all others would fail, too.
     """
     waiting = iter(tasks)
     about: Dict[Future, Record] = {}
@@ -45,7 +46,8 @@ def run_tasks(
                 progress.skipped()
                 continue
             names, function, arguments = task
-            key = f"{function.__name__}-{next(_numbers)}"
+            # builds of several processes may share the scheduler
+            key = f"{function.__name__}-{uuid.uuid4().hex}"
             future = client.submit(function, *arguments, key=key, pure=False)
             about[future] = names
             running.add(future)

@@ -5,15 +5,19 @@ output is there, and what it raises is told as a record, since one drive must no
 import json
 import os
 import shutil
+import sys
 import time
-from typing import Any, Callable, Dict, List
+from typing import Any, Callable, Dict, List, Sequence
 
 from .. import _core
 from ..datasets import load_dataset
-from ..errors import Error, OutputError
+from ..errors import BadInputError, Error, OutputError
+from ..map_results import SessionInfo
 from ..maps import Map
+from ..results import MapPart
 from . import drives
-from .content import local_copy, place, publish, publish_text, read_json, scratch
+from .components import Components
+from .content import cannot_write, local_copy, place, publish, publish_text, read_json, scratch
 from .drives import Drive
 from .settings import FleetSettings
 
@@ -25,9 +29,12 @@ def measured(work: Callable[[], Record]) -> Record:
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         record = {"error": "", "fatal": False, "reused": False, **work()}
-    except (Error, OSError, MemoryError) as problem:
-        # a full or missing disk is nobody's drive's fault
-        fatal = isinstance(problem, OutputError) or not isinstance(problem, Error)
+    except MemoryError:
+        error = "needs more memory than its worker has; raise --memory"
+        record = {"error": error, "fatal": False, "reused": False}
+    except (Error, OSError) as problem:
+        # a disk that is full or may not be written is nobody's drive's fault
+        fatal = isinstance(problem, OutputError) or cannot_write(problem)
         record = {"error": f"{problem or type(problem).__name__}", "fatal": fatal, "reused": False}
     record["wall_s"] = time.perf_counter() - wall
     record["cpu_s"] = time.process_time() - cpu
@@ -59,6 +66,9 @@ def map_drive(drive: Drive, out: str, settings: FleetSettings) -> Record:
 def _make_map(drive: Drive, path: str, settings: FleetSettings) -> None:
     options = dict(text.split("=", 1) for text in settings.options)
     with drives.local_folder(drive, settings.storage) as folder, scratch() as work:
+        for name, file in settings.files().items():
+            if not os.path.exists(os.path.join(folder, file)):  # nor one in the worker's own folder
+                raise BadInputError(f"{drive.url}: has no {file}; {name} must be in each drive")
         dataset = load_dataset(folder, **settings.dataset)  # type: ignore[arg-type]
         dataset.path = drive.url
         made = Map(os.path.join(work, "map.db"))
@@ -130,17 +140,28 @@ def _merge(members: List[Record], path: str, groups_path: str) -> Record:
 def _groups(site: Map) -> Record:
     """The sessions of a map by common map, and what the map has."""
     info, results = site.info, site.results
-    firsts = [part.first_frame for part in results.parts]
-    groups: Dict[int, List[str]] = {}
-    for session in info.sessions:
-        own = max(i for i, first in enumerate(firsts) if first <= session.frame_offset)
-        groups.setdefault(results.parts[own].joined_with, []).append(session.name)
     landmarks = sum(each.state == "confirmed" for each in results.objects)
     loops = sum(each.accepted for each in results.loops)
     frames = sum(session.frames for session in info.sessions)
     return {
-        "groups": list(groups.values()),
+        "groups": groups_of(info.sessions, results.parts),
         "landmarks": landmarks,
         "loops": loops,
         "frames": frames,
     }
+
+
+def groups_of(sessions: Sequence[SessionInfo], parts: Sequence[MapPart]) -> List[List[str]]:
+    """Names of the sessions by common map. A session has several parts where its odometry was lost;
+    two sessions have a common map if any of their parts have one."""
+    ordered = sorted(sessions, key=lambda session: session.frame_offset)
+    ends = [session.frame_offset for session in ordered[1:]] + [sys.maxsize]
+    components = Components(session.name for session in sessions)
+    first_of: Dict[int, str] = {}  # a session of each common map
+    for session, end in zip(ordered, ends):
+        for part in parts:
+            if session.frame_offset <= part.first_frame < end:
+                components.connect(
+                    first_of.setdefault(part.joined_with, session.name), session.name
+                )
+    return components.groups()
