@@ -115,11 +115,13 @@ int Inspect(const ModelArguments& a, const Console& console) {
     throw Error(ErrorKind::kBadInput, {a.file},
                 "fits no layout. It has\n" + TensorsText(facts) + "\nthe layouts are" +
                     LayoutsAndShapes() + "\nExport the model with other outputs (docs/models.md)");
+  if (!a.layout.empty()) ChooseOffer(a, offers);  // refuses one that does not fit
   if (a.json) std::fputs(OffersJson(facts, offers).c_str(), stdout);
   console.Say(TensorsText(facts) + "\n" + OffersText(facts, offers));
   if (a.out.empty()) {
     console.Say("write a description: sslcd_run model inspect " + a.file + " --out " +
-                fs::path(a.file).stem().string() + ".yaml");
+                fs::path(a.file).stem().string() + ".yaml" +
+                (a.layout.empty() ? "" : " --layout " + a.layout));
     return 0;
   }
   WriteDescription(a, ChooseOffer(a, offers));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "commands.h"
 #include "examples.h"
@@ -58,27 +61,66 @@ struct FindArguments {
   bool verify = false, json = false;
 };
 
-// What the localiser says of a site.
+enum class Verification { kAccepted, kRefused, kFailed };
+
+// What the localiser says of a site, or why it could not be asked.
 struct Verdict {
-  bool accepted = false;
-  double score = 0;  // log odds [nats]
+  Verification result = Verification::kFailed;
   std::string text;
+  double score = 0;  // log odds [nats]
 };
 
 Verdict Verify(const std::string& map, const Dataset& dataset, const std::vector<Frame>& stretch,
                const Console& console) {
-  Verdict verdict;
+  if (std::filesystem::path(map).extension() == ".json")
+    return {Verification::kFailed,
+            map + ": nothing can be localised in a map.json; index a map in a file (run --map)"};
   try {
     const std::vector<Attempt> attempts = LocaliseInMap(map, dataset, stretch, true, console);
-    if (attempts.empty()) return {false, 0, "there was no attempt"};
+    if (attempts.empty()) return {Verification::kRefused, "there was no attempt"};
     const Localisation& last = attempts.back().found;
-    return {IsFound(attempts.back()), last.score, last.reason};
+    return {IsFound(attempts.back()) ? Verification::kAccepted : Verification::kRefused,
+            last.reason, last.score};
   } catch (const Error& error) {  // no map any more, or one of another kind of data
-    return {false, 0, error.what()};
+    return {Verification::kFailed, error.what()};
   }
 }
 
+// As long as nobody interrupts.
+std::vector<Verdict> VerifyAll(const std::vector<RankedSite>& ranked, const Dataset& dataset,
+                               const std::vector<Frame>& stretch, const Console& console) {
+  std::vector<Verdict> verdicts;
+  for (const RankedSite& site : ranked) {
+    Verdict verdict = Verify(site.best.name, dataset, stretch, console);
+    if (Interrupted()) break;
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+// Throws if no map could be searched: no answer then, unlike none that is accepted.
+void RequireSearch(const std::vector<Verdict>& verdicts) {
+  const auto failed = [](const Verdict& one) { return one.result == Verification::kFailed; };
+  if (std::all_of(verdicts.begin(), verdicts.end(), failed))
+    throw Error(ErrorKind::kBadInput,
+                "none of the sites could be verified; the first: " + verdicts.front().text);
+}
+
 using Json = nlohmann::ordered_json;
+
+Json JsonOf(const Verdict& verdict) {
+  if (verdict.result == Verification::kFailed) return {{"error", verdict.text}};
+  return {{"accepted", verdict.result == Verification::kAccepted}, {"reason", verdict.text}};
+}
+
+std::string TextOf(const Verdict& verdict) {
+  switch (verdict.result) {
+    case Verification::kAccepted: return "accepted: " + verdict.text;
+    case Verification::kRefused: return "refused: " + verdict.text;
+    case Verification::kFailed: break;
+  }
+  return "not verified: " + verdict.text;
+}
 
 void PrintJson(const std::vector<RankedSite>& ranked, const std::vector<Verdict>& verdicts) {
   auto rows = Json::array();
@@ -91,8 +133,7 @@ void PrintJson(const std::vector<RankedSite>& ranked, const std::vector<Verdict>
                 {"yaw", best.yaw},
                 {"x", best.x},
                 {"y", best.y}};
-    if (i < verdicts.size())
-      row["verified"] = {{"accepted", verdicts[i].accepted}, {"reason", verdicts[i].text}};
+    if (i < verdicts.size()) row["verified"] = JsonOf(verdicts[i]);
     rows.push_back(row);
   }
   std::printf("%s\n", rows.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
@@ -108,8 +149,8 @@ void PrintTable(const std::vector<RankedSite>& ranked, const std::vector<Verdict
     rows.push_back({best.name, Number("%.1f", ranked[i].score), std::to_string(best.matches),
                     Number("%.1f", best.x), Number("%.1f", best.y), Number("%.2f", best.yaw),
                     std::to_string(ranked[i].stretches)});
-    if (i < verdicts.size())
-      rows.back().push_back((verdicts[i].accepted ? "accepted: " : "refused: ") + verdicts[i].text);
+    if (!verdicts.empty())
+      rows.back().push_back(i < verdicts.size() ? TextOf(verdicts[i]) : "not verified");
   }
   console.Say(AlignedTable(rows));
 }
@@ -118,7 +159,9 @@ void PrintTable(const std::vector<RankedSite>& ranked, const std::vector<Verdict
 std::optional<std::size_t> Accepted(const std::vector<Verdict>& verdicts) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < verdicts.size(); ++i)
-    if (verdicts[i].accepted && (!best || verdicts[i].score > verdicts[*best].score)) best = i;
+    if (verdicts[i].result == Verification::kAccepted &&
+        (!best || verdicts[i].score > verdicts[*best].score))
+      best = i;
   return best;
 }
 
@@ -129,9 +172,7 @@ int Find(const FindArguments& a, const Console& console) {
   const std::vector<Frame> stretch = StretchOf(dataset, a.stretch);
   const std::vector<RankedSite> ranked = RankSites(index, dataset, stretch, a.first);
   std::vector<Verdict> verdicts;
-  if (a.verify)
-    for (const RankedSite& site : ranked)
-      verdicts.push_back(Verify(site.best.name, dataset, stretch, console));
+  if (a.verify) verdicts = VerifyAll(ranked, dataset, stretch, console);
   if (a.json) PrintJson(ranked, verdicts);
   if (ranked.empty()) {
     console.Say("no site has objects as in this drive");
@@ -139,6 +180,8 @@ int Find(const FindArguments& a, const Console& console) {
   }
   PrintTable(ranked, verdicts, console);
   if (!a.verify) return 0;
+  if (Interrupted()) return InterruptCode();
+  RequireSearch(verdicts);
   const std::optional<std::size_t> accepted = Accepted(verdicts);
   console.Say(accepted ? "the drive is from " + ranked[*accepted].best.name
                        : "the localiser accepts none of them");

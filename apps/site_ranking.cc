@@ -2,6 +2,7 @@
 #include "site_ranking.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -13,15 +14,21 @@ namespace {
 
 constexpr double kStretch = 100;  // of path, as SiteIndex::Find expects [m]
 
-// The number of the stretch that each frame is in.
+// The number of the stretch that each frame is in. Where the odometry jumps, one stretch ends and
+// the next one begins: their number is at most that of the frames.
 std::map<int, int> StretchesOf(const std::vector<Frame>& frames) {
   std::map<int, int> stretch;
-  double path_m = 0;
+  double path_m = 0;  // of the present stretch
+  int number = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i > 0)
       path_m +=
           (frames[i].T_odom_cam.translation() - frames[i - 1].T_odom_cam.translation()).norm();
-    stretch[frames[i].index] = static_cast<int>(path_m / kStretch);
+    if (!(path_m < kStretch)) {
+      path_m = std::fmod(path_m, kStretch);
+      ++number;
+    }
+    stretch[frames[i].index] = number;
   }
   return stretch;
 }

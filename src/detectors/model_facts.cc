@@ -10,7 +10,8 @@
 namespace sslcd {
 namespace {
 
-constexpr float kGreyInput = 0.5f;  // within 0..1 and within 0..255
+constexpr std::int64_t kLargestValues = 1 << 28;  // of an input
+constexpr float kGreyInput = 0.5f;                // within 0..1 and within 0..255
 
 [[noreturn]] void RefuseModel(const std::string& path, const std::string& message) {
   throw Error(ErrorKind::kBadInput, {path}, message + "; docs/models.md");
@@ -63,6 +64,14 @@ void FindInputs(ModelFacts& facts, int width_px, int height_px) {
                                 Listed(facts.inputs));
 }
 
+// The number of images that an input takes at once.
+std::int64_t BatchOf(const ModelFacts& facts, const TensorInfo& image) {
+  const std::int64_t batch = std::max<std::int64_t>(image.shape[0], 1);
+  if (batch <= kLargestValues / (3 * std::int64_t{facts.width_px} * facts.height_px)) return batch;
+  RefuseModel(facts.file, "input '" + image.name + "' is " + ToString(image.shape) +
+                              ": too many values for one run; export the model for one image");
+}
+
 NamedTensors GreyInputs(const ModelFacts& facts) {
   NamedTensors inputs;
   for (const TensorInfo& info : facts.inputs) {
@@ -71,8 +80,7 @@ NamedTensors GreyInputs(const ModelFacts& facts) {
           {1, 2}, {static_cast<float>(facts.width_px), static_cast<float>(facts.height_px)}};
       continue;
     }
-    Tensor image{{std::max<std::int64_t>(info.shape[0], 1), 3, facts.height_px, facts.width_px},
-                 {}};
+    Tensor image{{BatchOf(facts, info), 3, facts.height_px, facts.width_px}, {}};
     image.values.assign(ElementCount(image.shape), kGreyInput);
     inputs[info.name] = std::move(image);
   }

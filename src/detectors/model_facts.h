@@ -22,8 +22,9 @@ struct ModelFacts {
 
 /// Loads the model and runs it once. `width_px` and `height_px` are for models that take images of
 /// any size; 0: the model's own. Throws the errors of Session, and Error(kBadInput) with a remedy
-/// if no input takes colour images (batch x 3 x height x width), if their size is open, or is
-/// another one than asked for, or if there are inputs of another kind.
+/// if no input takes colour images (batch x 3 x height x width), if their size is open, is
+/// another one than asked for, or too large with their number, or if there are inputs of another
+/// kind.
 ModelFacts InspectModel(const std::string& path, int width_px, int height_px,
                         const InferenceOptions& options);
 

@@ -26,6 +26,8 @@ RawImage ReadBmpHeader(RawFile& file) {
   const bool from_top = height >> 31;  // a negative height
   if (from_top) height = 0 - height;
   CheckRawSize(file, width, height);
+  constexpr std::uint32_t kBitFields = 3;
+  if (compression == kBitFields) file.Refuse("is a BMP with bit fields instead of 24 bits a pixel");
   if (compression != 0) file.Refuse("is a compressed BMP");
   if (bits != 8 && bits != 24 && bits != 32)
     file.Refuse("is a BMP of " + std::to_string(bits) + " bits a pixel");

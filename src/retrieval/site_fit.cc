@@ -182,7 +182,9 @@ SiteFit FitSite(const std::vector<SitePoint>& points, const Span<SitePoint>& sit
                 const FlatPose& start) {
   float reach = 0;
   for (const SitePoint& point : points) reach = std::max(reach, std::hypot(point.x, point.y));
-  const Window window(site, start, (1 + kMostScale) * reach + 2 * kGates[0]);
+  // a false object far away leaves the grid around the others
+  reach = std::min((1 + kMostScale) * reach + 2 * kGates[0], kCell * kMostCells / 2);
+  const Window window(site, start, reach);
   Similarity at{std::cos(start.yaw), std::sin(start.yaw), start.x, start.y};
   for (const float gate : kGates)
     at = Align(points, window, FindMatches(points, window, at, gate), at);

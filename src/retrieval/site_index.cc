@@ -81,9 +81,7 @@ SiteIndexBuilder::SiteIndexBuilder(SiteIndexBuilder&&) noexcept = default;
 SiteIndexBuilder& SiteIndexBuilder::operator=(SiteIndexBuilder&&) noexcept = default;
 
 void SiteIndexBuilder::Add(const Site& site) { AddSite(site, impl_->tables); }
-void SiteIndexBuilder::Add(const SiteIndex& index) {
-  for (int i = 0; i < index.size(); ++i) Add(index.ReadSite(i));
-}
+void SiteIndexBuilder::Add(const SiteIndex& index) { AddSites(index.impl_->file, impl_->tables); }
 void SiteIndexBuilder::Write(const std::string& path) const {
   WriteFileAtomically(path, SiteFileBytes(impl_->tables));
 }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -58,14 +60,18 @@ std::vector<Placed> SortedByX(const Site& site, const SiteTables::Row& row) {
   return sorted;
 }
 
-}  // namespace
+// A place that the objects of a site are seen from already.
+struct Origin {
+  double x = 0, y = 0;  // [m]
+};
 
-void AddSite(const Site& site, SiteTables& tables) {
+void Add(const Site& site, const std::optional<Origin>& origin, SiteTables& tables) {
   if (tables.names.count(site.name) > 0)
     throw Error(ErrorKind::kBadInput, site.name + ": is in the index already; name each map once");
   if (tables.sites.size() >= kMostSites)
     throw Error(ErrorKind::kBadInput, "too many sites for one index; make several");
   SiteTables::Row row = RowOf(site);
+  if (origin) row.x = row.y = 0;
   std::set<std::string> fresh;
   for (const SiteObject& object : site.objects)
     if (tables.labels.count(object.label) == 0) fresh.insert(object.label);
@@ -80,8 +86,39 @@ void AddSite(const Site& site, SiteTables& tables) {
     const std::uint16_t label = tables.labels.insert({*placed.label, number}).first->second;
     tables.points.push_back({placed.x, placed.y, label, 0});
   }
+  if (origin) row.x = origin->x, row.y = origin->y;
   tables.names.insert(site.name);
   tables.sites.push_back(std::move(row));
+}
+
+// As they were with so many sites, labels and points.
+void Shorten(SiteTables& tables, std::size_t sites, std::size_t labels, std::size_t points) {
+  for (std::size_t i = sites; i < tables.sites.size(); ++i)
+    tables.names.erase(tables.sites[i].name);
+  tables.sites.resize(sites);
+  tables.points.resize(points);
+  for (auto label = tables.labels.begin(); label != tables.labels.end();)
+    label = label->second < labels ? std::next(label) : tables.labels.erase(label);
+}
+
+}  // namespace
+
+void AddSite(const Site& site, SiteTables& tables) { Add(site, std::nullopt, tables); }
+
+void AddSites(const SiteFile& file, SiteTables& tables) {
+  const std::size_t sites = tables.sites.size(), labels = tables.labels.size(),
+                    points = tables.points.size();
+  try {
+    for (std::uint32_t i = 0; i < file.sites(); ++i) {
+      Site site{std::string(file.name(i)), {}};
+      for (const SitePoint& point : file.points(i))
+        site.objects.push_back({std::string(file.label(point.label)), point.x, point.y});
+      Add(site, Origin{file.site(i).x, file.site(i).y}, tables);
+    }
+  } catch (...) {
+    Shorten(tables, sites, labels, points);
+    throw;
+  }
 }
 
 }  // namespace sslcd

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "retrieval/site_file.h"
 #include "retrieval/site_point.h"
 #include "sslcd/retrieval/site_index.h"
 
@@ -26,6 +27,8 @@ struct SiteTables {
 
 /// Adds a site. Throws Error(kBadInput), and leaves the tables as they were: see SiteIndex::Build.
 void AddSite(const Site& site, SiteTables& tables);
+/// Adds all sites of a file, with the bytes that they have there. Throws likewise.
+void AddSites(const SiteFile& file, SiteTables& tables);
 
 /// The bytes of the file.
 std::string SiteFileBytes(const SiteTables& tables);

@@ -26,6 +26,17 @@ void SynchroniseFolderOf(const std::string& path) {
   close(folder);
 }
 
+// SQLite does not tell that the last checkpoint of a connection failed, as on a full disk: part of
+// the content is in the log then.
+void CheckLogIsEmpty(const std::string& path, const std::string& file) {
+  std::error_code none;
+  if (fs::exists(path + "-wal", none) && fs::file_size(path + "-wal", none) > 0)
+    throw Error(ErrorKind::kOutput,
+                file +
+                    ": its content could not be written as a whole, part of it is in a log; is "
+                    "the disk full? Make room and try again");
+}
+
 }  // namespace
 
 void CopyDatabase(const Database& from, Database& to) {
@@ -43,7 +54,10 @@ void CopyDatabase(const Database& from, Database& to) {
                 to.path() + ": another program holds it; wait until it has ended");
 }
 
-WorkingCopy::WorkingCopy(const std::string& map, const std::string& file) : path_(file + "-merge") {
+std::string WorkingCopy::PathBeside(const std::string& file) { return file + "-merge"; }
+
+WorkingCopy::WorkingCopy(const std::string& map, const std::string& file)
+    : path_(PathBeside(file)) {
   Remove();
   try {
     const Database from = OpenMap(map, Database::Access::kRead);
@@ -69,6 +83,7 @@ void WorkingCopy::WriteInto(const std::string& map) const {
 }
 
 void WorkingCopy::MoveTo(const std::string& file) {
+  CheckLogIsEmpty(path_, file);
   // a link is refused where the name is taken, a rename would replace that file
   const bool linked = link(path_.c_str(), file.c_str()) == 0;
   if (!linked && (errno == EEXIST || std::rename(path_.c_str(), file.c_str()) != 0))

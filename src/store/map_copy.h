@@ -16,6 +16,7 @@ void CopyDatabase(const Database& from, Database& to);
 /// end.
 class WorkingCopy {
  public:
+  static std::string PathBeside(const std::string& file);  ///< FILE-merge
   WorkingCopy(const std::string& map, const std::string& file);
   ~WorkingCopy();
   WorkingCopy(const WorkingCopy&) = delete;
@@ -24,7 +25,8 @@ class WorkingCopy {
   const std::string& path() const { return path_; }
   /// Writes the copy's content into a map that exists.
   void WriteInto(const std::string& map) const;
-  /// Renames the copy, which must be closed. Throws Error(kOutput).
+  /// Renames the copy, which must be closed. Throws Error(kOutput), also if part of its content is
+  /// still in SQLite's log.
   void MoveTo(const std::string& file);
 
  private:

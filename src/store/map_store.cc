@@ -32,10 +32,15 @@ OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& s
   return poses;
 }
 
-void CheckResults(Database& database) {
-  const std::vector<std::string> problems = ChecksumProblems(database, kResultTables);
+void RefuseDamage(const std::string& path, const std::vector<std::string>& problems) {
   if (!problems.empty())
-    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+    throw Error(ErrorKind::kBadInput,
+                path + ": is damaged: " + problems.front() +
+                    "; restore a copy, or build the map again from its drives");
+}
+
+void CheckResults(Database& database) {
+  RefuseDamage(database.path(), ChecksumProblems(database, kResultTables));
 }
 
 }  // namespace
@@ -79,8 +84,8 @@ std::vector<Frame> MapStore::Frames(const std::string& session) const {
           if (input.session == one.id && input.kind == InputKind::kFrame)
             frames.push_back(FrameOf(input.content));
         });
-    if (problems.empty()) return frames;
-    throw Error(ErrorKind::kBadInput, database.path() + ": is damaged: " + problems.front());
+    RefuseDamage(database.path(), problems);
+    return frames;
   }
   throw Error(ErrorKind::kUsage, database.path() + ": has no session '" + session +
                                      "'; `sslcd_run map info` lists those that it has");

@@ -34,7 +34,21 @@ void CheckSite(const MapInfo& into, const std::string& path, const MergeSource& 
   }
 }
 
-// The names and the checksums of the sessions so far; by checksum, where each one is.
+// A checksum over the frames of each session, by its id. Not that of all its inputs: those of a
+// refinement depend on the map. 2D boxes are stored only where the map has a camera for them.
+std::map<int, std::string> FrameChecksums(const MergeSource& map) {
+  std::map<int, std::string> checksums;
+  for (const StoredInput& input : map.inputs) {
+    if (input.kind != InputKind::kFrame) continue;
+    Frame frame = FrameOf(input.content);
+    for (Detection& detection : frame.detections) detection.box.reset();
+    const auto checksum = checksums.insert({input.session, FirstChecksum()}).first;
+    checksum->second = NextChecksum(checksum->second, input.kind, FrameBytes(frame));
+  }
+  return checksums;
+}
+
+// The names of the sessions so far; by the checksum of its frames, where each one is.
 struct Sessions {
   std::set<std::string> names;
   std::map<std::string, std::string> places;
@@ -53,8 +67,9 @@ std::string NameFor(const SessionInfo& session, const std::string& map, const st
       return name;
 }
 
-void RefuseTwice(const SessionInfo& session, const std::string& map, const Sessions& taken) {
-  const auto same = taken.places.find(session.checksum);
+void RefuseTwice(const SessionInfo& session, const std::string& checksum, const std::string& map,
+                 const Sessions& taken) {
+  const auto same = taken.places.find(checksum);
   if (same != taken.places.end())
     throw Error(ErrorKind::kUsage, map + ": session '" + session.name + "' is the same drive as " +
                                        same->second + "; leave this map out");
@@ -62,33 +77,37 @@ void RefuseTwice(const SessionInfo& session, const std::string& map, const Sessi
 
 }  // namespace
 
-std::vector<PlannedSession> PlanMerge(const MapInfo& into, const std::string& path,
+std::vector<PlannedSession> PlanMerge(const MergeSource& into,
                                       const std::vector<MergeSource>& sources, bool rename) {
   std::vector<PlannedSession> plan;
   Sessions taken;
-  const auto take = [&](const SessionInfo& session, const std::string& name,
+  const auto take = [&](const std::string& name, const std::string& checksum,
                         const std::string& map) {
     taken.names.insert(name);
-    if (session.frames > 0) taken.places[session.checksum] = "session '" + name + "' of " + map;
+    if (!checksum.empty()) taken.places[checksum] = "session '" + name + "' of " + map;
   };
-  for (const SessionInfo& session : into.sessions) {
+  std::map<int, std::string> checksums = FrameChecksums(into);
+  for (const SessionInfo& session : into.info.sessions) {
     if (!session.ended)
-      throw Error(ErrorKind::kUsage, path + ": session '" + session.name +
+      throw Error(ErrorKind::kUsage, into.path + ": session '" + session.name +
                                          "' has not been ended; go on with it, or end it as it is "
                                          "(`sslcd_run map end`), and merge then");
-    take(session, session.name, path);
+    take(session.name, checksums[session.id], into.path);
   }
-  MapInfo merged = into;  // grows by the labels of each source
+  MapInfo merged = into.info;                                // grows by the labels of each source
+  merged.config = ConfigText(OptionsOf(merged, into.path));  // with the keys of this version
   for (std::size_t i = 0; i < sources.size(); ++i) {
     const MergeSource& source = sources[i];
-    CheckSite(merged, path, source);
-    CheckLengths(source, path, merged.vector_length);
+    CheckSite(merged, into.path, source);
+    CheckLengths(source, into.path, merged.vector_length);
     for (const auto& [name, label] : source.info.labels.entries()) merged.labels.Set(name, label);
+    checksums = FrameChecksums(source);
     for (const SessionInfo& session : source.info.sessions) {
       if (!session.ended) continue;
-      RefuseTwice(session, source.path, taken);
-      plan.push_back({i, session, NameFor(session, source.path, path, rename, taken)});
-      take(session, plan.back().name, source.path);
+      const std::string& checksum = checksums[session.id];
+      RefuseTwice(session, checksum, source.path, taken);
+      plan.push_back({i, session, NameFor(session, source.path, into.path, rename, taken)});
+      take(plan.back().name, checksum, source.path);
     }
   }
   if (plan.empty())

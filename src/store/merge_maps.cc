@@ -79,6 +79,15 @@ void CheckFiles(const MergeRequest& request) {
   for (const std::string& from : request.from)
     if (fs::equivalent(from, request.into, none))
       throw Error(ErrorKind::kUsage, from + ": a map cannot be merged with itself; name another");
+  const std::string copy =
+      WorkingCopy::PathBeside(request.out.empty() ? request.into : request.out);
+  std::vector<std::string> maps = request.from;
+  maps.push_back(request.into);
+  for (const std::string& map : maps)
+    if (fs::equivalent(map, copy, none))
+      throw Error(ErrorKind::kUsage, map +
+                                         ": the working copy of this merge gets this name; rename "
+                                         "the map, or choose another file for the merged one");
   if (!request.out.empty() && fs::exists(fs::symlink_status(request.out, none)))
     throw Error(ErrorKind::kUsage, request.out + ": exists; name a new file, or remove it");
 }
@@ -106,7 +115,7 @@ MergeReport MergeMaps(const MergeRequest& request) {
   std::vector<MergeSource> sources;
   for (const std::string& path : request.from) sources.push_back(ReadMergeSource(path));
   const std::vector<PlannedSession> plan =
-      PlanMerge(MapStore(request.into).Describe(), request.into, sources, request.rename);
+      PlanMerge(ReadMergeSource(request.into), sources, request.rename);
   MergeReport report = ReportOf(sources, plan);
   int total = 0;
   for (const MergedSession& session : report.added) total += session.frames;

@@ -107,6 +107,8 @@ class OwnImagesTest(DetectCase):
         self.assertEqual(self.inspect(model, '--out', yaml, '--layout', 'yolo_v5').returncode, 0)
         self.assertIn('layout: yolo_v5', read(yaml))
         self.assertIn('but yolo_v5, yolo_v8', self.inspect(model, '--out', yaml, '--layout', 'yolox').stderr)
+        self.assertEqual(self.inspect(model, '--layout', 'yolo_v').returncode, 2)
+        self.assertIn('--layout yolo_v8', self.inspect(model, '--layout', 'yolo_v8').stdout)
 
     def test_what_cannot_be_described(self):
         self.assertIn('Protobuf', self.inspect(MODELS + '/yolox.yaml').stderr)

@@ -44,10 +44,20 @@ class SitesTest(MapCase):
         self.assertEqual(first['site'], self.made)
         self.assertTrue(first['verified']['accepted'], first)
         self.assertIn('the drive is from ' + self.made, self.find(self.data, '--verify').stdout)
-        refused = self.find(self.other + '_data', '--verify', '--first', '1')  # a map.json holds no drives
+        other = self.other + '_data'
+        none = self.find(other, '--verify', '--first', '1')  # in a map.json nothing is localised
+        self.refused(none, 3, 'none of the sites could be verified', 'map.json')
+        self.assertIn('not verified: ', none.stdout)
+        row = json.loads(self.find(other, '--verify', '--first', '1', '--json').stdout)[0]
+        self.assertIn('map.json', row['verified']['error'])
+        refused = call('sites', 'find', other, '--sites', self.only_made(), '--verify')
         self.assertEqual(refused.returncode, 5, refused.stdout)
-        self.assertIn('refused: ', refused.stdout)
-        self.assertIn('accepts none', refused.stdout)
+        self.assertRegex(refused.stdout, 'refused: |no site has')
+
+    def only_made(self):
+        sites = os.path.dirname(self.data) + '/made.sites'
+        self.assertEqual(call('sites', 'index', self.made, '--out', sites).returncode, 0)
+        return sites
 
     def test_no_site(self):
         lines = read(self.data + '/detections.txt').splitlines()

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "../inference/test_models.h"
 #include "../support/temp_folder.h"
 #include "sslcd/detectors/detector_2d.h"
@@ -110,6 +113,20 @@ TEST(InspectModel, RefusesWhatTakesNoImage) {
   EXPECT_EQ(OfferLayouts(InspectModel(TestModel("any_size.onnx"), 64, 32, {})).size(), 0u);
   ExpectError([] { InspectModel(TestModel("yolo_v5.onnx"), 32, 32, {}); },
               {"1x3x48x64", "another size", "leave --width"});
+}
+
+// The file says how many images there are at once; memory is asked for only after a look at it.
+TEST(InspectModel, RefusesTooManyImagesAtOnce) {
+  SSLCD_RUNTIME();
+  std::ifstream model(TestModel("any_size.onnx"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(model), {}};
+  const std::string one_of_three("\x0a\x02\x08\x01\x0a\x02\x08\x03", 8);  // dimensions 1, 3
+  for (std::size_t at = 0; (at = bytes.find(one_of_three, at)) != std::string::npos; ++at)
+    bytes[at + 3] = 127;
+  const TempFolder folder;
+  const std::string path = folder.Write("many.onnx", bytes);
+  ExpectError([&] { InspectModel(path, kLargestInput, kLargestInput, {}); },
+              {"many.onnx", "127x3x?x?", "too many values", "for one image"});
 }
 
 }  // namespace

@@ -112,6 +112,7 @@ TEST(ReadRawImage, TiffOfBothByteOrders) {
 TEST(ReadRawImage, RefusesOtherKinds) {
   ExpectRefused("GIF89a and more", "neither a BMP nor a TIFF");
   ExpectRefused(Bmp(24, 2, 1), "compressed BMP");
+  ExpectRefused(Bmp(32, 2, 3), "bit fields instead of 24 bits a pixel");
   ExpectRefused(Bmp(16, 2), "16 bits a pixel");
   std::string coloured = Bmp(8, 2);
   coloured[54 + 4 * 200] = 7;

@@ -45,6 +45,20 @@ TEST(SiteFit, AlignsFromACoarsePose) {
   EXPECT_GT(fit.score, one.stretch.size());
 }
 
+// Further than the grid of the fit: one false object must not blind it to all others.
+TEST(SiteFit, AFarObjectChangesLittle) {
+  Case one = MakeCase();
+  const SiteFit right = Fit(one, {0.34f, 76.5f, 74});
+  for (const float far : {900.f, 5000.f, 1e30f}) {
+    Case with = one;
+    with.stretch.push_back({far, far / 2, 1, 0});
+    const SiteFit fit = Fit(with, {0.34f, 76.5f, 74});
+    EXPECT_EQ(fit.matches, right.matches) << far;
+    EXPECT_NEAR(fit.pose.x, right.pose.x, 0.01) << far;
+    EXPECT_NEAR(fit.score, right.score, 0.3f * right.score) << far;
+  }
+}
+
 TEST(SiteFit, ScoresElsewhereLess) {
   const Case one = MakeCase();
   const float right = Fit(one, {0.3f, 75, 75}).score;

@@ -138,7 +138,8 @@ TEST_F(SiteIndexTest, SitesKeepTheirPlaceAndLabels) {
 }
 
 TEST_F(SiteIndexTest, TheSameSitesGiveTheSameBytes) {
-  const std::vector<Site> sites = Sites(6);
+  std::vector<Site> sites = Sites(6);
+  for (SiteObject& object : sites[1].objects) object.x += 4.5e5, object.y += 5.4e6;
   SiteIndex::Build(sites, Path());
   SiteIndex::Build({sites[0], sites[1]}, Path("first"));
   SiteIndexBuilder builder;
@@ -171,8 +172,13 @@ TEST_F(SiteIndexTest, RefusedSites) {
   Site many{"labels", {}};
   for (int i = 0; i < 65536; ++i) many.objects.push_back({std::to_string(i), 0, 0});
   EXPECT_THROW(builder.Add(many), Error);
+  SiteIndex::Build({RandomSite("b", 3, 50), {"c", {{"Tree", 1, 2}}}, RandomSite("a", 4, 50)},
+                   Path("other"));
+  EXPECT_THROW(builder.Add(SiteIndex(Path("other"))), Error);
   builder.Write(Path());
   EXPECT_EQ(SiteIndex(Path()).size(), 1);
+  SiteIndex::Build({RandomSite("a", 1, 50)}, Path("one"));
+  EXPECT_EQ(Bytes(Path()), Bytes(Path("one"))) << "what is refused leaves nothing";
   EXPECT_THROW(builder.Write(Path("no/folder")), Error);
 }
 

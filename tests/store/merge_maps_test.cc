@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "store/map_copy.h"
 #include "store_drive.h"
 
 namespace sslcd {
@@ -192,6 +193,31 @@ TEST(MergeMaps, FilesThatCannotBeMerged) {
   EXPECT_EQ(NamesIn(a), Names{"one"});
 }
 
+// A map that has the name of the working copy would be removed.
+TEST(MergeMaps, AMapWithTheNameOfTheWorkingCopyIsRefused) {
+  const TempFolder folder;
+  const std::string a = MapOf(folder.In("a.db"), {"one"});
+  const std::string b = MapOf(folder.In("a.db-merge"), {"two"}, 2);
+  ExpectError([&] { MergeMaps({a, {b}}); }, {"a.db-merge: the working copy", "rename"});
+  const std::string c = MapOf(folder.In("c.db-merge"), {"three"}, 3);
+  ExpectError([&] { MergeMaps({c, {a}, folder.In("c.db")}); }, {"c.db-merge: the working copy"});
+  EXPECT_EQ(NamesIn(b), Names{"two"});
+  EXPECT_EQ(NamesIn(c), Names{"three"});
+}
+
+// As on a full disk: SQLite could not move its log into the file.
+TEST(MergeMaps, ACopyWithALogIsNotMoved) {
+  const TempFolder folder;
+  const std::string a = MapOf(folder.In("a.db"), {"one"}), out = folder.In("out.db");
+  WorkingCopy copy(a, out);
+  std::ofstream(copy.path() + "-wal") << "frames";
+  ExpectError([&] { copy.MoveTo(out); }, {"out.db", "disk full", "try again"});
+  EXPECT_FALSE(fs::exists(out));
+  fs::resize_file(copy.path() + "-wal", 0);
+  copy.MoveTo(out);
+  EXPECT_EQ(NamesIn(out), Names{"one"});
+}
+
 TEST(MergeMaps, SessionsThatHaveNotEndedAreLeftOut) {
   const TempFolder folder;
   const std::string a = MapOf(folder.In("a.db"), {"one"});
@@ -225,6 +251,14 @@ TEST(MergeMaps, AlignedViewsAreTakenAlong) {
     Finish(drive, session);
   }
   MergeMaps({a, {b}});
+  // its refinements name other frames now, and yet it is the same drive
+  EXPECT_NE(MapStore(a).Describe().sessions[1].checksum,
+            MapStore(b).Describe().sessions[0].checksum);
+  ExpectError(
+      [&] {
+        MergeMaps({a, {b}, "", true});
+      },
+      {"b.db: session 'two' is the same drive as session 'two' of"});
   const auto ties = [](const std::string& path) {
     int count = 0;
     for (const PoseGraph::Edge& edge : MapStore(path).Results().graph.edges) count += edge.loop;

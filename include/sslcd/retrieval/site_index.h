@@ -77,10 +77,11 @@ class SiteIndex {
   /// The sites that a stretch may be from, best first, at most `most`, each once; none if nothing
   /// agrees. The stretch has the objects of about 100 m of path in one frame, seen from any side;
   /// some may be missing, false or wrongly labelled, and they may be 0.5 m off. Labels that no site
-  /// has are no evidence. Deterministic. Thread-safe. The time is bounded for any number of sites.
+  /// has are ignored. Deterministic. Thread-safe. The time is bounded for any number of sites.
   std::vector<SiteCandidate> Find(const std::vector<SiteObject>& stretch, int most = 10) const;
 
  private:
+  friend class SiteIndexBuilder;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
@@ -96,7 +97,8 @@ class SiteIndexBuilder {
 
   /// Throws what SiteIndex::Build throws, and leaves the builder as it was.
   void Add(const Site& site);
-  /// Adds all sites of another index: with more sites added after them, this extends an index.
+  /// Adds all sites of another index, or none: with more sites added after them, this extends an
+  /// index, and gives the bytes of one that is built at once. Throws likewise.
   void Add(const SiteIndex& index);
   /// Writes the index of what has been added.
   void Write(const std::string& path) const;

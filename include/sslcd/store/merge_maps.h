@@ -17,7 +17,8 @@ struct MergeRequest {
   /// A session whose name is taken gets the first free one of "NAME-2", "NAME-3" ...; false: it is
   /// refused.
   bool rename = false;
-  /// Called with the number of frames that are done and of all to do; false: stop.
+  /// Called after each frame that is added, with the number of frames that are done and of all to
+  /// add; false: stop. Not called while `into` is replayed, before the first one.
   std::function<bool(int, int)> progress{};
 };
 
