@@ -19,12 +19,6 @@ py::object MakeMap(const char* type, Arguments&&... arguments) {
   return py::module_::import("sslcd.map_results").attr(type)(std::forward<Arguments>(arguments)...);
 }
 
-// Texts of a file may be no UTF-8.
-py::str Text(const std::string& text) {
-  return py::reinterpret_steal<py::str>(
-      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
-}
-
 template <class Items>
 py::list MapListOf(const Items& items) {
   py::list list;

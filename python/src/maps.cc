@@ -9,6 +9,7 @@
 #include "in_turn.h"
 #include "map_export/export_map.h"
 #include "map_results.h"
+#include "results.h"
 #include "sslcd/core/error.h"
 #include "sslcd/pipeline/localiser.h"
 #include "store/site.h"
@@ -143,7 +144,7 @@ void BindHistory(py::module_& module) {
       .def("rates",
            [](const MapHistory& self) {
              py::dict rates;
-             for (const auto& [label, rate] : self.rates()) rates[py::str(label)] = ToPython(rate);
+             for (const auto& [label, rate] : self.rates()) rates[Text(label)] = ToPython(rate);
              return rates;
            })
       .def("between", &Between, py::arg("place"), py::arg("before"), py::arg("after"));

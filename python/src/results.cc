@@ -26,6 +26,11 @@ py::array_t<int> Pairs(const Items& items, const NumbersOf& numbers_of) {
 
 }  // namespace
 
+py::str Text(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+}
+
 py::object ToPython(const LoopClosure& loop) {
   return Make("LoopClosure", "id"_a = loop.id, "newest_frame"_a = loop.newest_frame,
               "query_frame"_a = loop.query_frame, "match_frame"_a = loop.match_frame,
@@ -40,7 +45,7 @@ py::object ToPython(const LoopClosure& loop) {
 }
 
 py::object ToPython(const MapObject& object) {
-  return Make("MapObject", "id"_a = object.id.value, "label"_a = object.label,
+  return Make("MapObject", "id"_a = object.id.value, "label"_a = Text(object.label),
               "state"_a = ToString(object.state),
               "T_world_object"_a = ToArray(object.T_world_object), "dims"_a = ToArray(object.dims),
               "observations"_a = Pairs(object.observations, [](const Observation& seen) {

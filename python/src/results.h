@@ -25,6 +25,9 @@ py::object Make(const char* type, Arguments&&... arguments) {
   return py::module_::import("sslcd.results").attr(type)(std::forward<Arguments>(arguments)...);
 }
 
+/// A text of a file, which may be no UTF-8: other bytes become \xNN.
+py::str Text(const std::string& text);
+
 /// `items` as a list, each by ToPython.
 template <class Items>
 py::list ListOf(const Items& items);

@@ -45,7 +45,7 @@ py::list Find(const SiteIndex& index, const py::object& stretch, int most) {
   }
   py::list candidates;
   for (const SiteCandidate& one : found)
-    candidates.append(Make("SiteCandidate", "site"_a = one.site, "name"_a = one.name,
+    candidates.append(Make("SiteCandidate", "site"_a = one.site, "name"_a = Text(one.name),
                            "score"_a = one.score, "matches"_a = one.matches, "yaw"_a = one.yaw,
                            "x"_a = one.x, "y"_a = one.y));
   return candidates;

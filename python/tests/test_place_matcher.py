@@ -133,3 +133,14 @@ def test_a_matcher_lives_as_long_as_its_mapper(drive):
     assert gone.is_set()
     with pytest.raises(sslcd.UsageError, match="place_matcher is 5"):
         sslcd.Mapper(place_matcher=5)
+
+
+def test_a_site_whose_name_is_no_utf8(tmp_path):
+    places = np.random.default_rng(3).uniform(-40, 40, (12, 2))
+    layout = sslcd.Layout(["Car"] * 12, np.column_stack([places, np.zeros(12)]))
+    path = str(tmp_path / "index")
+    sslcd._core.build_site_index(
+        [b"caf\xe9"], [layout], path
+    )  # as the program would, of a file name
+    (found,) = sslcd.SiteIndex(path).find(layout, 1)
+    assert found.name == "caf\\xe9"
