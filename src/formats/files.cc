@@ -12,9 +12,10 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> FileNames(const std::string& folder) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    names.push_back(it->path().filename().string());
+  try {  // the forms with an error code end the program where memory is short
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      names.push_back(entry.path().filename().string());
+  } catch (const fs::filesystem_error&) {  // those before it
   }
   std::sort(names.begin(), names.end());
   return names;
