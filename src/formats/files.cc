@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/files.h"
 
+#include <dirent.h>
+
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 
 #include "sslcd/core/error.h"
 
@@ -12,10 +15,11 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> FileNames(const std::string& folder) {
   std::vector<std::string> names;
-  try {  // the forms with an error code end the program where memory is short
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-      names.push_back(entry.path().filename().string());
-  } catch (const fs::filesystem_error&) {  // those before it
+  // std::filesystem's iterators end the program where memory is short
+  const std::unique_ptr<DIR, int (*)(DIR*)> opened(opendir(folder.c_str()), closedir);
+  while (const dirent* entry = opened ? readdir(opened.get()) : nullptr) {
+    const std::string name = entry->d_name;
+    if (name != "." && name != "..") names.push_back(name);
   }
   std::sort(names.begin(), names.end());
   return names;
