@@ -30,7 +30,8 @@ from .map_results import (
     SessionInfo,
 )
 from .mapper import Mapper
-from .maps import Localiser, Map, MapHistory, MapSession
+from .map_history import MapHistory
+from .maps import Localiser, Map, MapSession
 from .options import complete_options, default_options, read_options
 from .results import (
     AdjustmentSummary,

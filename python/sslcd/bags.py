@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
+from .compact import _Compact
 from .errors import BadInputError
 from .mapper import Mapper, _wrap, context
 from .options import Options, settings
-from .results import Trajectory, _Compact
+from .results import Trajectory
 
 try:
     from rosbags.highlevel import AnyReader, AnyReaderError

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _core
+from .compact import _Compact
 from .inputs import _NONE, array, checked, label_list, per_detection
 from .options import Options, settings
-from .results import MapObject, MatchResult, _Compact
+from .results import MapObject, MatchResult
 
 
 @dataclass(frozen=True, eq=False, repr=False)

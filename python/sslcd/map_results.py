@@ -6,8 +6,9 @@ from typing import Dict, List, Optional
 
 import numpy as np
 
+from .compact import _Compact
 from .inputs import Camera
-from .results import LoopClosure, MapObject, MapPart, NoiseScale, PoseGraph, Trajectory, _Compact
+from .results import LoopClosure, MapObject, MapPart, NoiseScale, PoseGraph, Trajectory
 
 
 @dataclass(frozen=True)

@@ -11,15 +11,13 @@ from .datasets import Dataset
 from .errors import UsageError
 from .frame_taker import FrameTaker
 from .inputs import Camera, Frame, checked
+from .map_history import MapHistory
 from .map_results import (
     Localisation,
     MapDiff,
     MapInfo,
     MapResults,
     MergeReport,
-    PlaceHistory,
-    PlaceOutcome,
-    ChangeRates,
     SessionInfo,
 )
 from .mapper import KITTI_UP, Mapper, context
@@ -348,25 +346,3 @@ class Localiser:
         """An attempt from the newest frame at once, e.g. of a robot that stands. Raises UsageError if
         there is no frame yet."""
         return self._core.attempt()
-
-
-class MapHistory:
-    """What was there when, in each session of a map: Map.history."""
-
-    def __init__(self, core: Any) -> None:
-        self._core = core
-
-    @property
-    def places(self) -> List[PlaceHistory]:
-        """All places where an object has stood in some session."""
-        return self._core.places()
-
-    @property
-    def rates(self) -> Mapping[str, ChangeRates]:
-        """How often places change from one session to the next, by label; learnt."""
-        return self._core.rates()
-
-    def between(self, place: int, before: int, after: int) -> PlaceOutcome:
-        """What became of places[place] between two sessions, by their indices in Map.sessions, the
-        earlier one first. Raises UsageError for other numbers."""
-        return self._core.between(place, before, after)

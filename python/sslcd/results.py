@@ -1,32 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What comes out of a mapper. Values are copies: they do not change when the mapper goes on."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Dict, List, Optional
 
 import numpy as np
 
 from . import _core
+from .compact import _Compact
 from .errors import UsageError
 from .inputs import array
-
-
-class _Compact:
-    """repr() with the shapes of large arrays instead of their numbers."""
-
-    def __repr__(self) -> str:
-        shown = []
-        for each in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, each.name)
-            large = (isinstance(value, np.ndarray) and value.size > 4) or (
-                isinstance(value, list) and value
-            )
-            shown.append(
-                f"{each.name}=<{np.shape(value) if not isinstance(value, list) else len(value)}>"
-                if large
-                else f"{each.name}={value!r}"
-            )
-        return f"{type(self).__name__}({', '.join(shown)})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
