@@ -63,6 +63,27 @@ PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph:
   return edge;
 }
 
+double Chi2Of(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
+              const std::vector<double>& weights, const std::vector<Pose>& poses) {
+  double chi2 = 0;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    const Vec6 error = EdgeError(graph.edges[e], poses[ends[e].first], poses[ends[e].second]);
+    chi2 += weights[e] * error.dot(graph.edges[e].information * error);
+  }
+  return chi2;
+}
+
+EdgeLinearisation LineariseEdge(const Pose& T_to_from_measured, const Pose& T_world_from,
+                                const Pose& T_world_to) {
+  // e(d_to) = Log(E Exp(d_to)). A perturbation d of `from` equals -Adj(B^-1) d of `to`.
+  const Pose B = T_world_from.inverse() * T_world_to;
+  EdgeLinearisation edge;
+  edge.error = (T_to_from_measured * B).Log();
+  edge.J_to = Pose::RightJacobianInverse(edge.error);
+  edge.J_from = -edge.J_to.lazyProduct(Matrix6(B.inverse().Adj()));
+  return edge;
+}
+
 EdgeCost::EdgeCost(const PoseGraph::Edge& edge, const double* weight)
     : T_to_from_(edge.T_from_to.inverse()),
       sqrt_information_(Eigen::LLT<Matrix6>(edge.information).matrixU()),
@@ -71,19 +92,16 @@ EdgeCost::EdgeCost(const PoseGraph::Edge& edge, const double* weight)
 bool EdgeCost::Evaluate(double const* const* poses, double* residual, double** jacobians) const {
   const Pose T_world_from = lie::SE3ConstMap<double>(poses[0]),
              T_world_to = lie::SE3ConstMap<double>(poses[1]);
-  const Pose B = T_world_from.inverse() * T_world_to;
-  const Pose::Tangent e = (T_to_from_ * B).Log();
   const Matrix6 S = std::sqrt(*weight_) * sqrt_information_;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>> r(residual);
-  r = S * e;
-  if (jacobians == nullptr) return true;
-  // e(d_to) = Log(E Exp(d_to)). A perturbation d of `from` equals -Adj(B^-1) d of `to`.
-  const Matrix6 J_to = S.lazyProduct(Matrix6(Pose::RightJacobianInverse(e)));
-  if (jacobians[0] != nullptr) {
-    const Matrix6 J_from = -J_to.lazyProduct(Matrix6(B.inverse().Adj()));
-    StoreAmbient(J_from, poses[0], jacobians[0]);
+  Eigen::Map<Vec6> r(residual);
+  if (jacobians == nullptr) {
+    r = S * (T_to_from_ * (T_world_from.inverse() * T_world_to)).Log();
+    return true;
   }
-  if (jacobians[1] != nullptr) StoreAmbient(J_to, poses[1], jacobians[1]);
+  const EdgeLinearisation edge = LineariseEdge(T_to_from_, T_world_from, T_world_to);
+  r = S * edge.error;
+  if (jacobians[0] != nullptr) StoreAmbient(S.lazyProduct(edge.J_from), poses[0], jacobians[0]);
+  if (jacobians[1] != nullptr) StoreAmbient(S.lazyProduct(edge.J_to), poses[1], jacobians[1]);
   return true;
 }
 

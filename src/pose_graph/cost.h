@@ -4,6 +4,9 @@
 #include <ceres/manifold.h>
 #include <ceres/sized_cost_function.h>
 
+#include <utility>
+#include <vector>
+
 #include "sslcd/core/pose_graph.h"
 #include "sslcd/pose_graph/pose_graph.h"
 
@@ -14,6 +17,18 @@ namespace sslcd {
 /// keeps yaw and translation. Its information stays positive definite. kFull: the edge itself.
 PoseGraph::Edge EdgeWithin(PoseFreedom freedom, const Vec3& up, const PoseGraph::Edge& edge,
                            const Pose& T_world_from, const Pose& T_world_to);
+
+/// sum_e weights_e e^T I_e e over the edges, e = EdgeError(). `ends` as in PoseGraphIndex.
+double Chi2Of(const PoseGraph& graph, const std::vector<std::pair<int, int>>& ends,
+              const std::vector<double>& weights, const std::vector<Pose>& poses);
+
+/// EdgeError() and its derivatives for T_world_from Exp(d_from) and T_world_to Exp(d_to).
+struct EdgeLinearisation {
+  Vec6 error;
+  Eigen::Matrix<double, 6, 6> J_from, J_to;
+};
+EdgeLinearisation LineariseEdge(const Pose& T_to_from_measured, const Pose& T_world_from,
+                                const Pose& T_world_to);
 
 /// One edge: r = sqrt(weight) L^T Log(T_from_to^-1 T_world_from^-1 T_world_to) with information = L
 /// L^T, so that |r|^2 = weight e^T I e. Both parameter blocks are poses [qx qy qz qw tx ty tz];

@@ -4,36 +4,37 @@
 #include <Eigen/LU>
 
 namespace sslcd {
+namespace {
 
+std::vector<std::pair<int, int>> PairsOf(const std::vector<DifferenceMeasurement>& measurements) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const DifferenceMeasurement& each : measurements)
+    if (each.from > 0 && each.to > 0) pairs.push_back({each.from - 1, each.to - 1});
+  return pairs;
+}
+
+}  // namespace
+
+// The first unknown is zero and has no place in the equations.
 RelativeCovariances::RelativeCovariances(int unknowns,
                                          const std::vector<DifferenceMeasurement>& measurements)
-    : unknowns_(unknowns) {
-  // The first unknown is zero and has no columns.
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&entries](int row, int column, const Mat6& block) {
-    if (row == 0 || column == 0) return;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j)
-        entries.emplace_back(6 * (row - 1) + i, 6 * (column - 1) + j, block(i, j));
-  };
+    : unknowns_(unknowns), information_(unknowns - 1, PairsOf(measurements)) {
   for (const DifferenceMeasurement& each : measurements) {
     const Mat6 information = each.covariance.inverse();
-    add(each.from, each.from, information);
-    add(each.to, each.to, information);
-    add(each.from, each.to, -information);
-    add(each.to, each.from, -information);
+    if (each.from > 0) information_.Add(each.from - 1, each.from - 1, information);
+    if (each.to > 0) information_.Add(each.to - 1, each.to - 1, information);
+    if (each.from > 0 && each.to > 0) information_.Add(each.from - 1, each.to - 1, -information);
   }
-  Eigen::SparseMatrix<double> all(6 * (unknowns_ - 1), 6 * (unknowns_ - 1));
-  all.setFromTriplets(entries.begin(), entries.end());
-  information_.compute(all);
+  information_.Factorise();
 }
 
 RelativeCovariances::Mat6 RelativeCovariances::Between(int a, int b) const {
   if (a == b) return Mat6::Zero();
-  Eigen::MatrixXd difference = Eigen::MatrixXd::Zero(6 * (unknowns_ - 1), 6);
-  if (a > 0) difference.middleRows<6>(6 * (a - 1)) = -Mat6::Identity();
-  if (b > 0) difference.middleRows<6>(6 * (b - 1)) = Mat6::Identity();
-  return difference.transpose() * information_.solve(difference);
+  BlockCholesky::Vector<6> difference(unknowns_ - 1, Mat6::Zero());
+  if (a > 0) difference[a - 1] = -Mat6::Identity();
+  if (b > 0) difference[b - 1] = Mat6::Identity();
+  const BlockCholesky::Vector<6> x = information_.Solve(difference);
+  return (b > 0 ? x[b - 1] : Mat6(Mat6::Zero())) - (a > 0 ? x[a - 1] : Mat6(Mat6::Zero()));
 }
 
 }  // namespace sslcd

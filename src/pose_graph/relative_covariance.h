@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <vector>
+
+#include "pose_graph/block_cholesky.h"
 
 namespace sslcd {
 
@@ -32,7 +33,7 @@ class RelativeCovariances {
 
  private:
   int unknowns_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> information_;
+  BlockCholesky information_;
 };
 
 }  // namespace sslcd
