@@ -113,6 +113,15 @@ ceres::Solver::Summary MinimiseChi2(const PoseGraph& graph, const Ends& ends,
   return result;
 }
 
+// Ceres only says "non-numeric causes" where CHOLMOD had no memory, or a matrix too large for it.
+std::string MessageOf(const ceres::Solver::Summary& result) {
+  for (const char* cause : {"non-numeric causes", "Out of memory"})
+    if (result.message.find(cause) != std::string::npos)
+      return "memory is short, or the graph is too large for the linear solver (" +
+             result.message.substr(0, result.message.find_last_not_of(". \n") + 1) + ")";
+  return result.message;
+}
+
 }  // namespace
 
 int DegreesOfFreedom(PoseFreedom freedom) {
@@ -161,7 +170,7 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   summary.converged = result.termination_type == ceres::CONVERGENCE ||
                       result.termination_type == ceres::USER_SUCCESS;
   summary.iterations = static_cast<int>(result.iterations.size()) - 1;
-  summary.message = result.message;
+  summary.message = MessageOf(result);
   if (!summary.usable) return summary;
   for (std::size_t v = 0; v < poses.size(); ++v) graph.vertices[v].T_world_vertex = poses[v];
   summary.final_chi2 = Chi2Of(graph, index.ends, weights, poses);
