@@ -10,6 +10,7 @@
 #include "benchmark/foreign.h"
 #include "benchmark/halv_tables.h"
 #include "benchmark/results.h"
+#include "formats/file_lock.h"
 #include "progress.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"
@@ -42,6 +43,7 @@ class Bench {
       : arguments_(arguments),
         console_(console),
         baselines_(LoadBaselines(arguments.baselines)),
+        lock_(LockFolder(arguments.out)),
         folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
 
   // The requested tables, in the order of the paper.
@@ -62,7 +64,9 @@ class Bench {
 
  private:
   bool Asked(const std::string& table) const { return arguments_.Asks(table); }
-  void Write(Table table) { writer_.Write(std::move(table), arguments_.cases); }
+  void Write(Table table, const std::vector<Table>& curves = {}) {
+    writer_.Write(std::move(table), arguments_.cases, curves);
+  }
 
   // Reports mistakes at once, not after hours of runs.
   void CheckOptions() {
@@ -138,28 +142,27 @@ class Bench {
 
   void Attempts() {
     std::vector<MethodResults> all;
-    for (const Place& place : Places()) {
+    const std::vector<Place> places = Places();
+    for (const Place& place : places) {
       const MethodResults results = Results({place}, {benchmark::Methods()[0]}, false)[0];
       const std::string key = place.key == "lot" ? "attempts" : "attempts_" + place.key;
-      Write(
-          AttemptsTable(results, key, "sslcd: keyframes recognised and loops, " + TitleOf(place)));
       all.push_back(results);
+      const bool last = all.size() == places.size();
+      Write(AttemptsTable(results, key, "sslcd: keyframes recognised and loops, " + TitleOf(place)),
+            last ? std::vector<Table>{LoopTable(all)} : std::vector<Table>{});
     }
-    writer_.WriteCsv(LoopTable(all));
   }
 
   void Pr() {
     const std::vector<MethodResults> results = Answers({Places()[0]});
-    Write(PrecisionRecallTable(results));
-    writer_.WriteCsv(PrecisionRecallCurves(results));
+    Write(PrecisionRecallTable(results), {PrecisionRecallCurves(results)});
   }
 
   // The four cases, and small loops whose passes meet at angles that the cases seldom have.
   void Viewpoint() {
     const std::vector<MethodResults> results = Answers(viewpoints_);
     const std::string key = arguments_.images.empty() ? "viewpoint" : "viewpoint_images";
-    Write(ViewpointTable(results, key));
-    writer_.WriteCsv(ViewpointCurves(results, key));
+    Write(ViewpointTable(results, key), {ViewpointCurves(results, key)});
   }
 
   void Ablation() { Write(AblationTable(Results({Places()[0]}, benchmark::Ablations(), false))); }
@@ -247,6 +250,7 @@ class Bench {
   const BenchArguments& arguments_;
   const Console& console_;
   baselines::BaselineOptions baselines_;
+  FileLock lock_;
   benchmark::ResultFolder folder_;
   // the car park, and the small loops if requested
   std::vector<Place> viewpoints_ = {Places()[0]};

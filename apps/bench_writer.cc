@@ -6,24 +6,28 @@
 
 #include "benchmark/results.h"
 #include "formats/atomic_file.h"
+#include "formats/file_set.h"
 #include "formats/text_rows.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {
 
-void TableWriter::Write(benchmark::Table table, const std::vector<int>& cases) {
+void TableWriter::Write(benchmark::Table table, const std::vector<int>& cases,
+                        const std::vector<benchmark::Table>& curves) {
   table.note = Provenance(cases);
-  const std::string path = arguments_.out + "/" + table.key;
-  WriteFileAtomically(path + ".md", ToMarkdown(table));
-  WriteFileAtomically(path + ".json", ToJson(table));
-  WriteCsv(table);
+  const std::string path = arguments_.out + "/";
+  FileSet set{arguments_.out,
+              table.key,
+              {{path + table.key + ".md", ToMarkdown(table)},
+               {path + table.key + ".json", ToJson(table)},
+               {path + table.key + ".csv", ToCsv(table)}},
+              {}};
+  for (const benchmark::Table& curve : curves)
+    set.files.emplace_back(path + curve.key + ".csv", ToCsv(curve));
+  WriteFileSet(std::move(set));
   console_.Say(ToMarkdown(table));
   tables_.push_back(std::move(table));
-}
-
-void TableWriter::WriteCsv(const benchmark::Table& table) const {
-  WriteFileAtomically(arguments_.out + "/" + table.key + ".csv", ToCsv(table));
 }
 
 std::string TableWriter::Provenance(const std::vector<int>& cases) const {

@@ -17,9 +17,10 @@ class TableWriter {
       : arguments_(arguments), console_(console) {}
 
   /// As Markdown, JSON and CSV, with its provenance below. `cases` of HALV-sim that were run; none:
-  /// the table is not about HALV-sim.
-  void Write(benchmark::Table table, const std::vector<int>& cases);
-  void WriteCsv(const benchmark::Table& table) const;
+  /// the table is not about HALV-sim. `curves` belong to it, and are written as CSV alone. All of
+  /// them are a FileSet.
+  void Write(benchmark::Table table, const std::vector<int>& cases,
+             const std::vector<benchmark::Table>& curves = {});
 
   /// Throws Error(kBadInput) if there is a document (--docs) that cannot be read.
   void CheckDocument() const;

@@ -169,8 +169,8 @@ int Detect(DetectArguments& a, const Console& console) {
   if (!a.no_check) WarnOfMistakes(a.request, dataset);
   CheckOutput(a, dataset);
   const fs::path out = a.out;
-  PrepareSequenceFolder(out, a.force);
-  const bool fresh = fs::is_empty(out);
+  const FileLock lock = PrepareSequenceFolder(out, a.force);
+  const bool fresh = IsEmptyFolder(a.out);
   const ImageRequest request = a.images.RequestFor(dataset, !odometry_alone, given);
   const Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
 

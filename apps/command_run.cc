@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "check_dataset.h"
 #include "commands.h"
@@ -10,7 +11,7 @@
 #include "eval/kitti_ground_truth.h"
 #include "evaluation.h"
 #include "examples.h"
-#include "formats/atomic_file.h"
+#include "formats/file_lock.h"
 #include "formats/files.h"
 #include "from_images.h"
 #include "image_loader.h"
@@ -273,11 +274,12 @@ int Run(RunArguments& a, const Console& console) {
   a.images.AddTo(a.config);
   const Configuration given = a.config.Load();  // reports wrong options first
   a.config.RefuseCodeFrom(a.request.path);
+  std::optional<FileLock> lock;
   if (!a.out.empty()) {
     RefuseFolder(a.request.path, a.out);
     if (a.report) RequireReportLibraries();
+    lock.emplace(LockFolder(a.out));  // fails before the run, not after it
     if (!a.force && a.out != kLatest) RefuseOtherRun(a.out);
-    MakeWritableFolder(a.out);  // fails before the run, not after it
   }
   Dataset dataset = Load(a, console);
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,

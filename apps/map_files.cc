@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "formats/file_set.h"
 #include "formats/files.h"
 #include "formats/map_json.h"
 #include "sslcd/core/error.h"
@@ -51,6 +52,7 @@ void RefuseTwice(const std::vector<std::string>& files) {
 
 Site ReadMapFile(const std::string& file) {
   if (EndsWith(file, ".json")) {
+    RefuseUnfinished(fs::absolute(file).parent_path().string());
     const MapFile map = ReadMapJson(file);
     return {file, SiteObjectsOf(map.objects, GravityFrame::FromUp(map.up_axis))};
   }

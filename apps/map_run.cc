@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "command_line.h"
+#include "core/command_line.h"
 #include "pipeline/frame_colours.h"
 #include "sslcd/config/config.h"
 #include "sslcd/core/error.h"

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <set>
 
-#include "command_line.h"
 #include "commands.h"
+#include "core/command_line.h"
 #include "core/utc_time.h"
 #include "datasets/run_folder.h"
 #include "formats/files.h"

@@ -72,7 +72,7 @@ function(sslcd_library target)
     target_link_libraries(${target}_shared PUBLIC ${ARG_LINK})
     set_target_properties(${target}_shared PROPERTIES
       VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-      LINK_DEPENDS ${SSLCD_SYMBOLS} INSTALL_RPATH $ORIGIN)
+      LINK_DEPENDS ${SSLCD_SYMBOLS} INSTALL_RPATH $ORIGIN BUILD_WITH_INSTALL_RPATH ON)
     target_link_options(${target}_shared PRIVATE LINKER:--version-script=${SSLCD_SYMBOLS}
       ${SSLCD_LINK_HARDENED})
     if(NOT SSLCD_SANITIZE)

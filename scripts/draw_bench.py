@@ -126,6 +126,9 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     folder, out = sys.argv[1:]
+    unfinished = [name for name in os.listdir(folder) if name.startswith('.sslcd-unfinished-')]
+    if unfinished:
+        sys.exit(f'{folder}: its files may be of two calls ({unfinished[0]}): repeat the sslcd_run bench that was stopped')
     os.makedirs(out, exist_ok=True)
     drawn = 0
     for name, draw in (('pr_curves.csv', draw_curves), ('viewpoint_curves.csv', draw_viewpoints),

@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "configuration.h"
 #include "datasets/run_folder.h"
+#include "formats/file_lock.h"
 #include "frames.h"
 #include "place_matcher.h"
 #include "results.h"
@@ -94,6 +95,7 @@ struct Run {
     outputs.record.commit = "unknown";
     outputs.record.complete = !result.stopped;
     const py::gil_scoped_release release;
+    const FileLock lock = LockFolder(folder);
     return WriteRunFolder(folder, outputs);
   }
 };

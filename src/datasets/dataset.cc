@@ -15,6 +15,7 @@
 #include "datasets/stamps.h"
 #include "datasets/tracklets.h"
 #include "formats/calib.h"
+#include "formats/file_set.h"
 #include "formats/files.h"
 #include "formats/npy.h"
 #include "formats/number_text.h"
@@ -322,6 +323,9 @@ void DatasetLoader::AddGroundtruth() {
 
 }  // namespace
 
-Dataset LoadDataset(const DatasetRequest& request) { return DatasetLoader(request).Load(); }
+Dataset LoadDataset(const DatasetRequest& request) {
+  RefuseUnfinished(request.path);
+  return DatasetLoader(request).Load();
+}
 
 }  // namespace sslcd

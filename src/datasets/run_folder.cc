@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "formats/atomic_file.h"
+#include "formats/file_set.h"
 #include "formats/files.h"
 #include "formats/g2o.h"
 #include "formats/loops_csv.h"
@@ -60,6 +61,7 @@ std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutp
 
 std::optional<RunRecord> CheckRunFolder(const std::string& folder) {
   const std::string record_path = RecordPath(folder);
+  RefuseUnfinished(folder);
   if (IfFile(record_path).empty()) return std::nullopt;
   RunRecord record = ReadRunJson(record_path);
   for (const FileRecord& expected : record.files) {

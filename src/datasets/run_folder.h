@@ -40,7 +40,7 @@ std::vector<std::string> WriteRunFolder(const std::string& folder, const RunOutp
 
 /// Reads run.json and compares the files with it. Returns nothing if there is no run.json, as in
 /// folders that earlier versions have written. Throws Error(kBadInput), with the file, if one is
-/// missing or is that of another run.
+/// missing or is that of another run, and as RefuseUnfinished() does.
 std::optional<RunRecord> CheckRunFolder(const std::string& folder);
 
 }  // namespace sslcd

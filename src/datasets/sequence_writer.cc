@@ -2,11 +2,12 @@
 #include "datasets/sequence_writer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "datasets/sequence_yaml.h"
 #include "datasets/stamps.h"
-#include "formats/atomic_file.h"
 #include "formats/calib.h"
+#include "formats/file_set.h"
 #include "formats/npy.h"
 #include "sslcd/core/error.h"
 #include "sslcd/formats/detections.h"
@@ -54,14 +55,15 @@ std::string Npy(const Detections& detections, const CueRow& cue) {
 }  // namespace
 
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files) {
-  std::vector<std::pair<std::string, std::string>> written;
-  std::vector<std::filesystem::path> removed;  // files of an earlier run belong to other frames
+  FileSet set;
+  set.folder = folder.string();
+  set.name = "sequence";
   const auto write = [&](const char* name, const std::string& text) {
-    written.emplace_back((folder / name).string(), text);
+    set.files.emplace_back((folder / name).string(), text);
   };
   const auto write_or_remove = [&](const char* name, const std::string& bytes) {
     if (bytes.empty())
-      removed.push_back(folder / name);
+      set.removed.push_back((folder / name).string());
     else
       write(name, bytes);
   };
@@ -73,26 +75,16 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   write("sequence.yaml", SequenceYaml(files));
   for (const CueRow& cue : kCueRows) write_or_remove(cue.file, Npy(files.detections, cue));
   if (!files.config_yaml.empty()) write("config.yaml", files.config_yaml);
-  WriteFilesAtomically(written);
-  for (const std::filesystem::path& path : removed) {
-    std::error_code error;
-    std::filesystem::remove(path, error);
-    if (error)
-      throw Error(ErrorKind::kOutput, path.string() + ": cannot be removed: " + error.message());
-  }
+  WriteFileSet(std::move(set));
 }
 
-void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
-  MakeWritableFolder(folder.string());
-  std::error_code error;
-  const bool empty = std::filesystem::is_empty(folder, error);
-  if (error)
-    throw Error(ErrorKind::kOutput,
-                folder.string() + ": " + error.message() + "; choose another folder");
-  if (!overwrite && !empty)
+FileLock PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
+  FileLock lock = LockFolder(folder.string());
+  if (!overwrite && !IsEmptyFolder(folder.string()))
     throw Error(
         ErrorKind::kUsage,
         folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+  return lock;
 }
 
 }  // namespace sslcd

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/file_lock.h"
 #include "sslcd/core/camera.h"
 #include "sslcd/core/detection.h"
 #include "sslcd/core/label.h"
@@ -28,12 +29,13 @@ struct SequenceFiles {
 /// Writes times.txt, odometry.txt (TUM), detections.txt (KITTI tracking rows with score),
 /// sequence.yaml, and, as far as the parts exist, config.yaml, calib.txt, groundtruth.txt (TUM) and
 /// the files of cues (core/cue.h): embeddings.npy (a row of zeros for a detection without one) and
-/// colours.npy (only if every detection has one). Writes all files or none. Then removes the files
-/// of an earlier run whose parts are missing, except config.yaml. Throws Error(kOutput).
+/// colours.npy (only if every detection has one). Writes all files or none, and removes the files
+/// of an earlier run whose parts are missing, except config.yaml: a WriteFileSet() of the name
+/// "sequence". Throws Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
-/// Creates the folder. Throws Error(kUsage) if it is not empty and `overwrite` is not set, and
-/// Error(kOutput) if it cannot be created.
-void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
+/// Creates the folder and locks it (LockFolder). Throws Error(kUsage) if it is not empty and
+/// `overwrite` is not set, and Error(kOutput) if it cannot be created or another process writes.
+[[nodiscard]] FileLock PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
 
 }  // namespace sslcd

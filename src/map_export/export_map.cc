@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "formats/atomic_file.h"
+#include "formats/file_lock.h"
+#include "formats/file_set.h"
 #include "formats/g2o.h"
 #include "formats/loops_csv.h"
 #include "formats/map_json.h"
@@ -30,7 +32,7 @@ std::vector<std::string> ExportMap(const MapInfo& info, const MapResults& result
                                    const std::string& folder,
                                    const std::optional<GeoOrigin>& origin) {
   const std::filesystem::path root = folder;
-  MakeWritableFolder(folder);
+  const FileLock lock = LockFolder(folder);
   const MapFile map{info.up_axis, results.objects};
   Trajectory all;
   PathsAndTexts files;
@@ -46,10 +48,14 @@ std::vector<std::string> ExportMap(const MapInfo& info, const MapResults& result
                              {root / "graph.g2o", G2oText(results.graph)},
                              {root / "loops.csv", LoopsCsv(results.loops)},
                              {root / "config.yaml", info.config}});
-  if (origin) files.emplace_back(root / "map.geojson", MapGeoJson(info, results, *origin));
-  WriteFilesAtomically(files);
+  std::vector<std::string> removed;
+  if (origin)
+    files.emplace_back(root / "map.geojson", MapGeoJson(info, results, *origin));
+  else
+    removed.push_back((root / "map.geojson").string());
   std::vector<std::string> paths;
   for (const auto& [path, text] : files) paths.push_back(path);
+  WriteFileSet({folder, "map", std::move(files), std::move(removed)});
   return paths;
 }
 

@@ -104,6 +104,15 @@ ceres::Solver::Summary MinimiseWithCeres(const PoseGraph& graph, const Ends& end
   return result;
 }
 
+// Ceres only says "non-numeric causes" where CHOLMOD had no memory, or a matrix too large for it.
+std::string MessageOf(const ceres::Solver::Summary& result) {
+  for (const char* cause : {"non-numeric causes", "Out of memory"})
+    if (result.message.find(cause) != std::string::npos)
+      return "memory is short, or the graph is too large for the linear solver (" +
+             result.message.substr(0, result.message.find_last_not_of(". \n") + 1) + ")";
+  return result.message;
+}
+
 // Moves `poses` to the minimum of chi2. Most graphs start near it, where Gauss-Newton gets there in
 // a fraction of the time; damped steps go on where it does not.
 void Minimise(const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
@@ -125,7 +134,7 @@ void Minimise(const PoseGraph& graph, const Ends& ends, const std::vector<double
   summary.converged = result.termination_type == ceres::CONVERGENCE ||
                       result.termination_type == ceres::USER_SUCCESS;
   summary.iterations += static_cast<int>(result.iterations.size()) - 1;
-  summary.message = result.message;
+  summary.message = MessageOf(result);
 }
 
 }  // namespace

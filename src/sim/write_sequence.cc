@@ -11,7 +11,7 @@ namespace sslcd::sim {
 void WriteSequence(const World& world, const Trajectory& odometry,
                    const SimulatedDetections& detections, const std::filesystem::path& folder,
                    bool overwrite) {
-  PrepareSequenceFolder(folder, overwrite);
+  const FileLock lock = PrepareSequenceFolder(folder, overwrite);
   SequenceFiles files;
   files.comment = "a synthetic world; axes of the first camera: x right, y down, z forward";
   files.camera = StereoCamera{world.camera, world.baseline_m};

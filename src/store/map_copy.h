@@ -12,8 +12,8 @@ namespace sslcd {
 void CopyDatabase(const Database& from, Database& to);
 
 /// A copy of a map beside a file, to work in while nobody else sees it: FILE-merge. Needs the
-/// WriteLock of FILE. Removes what a killed process has left of such a copy, and the copy at the
-/// end.
+/// lock of FILE (LockMap). Removes what a killed process has left of such a copy, and the copy at
+/// the end.
 class WorkingCopy {
  public:
   static std::string PathBeside(const std::string& file);  ///< FILE-merge

@@ -124,7 +124,7 @@ bool HasMap(const std::string& path) {
 }
 
 void CompactMap(const std::string& path) {
-  const WriteLock lock(path);
+  const FileLock lock = LockMap(path);
   Database database = OpenMap(path, Database::Access::kWrite);
   database.Execute("VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
 }

@@ -111,7 +111,7 @@ MergeReport MergeMaps(const MergeRequest& request) {
   const bool in_place = request.out.empty();
   const std::string& target = in_place ? request.into : request.out;
   OpenMap(request.into, Database::Access::kRead);  // before a lock is made beside nothing
-  const WriteLock lock(target);
+  const FileLock lock = LockMap(target);
   std::vector<MergeSource> sources;
   for (const std::string& path : request.from) sources.push_back(ReadMergeSource(path));
   const std::vector<PlannedSession> plan =

@@ -19,7 +19,7 @@ namespace {
 }  // namespace
 
 WritableMap::WritableMap(const std::string& path, Database::Access access)
-    : lock(path), database(OpenMap(path, access)), info(ReadInfo(database)) {
+    : lock(LockMap(path)), database(OpenMap(path, access)), info(ReadInfo(database)) {
   is_new = info.sessions.empty();
   if (is_new) return;
   std::vector<std::string> problems = FileProblems(database, false);

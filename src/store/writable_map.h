@@ -16,7 +16,7 @@ namespace sslcd {
 struct WritableMap {
   WritableMap(const std::string& path, Database::Access access);
 
-  WriteLock lock;  // first, so that the file is closed before the lock is given back
+  FileLock lock;  // first, so that the file is closed before the lock is given back
   Database database;
   MapInfo info;
   bool is_new = false;     ///< no session yet

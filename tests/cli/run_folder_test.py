@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run's folder says of it, and its comparison with the truth. usage: see cli_case.main"""
+import fcntl
 import hashlib
 import json
 import os
@@ -37,6 +38,24 @@ class RunFolderTest(CliCase):
         result = call('eval', self.out, '--groundtruth', self.data + '/groundtruth.txt')
         self.assertEqual((result.returncode, result.stdout), (3, ''))
         self.assertIn(self.out + '/odometry_tum.txt: is not the file that', result.stderr)
+
+    def test_a_folder_has_one_writer_at_a_time(self):
+        lock_path, holder = self.out + '/.sslcd-lock', 'process 1 on somewhere since yesterday (sslcd_run run tuesday)'
+        write(lock_path, holder)
+        commands = [('run', self.data, '--out', self.out), ('run', self.data, '--out', self.out, '--force'),
+                    ('bench', 'table2', '--out', self.out)]
+        with open(lock_path) as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            for command in commands:
+                self.refused(call(*command), 1, f'{self.out}: is being written by {holder}; wait')
+            self.assertEqual((os.listdir(self.out), read(lock_path)), (['.sslcd-lock'], holder))
+        self.assertEqual(call(*commands[0]).returncode, 0, 'a lock ends with its holder')
+        self.assertFalse(os.path.exists(lock_path))
+
+    def test_a_folder_with_files_of_two_calls_is_refused(self):
+        write(self.data + '/.sslcd-unfinished-sequence', '')  # as a killed 'detect' leaves it
+        for command in (('run', self.data, '--out', self.out), ('check', self.data)):
+            self.refused(call(*command), 3, self.data + ': its files may be of two calls', 'repeat', 'or delete ')
 
     def test_another_run_is_not_overwritten(self):
         first = ('run', self.data, '--out', self.out)

@@ -11,7 +11,7 @@ from pathlib import Path
 # Private functions of sslcd::sslcd that sslcd::vision calls.
 FOR_VISION = {"ProjectCuboid", "ReadBoxes", "ReadFileBytes", "ReadNpy", "RequireRegularFile"}
 # Private functions and classes of sslcd::sslcd that sslcd::store uses.
-FOR_STORE = {"Explain", "Gallery", "Hexadecimal", "RequireRegularFile", "Sha256", "Sightings", "UtcTime"}
+FOR_STORE = {"Explain", "FileLock", "Gallery", "Hexadecimal", "RequireRegularFile", "Sha256", "Sightings", "UtcTime"}
 OURS = re.compile(r"_Z(N|NK|TIN|TSN|TVN)5sslcd")  # the symbol's name: in namespace sslcd, or typeinfo or vtable of it
 
 

@@ -178,17 +178,18 @@ TEST_F(SequenceWriter, NothingSeenIsASequenceToo) {
 
 TEST_F(SequenceWriter, FoldersWithSomethingInThemAreKept) {
   const std::string path = folder_.path() + "/a/b";
-  EXPECT_NO_THROW(PrepareSequenceFolder(path, false)) << "made, with the folders on the way";
-  EXPECT_NO_THROW(PrepareSequenceFolder(path, false)) << "still empty";
+  EXPECT_NO_THROW(static_cast<void>(PrepareSequenceFolder(path, false)))
+      << "made, with the folders on the way";
+  EXPECT_NO_THROW(static_cast<void>(PrepareSequenceFolder(path, false))) << "still empty";
   folder_.Write("a/b/notes.txt", "precious");
   try {
-    PrepareSequenceFolder(path, false);
+    static_cast<void>(PrepareSequenceFolder(path, false));
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kUsage);
     EXPECT_THAT(error.what(), testing::HasSubstr("not empty"));
   }
-  EXPECT_NO_THROW(PrepareSequenceFolder(path, true));
+  EXPECT_NO_THROW(static_cast<void>(PrepareSequenceFolder(path, true)));
   EXPECT_TRUE(Has("a/b/notes.txt"));
 }
 

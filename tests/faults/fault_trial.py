@@ -14,7 +14,9 @@ from fault_commands import Command, write_inputs
 
 HOLDS_TIMES = re.compile(r'run\.json|timing\.json|report\.html|out\.html|trials/.*\.json|commit\.txt')
 BESIDE_A_MAP = re.compile(r'out\.db-(wal|shm|journal|lock)')
-TEMPORARY = re.compile(r'\.tmp-\d+$')
+TEMPORARY = re.compile(r'\.tmp-\d+$|\.sslcd-(lock|unfinished-\w+)$')
+MARK = re.compile(r'/\.sslcd-unfinished-\w+$')  # a folder may have files of two calls
+ALONE = re.compile(r'/overlays/|/trials/|/baselines.yaml$')  # files that belong to no set
 TOLD_BY_DETECT = r'image_\d/\d+\.png: no image that can be read|holds the frames before it'
 ERROR_CODES = (1, 3)  # a result could not be written, an input could not be read
 NO_SOLUTION = (5,)  # the solver has told that it had no memory
@@ -126,6 +128,8 @@ class Trial:
             self.check_map()
         elif os.path.exists(state.folder + '/out/run.json'):
             self.check_mix()
+        elif not self.warned and 'out/run.json' not in state.new:
+            self.check_set()
         self.run_again()
 
     def expect(self, holds, text):
@@ -155,7 +159,8 @@ class Trial:
         known = state.clean_names
         for path, content in now.items():
             if TEMPORARY.search(path):
-                self.expect(code in (-signal.SIGKILL, 0) or self.fault[0] == 'unlink', f'{path} is left after an error')
+                stays = code in (-signal.SIGKILL, 0) or self.fault[0] == 'unlink' or MARK.search(path)
+                self.expect(stays, f'{path} is left after an error')
             elif is_map:
                 self.expect(path in known or BESIDE_A_MAP.fullmatch(path), f'{path} is no file of a map')
             elif not self.warned and content not in (state.old.get(path), state.new.get(path)):
@@ -186,6 +191,17 @@ class Trial:
             self.expect(told.returncode == 3 and 'out/' in told.stderr, f'eval takes files of two runs: {wrong}')
         else:
             self.expect(told.returncode == 0, f'eval refuses a whole run: {told.stderr}')
+
+    def check_set(self):
+        """A folder with files of two calls has a mark, and one with a mark is refused."""
+        state, now = self.state, self.state.results()
+        names = [name for name in {**state.old, **state.new} if not (ALONE.search(name) or HOLDS_TIMES.search(name))]
+        is_old, is_new = (all(now.get(name) == made.get(name) for name in names) for made in (state.old, state.new))
+        mark = any(map(MARK.search, now))
+        self.expect(is_old or is_new or mark, 'files of two calls without a mark')
+        if mark and re.match('detect|check', self.command.name):
+            told = state.call('check out')
+            self.expect(told.returncode == 3 and 'two calls' in told.stderr, f'check takes files of two calls: {told.stderr}')
 
     def check_map(self):
         told = self.state.call('map verify ' + self.command.out)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "command_line.h"
+#include "core/command_line.h"
 
 #include <fstream>
 #include <iterator>
 
-namespace sslcd::apps {
+namespace sslcd {
 
 std::vector<std::string> CommandWords() {
   std::ifstream file("/proc/self/cmdline", std::ios::binary);
@@ -24,4 +24,4 @@ std::string CommandLine(const std::vector<std::string>& words) {
   return line;
 }
 
-}  // namespace sslcd::apps
+}  // namespace sslcd

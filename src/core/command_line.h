@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
-namespace sslcd::apps {
+namespace sslcd {
 
-/// The words with which this program was called, its name first.
+/// The words with which this program was called, its name first. Empty where the system does not
+/// tell (no /proc).
 std::vector<std::string> CommandWords();
 
 /// The words as a line for a shell: words with blanks are in quotes.
 std::string CommandLine(const std::vector<std::string>& words);
 
-}  // namespace sslcd::apps
+}  // namespace sslcd
