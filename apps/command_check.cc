@@ -6,6 +6,7 @@
 #include "check/report_text.h"
 #include "check_dataset.h"
 #include "commands.h"
+#include "dataset_options.h"
 #include "datasets/sequence_writer.h"
 #include "examples.h"
 #include "overwriting.h"
@@ -25,12 +26,7 @@ struct CheckArguments {
 
 void AddOptions(CLI::App& command, CheckArguments& a) {
   command.add_option("DATASET", a.request.path, "dataset folder");
-  command.add_option("--format", a.request.format, "layout of the folder; guessed where not given")
-      ->check(CLI::IsMember(DatasetFormatNames()));
-  command.add_option("--sequence", a.request.sequence, "which sequence of the dataset, e.g. 0007");
-  command.add_option("--detections", a.request.detections,
-                     "file or folder, relative to DATASET or the current folder");
-  command.add_option("--odometry", a.request.odometry, "poses, likewise");
+  AddTo(command, a.request);
   command.add_option("--groundtruth", a.request.groundtruth, "poses, likewise");
   command.add_option("--fix", a.fix,
                      "folder to write: the sequence with all mistakes corrected; refused if one "

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "dataset_options.h"
 #include "examples.h"
 #include "formats/atomic_file.h"
 #include "localise.h"
@@ -121,12 +122,7 @@ Command AddRelocaliseCommand(CLI::App& app, Console& console) {
   RelocaliseArguments& a = *arguments;
   command->add_option("DATASET", a.request.path, "dataset folder")->required();
   command->add_option("--map", a.map, "file of the map, which is only read")->required();
-  command->add_option("--format", a.request.format, "layout of the folder; guessed where not given")
-      ->check(CLI::IsMember(DatasetFormatNames()));
-  command->add_option("--sequence", a.request.sequence, "which sequence of the dataset");
-  command->add_option("--detections", a.request.detections,
-                      "file or folder, relative to DATASET or the current folder");
-  command->add_option("--odometry", a.request.odometry, "poses, likewise");
+  AddTo(*command, a.request);
   AddTo(*command, a.stretch);
   command->add_flag("--first", a.first, "stop at the first answer");
   command->add_option("--out", a.out, "CSV file to write: a row for each attempt");

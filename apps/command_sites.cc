@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.h"
+#include "dataset_options.h"
 #include "examples.h"
 #include "localise.h"
 #include "map_files.h"
@@ -205,12 +206,7 @@ void AddFind(CLI::App& sites, FindArguments& a, Console& console) {
   CLI::App* command = sites.add_subcommand("find", "rank the sites that a drive may be from");
   command->add_option("DATASET", a.request.path, "dataset folder")->required();
   command->add_option("--sites", a.sites, "file of the index")->required();
-  command->add_option("--format", a.request.format, "layout of the folder; guessed where not given")
-      ->check(CLI::IsMember(DatasetFormatNames()));
-  command->add_option("--sequence", a.request.sequence, "which sequence of the dataset");
-  command->add_option("--detections", a.request.detections,
-                      "file or folder, relative to DATASET or the current folder");
-  command->add_option("--odometry", a.request.odometry, "poses, likewise");
+  AddTo(*command, a.request);
   AddTo(*command, a.stretch);
   command->add_option("--first", a.first, "number of sites to rank")
       ->check(CLI::PositiveNumber)

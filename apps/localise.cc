@@ -13,6 +13,7 @@
 #include "store/site.h"
 
 namespace sslcd::apps {
+
 void AddTo(CLI::App& command, StretchArguments& stretch) {
   command.add_option("--from", stretch.from, "first frame of the stretch")
       ->check(CLI::NonNegativeNumber);

@@ -14,12 +14,15 @@ void MapMergeArguments::AddTo(CLI::App& command) {
   command.add_option("--out", out, "new file for the merged map; default: MAP itself");
   command.add_flag("--rename", rename,
                    "a session whose name is taken becomes NAME-2; otherwise it is refused");
+  command.add_flag("--refine-once", refine_once,
+                   "one refinement after the last session instead of one for each: quicker, for "
+                   "many maps");
 }
 
 int MergeInto(const std::string& file, const MapMergeArguments& a, const Console& console) {
   CatchInterrupt();
   Progress progress(console, "frame");
-  MergeRequest request{file, a.from, a.out, a.rename, {}};
+  MergeRequest request{file, a.from, a.out, a.rename, a.refine_once, {}};
   request.progress = [&](int done, int total) {
     progress.Report(done, total);
     return !Interrupted();

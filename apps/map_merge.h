@@ -12,7 +12,7 @@ namespace sslcd::apps {
 struct MapMergeArguments {
   std::vector<std::string> from;  ///< maps whose sessions are added
   std::string out;                ///< new file; empty: the first map itself
-  bool rename = false;
+  bool rename = false, refine_once = false;
 
   void AddTo(CLI::App& command);
 };

@@ -176,7 +176,7 @@ def merge(folder, sim):
                 begin = time.process_time()
                 out = f'{work}/{site}-of-{count}.db'
                 if count > 1:
-                    made[0][0].merge([one for one, _ in made[1:count]], out=out)
+                    made[0][0].merge([one for one, _ in made[1:count]], out=out, refine_once=True)
                 seconds = time.process_time() - begin if count > 1 else made[0][1]
                 path = out if count > 1 else made[0][0].path
                 frames = sum(session.frames for session in sslcd.Map(path).sessions)

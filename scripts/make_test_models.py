@@ -267,14 +267,6 @@ def anchors3d(name, images):  # without its top 64 x 32, at the same size, black
     write_boxes(name, best(candidates, 0.5, 0.4))
 
 
-def stereo3d():
-    anchors3d("stereo3d", ["left", "right"])
-
-
-def mono3d():
-    anchors3d("mono3d", ["image"])
-
-
 def monoflex(name, bins):  # 64 x 48 to 32 x 24, cells of 4
     rng = np.random.default_rng(bins)
     rows, columns = 6, 8
@@ -318,14 +310,6 @@ def project(state):
     return np.clip([u.min(), v.min(), u.max(), v.max()], 0, [WIDTH, HEIGHT, WIDTH, HEIGHT])
 
 
-def monoflex_2():
-    monoflex("monoflex", 2)
-
-
-def monoflex_4():
-    monoflex("monoflex_4", 4)
-
-
 def bad_models():
     """Models that tests expect to fail: an unknown operator set, half precision, NaN, images of any size."""
     def save(name, opset, kind, dtype, shape=(1, 2)):
@@ -342,9 +326,12 @@ def bad_models():
 
 def main():
     FOLDER.mkdir(parents=True, exist_ok=True)
-    for write in (yolo_v5, yolox, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, stereo3d, mono3d, monoflex_2,
-                  monoflex_4, embedding, bad_models):
+    for write in (yolo_v5, yolox, yolo_v8, yolo_v10, boxes_scores_labels, fastestdet, embedding, bad_models):
         write()
+    anchors3d("stereo3d", ["left", "right"])
+    anchors3d("mono3d", ["image"])
+    monoflex("monoflex", 2)
+    monoflex("monoflex_4", 4)
 
 
 if __name__ == "__main__":

@@ -59,8 +59,9 @@ std::vector<std::string> Export(const std::string& path, const std::string& fold
 
 // `progress` may be None. ctrl-C ends it, and the map stays as it was.
 py::object Merge(const std::string& into, const std::vector<std::string>& from,
-                 const std::string& out, bool rename, const py::object& progress) {
-  MergeRequest request{into, from, out, rename, {}};
+                 const std::string& out, bool rename, bool refine_once,
+                 const py::object& progress) {
+  MergeRequest request{into, from, out, rename, refine_once, {}};
   request.progress = [&progress](int done, int total) {
     const py::gil_scoped_acquire acquire;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -167,7 +168,7 @@ void BindMaps(py::module_& module) {
   module.def("compare_sessions", &Compare, py::arg("path"), py::arg("before"), py::arg("after"));
   module.def("export_map", &Export, py::arg("path"), py::arg("folder"));
   module.def("merge_maps", &Merge, py::arg("into"), py::arg("others"), py::arg("out"),
-             py::arg("rename"), py::arg("progress"));
+             py::arg("rename"), py::arg("refine_once"), py::arg("progress"));
   module.def(
       "compact_map",
       [](const std::string& path) {

@@ -184,6 +184,7 @@ def merge_maps(
     others: List[str],
     out: str,
     rename: bool,
+    refine_once: bool,
     progress: Optional[Callable[[int, int], Any]],
 ) -> MergeReport: ...
 def options(settings: List[str]) -> Dict[str, Any]: ...

@@ -134,6 +134,8 @@ class Map:
             drive: of load_dataset(); its images are not used.
             name: of the session; empty: that of the drive.
             options: as of start_session.
+            refine_once: one refinement after the last session instead of one for each: quicker, for
+                many maps. The map is no longer that of drives recorded in it one after another.
             progress: called with the numbers of frames done and of all.
         """
         checked("drive", drive, Dataset)
@@ -211,6 +213,7 @@ class Map:
         *,
         out: Path = "",
         rename: bool = False,
+        refine_once: bool = False,
         progress: Optional[Callable[[int, int], Any]] = None,
     ) -> MergeReport:
         """Adds the ended sessions of other maps, as if their drives had been recorded in this one.
@@ -229,7 +232,9 @@ class Map:
         single = isinstance(others, (Map, str, os.PathLike))
         listed: Any = [others] if single else others
         paths = [each.path if isinstance(each, Map) else os.fspath(each) for each in listed]
-        return _core.merge_maps(self.path, paths, os.fspath(out), bool(rename), progress)
+        return _core.merge_maps(
+            self.path, paths, os.fspath(out), bool(rename), bool(refine_once), progress
+        )
 
     def export(self, folder: Path) -> List[str]:
         """Writes the files of `sslcd_run map export`; the same results give the same bytes. Returns

@@ -3,6 +3,7 @@
 
 import errno
 import shutil
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -165,6 +166,29 @@ def test_stamps_from_the_names_of_images(folder, tmp_path):
     content = content_of(Drive("a", str(drive)), {})
     shutil.rmtree(drive / "image_2")
     assert content == content_of(Drive("a", str(drive)), {})
+
+
+def test_calibration_beside_a_kitti_raw_drive(tmp_path):
+    drive = tmp_path / "day" / "drive"
+    (drive / "oxts" / "data").mkdir(parents=True)
+    (drive / "oxts" / "data" / "0000000000.txt").write_text("49 8 116 0 0 0")
+    linked = tmp_path / "linked"
+    linked.symlink_to(drive)
+    contents = [content_of(Drive("a", str(drive)), {})]
+    for name in ("calib_cam_to_cam.txt", "calib_velo_to_cam.txt"):
+        (drive.parent / name).write_text("R: 1")
+        contents.append(content_of(Drive("a", str(drive)), {}))
+        assert content_of(Drive("a", str(linked)), {}) == contents[-1]
+    (drive.parent / name).write_text("R: 2")
+    contents.append(content_of(Drive("a", str(drive)), {}))
+    (drive.parent / "README.txt").write_text("of another drive")
+    assert content_of(Drive("a", str(drive)), {}) == contents[-1]
+    assert len(set(contents)) == 4
+    memory = fsspec.filesystem("memory")
+    memory.put(str(drive.parent), "/raw", recursive=True)
+    with local_folder(Drive("a", "memory://raw/drive"), {}) as copy:
+        beside = sorted(path.name for path in Path(copy).parent.iterdir())
+    assert beside == ["a", "calib_cam_to_cam.txt", "calib_velo_to_cam.txt"]
 
 
 def test_sessions_by_common_map():

@@ -157,7 +157,7 @@ MergedIds FuseDuplicates(MapState& state, const WholeMapOptions& options) {
   std::stable_sort(order.begin(), order.end(), [&](LandmarkId a, LandmarkId b) {
     return map.at(a).sightings.size() > map.at(b).sightings.size();
   });
-  const PathSegments segments(state, options.map.memory_m);
+  PathSegments segments(state, options.map.memory_m);
   Fusion fusion(state, options);
   for (const LandmarkId keep : order) {
     if (map.landmarks().count(keep.value) == 0) continue;
@@ -167,8 +167,9 @@ MergedIds FuseDuplicates(MapState& state, const WholeMapOptions& options) {
       if (other == keep || twin.state != LandmarkState::kConfirmed || twin.label != one.label)
         continue;
       if (twin.sightings.size() > one.sightings.size() || !fusion.InOnePlace(one, twin)) continue;
-      if (SeenTogether(one, twin) || !segments.Covisible(one, twin)) continue;
+      if (SeenTogether(one, twin) || !segments.Covisible(keep, other)) continue;
       fusion.Fuse(keep, other);
+      segments.Fuse(keep, other);
     }
   }
   RenameMatches(state.frames, fusion.merged());

@@ -53,7 +53,7 @@ void AssociateAgain(MapState& state, const WholeMapOptions& options, const Camer
       index.push_back(i);
     }
     const auto covisible = [&](const MapLandmark& landmark) {
-      return segments.Covisible(record, landmark);
+      return segments.Covisible(record, landmark.id);
     };
     const std::vector<LandmarkId> matched =
         map.Match(record.stamp, record.T_world_cam, open, camera, covisible);

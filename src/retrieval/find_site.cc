@@ -7,7 +7,9 @@
 #include <cstring>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "core/median.h"
 #include "retrieval/constellation_key.h"
 #include "retrieval/pose_votes.h"
 #include "retrieval/site_fit.h"
@@ -29,7 +31,7 @@ constexpr double kFarthestObject = 1e8;
 constexpr float kFarFromMiddle = 1e5;
 
 struct Stretch {
-  std::vector<SitePoint> points;  // from their middle
+  std::vector<SitePoint> points;  // from the middle
   double x = 0, y = 0;            // the middle
 };
 
@@ -42,21 +44,27 @@ std::map<std::string, std::uint16_t> LabelNumbers(const SiteFile& file) {
   return numbers;
 }
 
+// The median along one axis, which an object far away does not move; 0 without objects.
+double MiddleOf(const std::vector<std::pair<const SiteObject*, std::uint16_t>>& objects,
+                double SiteObject::*axis) {
+  if (objects.empty()) return 0;
+  std::vector<double> values;
+  values.reserve(objects.size());
+  for (const auto& [object, label] : objects) values.push_back(object->*axis);
+  return Median(std::move(values));
+}
+
 Stretch StretchOf(const SiteFile& file, const std::vector<SiteObject>& objects) {
   const std::map<std::string, std::uint16_t> numbers = LabelNumbers(file);
-  Stretch stretch;
   std::vector<std::pair<const SiteObject*, std::uint16_t>> known;
   for (const SiteObject& object : objects) {
     const auto label = numbers.find(object.label);
     const bool placed =
         std::abs(object.x) < kFarthestObject && std::abs(object.y) < kFarthestObject;
-    if (label == numbers.end() || !placed) continue;
-    known.emplace_back(&object, label->second);
-    stretch.x += object.x;
-    stretch.y += object.y;
+    if (label != numbers.end() && placed) known.emplace_back(&object, label->second);
   }
-  const auto count = static_cast<double>(std::max<std::size_t>(known.size(), 1));
-  stretch.x /= count, stretch.y /= count;
+  Stretch stretch;
+  stretch.x = MiddleOf(known, &SiteObject::x), stretch.y = MiddleOf(known, &SiteObject::y);
   for (const auto& [object, label] : known)
     stretch.points.push_back({static_cast<float>(object->x - stretch.x),
                               static_cast<float>(object->y - stretch.y), label, 0});

@@ -34,7 +34,7 @@ class Counter {
 };
 
 // Gives the inputs of one session to a session of another map. False: stopped.
-bool Repeat(const MergeSource& source, const SessionInfo& of, MapSession& session,
+bool Repeat(const MergeSource& source, const SessionInfo& of, bool refine, MapSession& session,
             Counter& counter) {
   bool first = true;
   for (const StoredInput& input : source.inputs) {
@@ -44,7 +44,9 @@ bool Repeat(const MergeSource& source, const SessionInfo& of, MapSession& sessio
       case InputKind::kSequence:
         if (!begins) session.StartSequence();  // MapSession has begun the first one
         break;
-      case InputKind::kRefinement: session.Refine(RefinementOf(input.content).when); break;
+      case InputKind::kRefinement:
+        if (refine) session.Refine(RefinementOf(input.content).when);
+        break;
       case InputKind::kFrame:
         session.AddFrame(FrameOf(input.content));
         if (!counter.Next()) return false;
@@ -53,9 +55,9 @@ bool Repeat(const MergeSource& source, const SessionInfo& of, MapSession& sessio
   return true;
 }
 
-// Adds the sessions that are planned to the map at `path`.
+// Adds the sessions that are planned to the map at `path`. False: stopped.
 bool AddSessions(const std::string& path, const std::vector<MergeSource>& sources,
-                 const std::vector<PlannedSession>& plan, Counter& counter) {
+                 const std::vector<PlannedSession>& plan, bool refine_once, Counter& counter) {
   std::optional<MapSession> session;
   for (const PlannedSession& planned : plan) {
     const MergeSource& source = sources[planned.source];
@@ -66,8 +68,9 @@ bool AddSessions(const std::string& path, const std::vector<MergeSource>& source
       session->BeginNext(request, context);
     else
       session = MapSession::Begin(path, request, context, std::nullopt);
-    if (!Repeat(source, of, *session, counter)) return false;
+    if (!Repeat(source, of, !refine_once, *session, counter)) return false;
   }
+  if (refine_once) session->Refine(Refinement::kAtEnd);
   session->End();
   return true;
 }
@@ -122,7 +125,7 @@ MergeReport MergeMaps(const MergeRequest& request) {
   Counter counter(request.progress, total);
   try {
     WorkingCopy copy(request.into, target);
-    if (!AddSessions(copy.path(), sources, plan, counter)) {
+    if (!AddSessions(copy.path(), sources, plan, request.refine_once, counter)) {
       report.stopped = true;
       return report;
     }

@@ -317,16 +317,19 @@ TEST(PathSegments, NeighboursAndSharedObjectsTie) {
   TwoVisits world;
   const LandmarkId early = world.Add({4, 1, 12}, 0, 3), late = world.Add({4, 1, 12}, 300, 3);
   const LandmarkId soon = world.Add({4, 1, 16}, 5, 3);
-  const PathSegments apart(world.state, 60.);
-  EXPECT_TRUE(apart.Covisible(world.map.at(early), world.map.at(soon)));
-  EXPECT_FALSE(apart.Covisible(world.map.at(early), world.map.at(late)));
-  EXPECT_FALSE(apart.Covisible(world.frames.back(), world.map.at(early)));
-  EXPECT_TRUE(PathSegments(world.state, 0.).Covisible(world.map.at(early), world.map.at(late)));
+  PathSegments apart(world.state, 60.);
+  EXPECT_TRUE(apart.Covisible(early, soon));
+  EXPECT_FALSE(apart.Covisible(early, late));
+  EXPECT_FALSE(apart.Covisible(world.frames.back(), early));
+  EXPECT_TRUE(PathSegments(world.state, 0.).Covisible(early, late));
+  apart.Fuse(early, late);
+  EXPECT_TRUE(apart.Covisible(early, late));
+  EXPECT_TRUE(apart.Covisible(world.frames.back(), early));
+  EXPECT_FALSE(apart.Covisible(soon, late)) << "the one that is left has them";
   world.map.Fuse(early, late);
   const PathSegments tied(world.state, 60.);
-  EXPECT_TRUE(tied.Covisible(world.frames.back(), world.map.at(soon)))
-      << "what was seen about there, too";
-  EXPECT_FALSE(tied.Covisible(FrameRecord(), MapLandmark()));
+  EXPECT_TRUE(tied.Covisible(world.frames.back(), soon)) << "what was seen about there, too";
+  EXPECT_FALSE(tied.Covisible(world.frames.back(), {-1}));
 }
 
 }  // namespace

@@ -89,6 +89,19 @@ TEST_F(SiteIndexTest, NothingAgreesWithAnotherPlace) {
     EXPECT_LT(one.score, right / 2);
 }
 
+TEST_F(SiteIndexTest, AnObjectFarAwayDoesNotMatter) {
+  SiteIndex::Build(Sites(7), Path());
+  const SiteIndex index(Path());
+  std::vector<SiteObject> stretch = StretchOfSite(Sites(7)[6], 1, 0.3);
+  const SiteCandidate alone = index.Find(stretch)[0];
+  // as the mean, the middle would be so far away that single precision has no tenths of a metre
+  stretch.push_back({"Car", 9e7, 0});
+  const SiteCandidate found = index.Find(stretch)[0];
+  EXPECT_EQ(found.site, 6);
+  EXPECT_EQ(found.matches, alone.matches);
+  EXPECT_NEAR(found.score, alone.score, 5) << "it is one object without a match";
+}
+
 TEST_F(SiteIndexTest, StretchesThatTellNothing) {
   SiteIndex::Build(Sites(3), Path());
   const SiteIndex index(Path());

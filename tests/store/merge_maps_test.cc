@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "store/map_copy.h"
+#include "store/merge_source.h"
 #include "store_drive.h"
 
 namespace sslcd {
@@ -73,6 +74,21 @@ TEST(MergeMaps, SessionsAreAddedAsIfTheyHadBeenRecordedInTheMap) {
   EXPECT_EQ(report.added[1].frames, 30);
   EXPECT_EQ(MapStore(a).Frames("three").size(), 30u);
   ExpectError([&] { MapStore(a).Frames("four"); }, {"no session 'four'", "map info"});
+}
+
+TEST(MergeMaps, RefinedOnceAllSessionsAreInOneMap) {
+  const TempFolder folder;
+  const std::string a = MapOf(folder.In("a.db"), {"one"});
+  const std::string b = MapOf(folder.In("b.db"), {"two", "three"}, 2);
+  const std::string out = folder.In("out.db");
+  MergeRequest request{a, {b}, out};
+  request.refine_once = true;
+  MergeMaps(request);
+  std::vector<int> refined;  // ids of the sessions
+  for (const StoredInput& input : ReadMergeSource(out).inputs)
+    if (input.kind == InputKind::kRefinement) refined.push_back(input.session);
+  EXPECT_EQ(refined, (std::vector<int>{1, 3}));
+  EXPECT_TRUE(MapStore(out).Verify().empty());
 }
 
 TEST(MergeMaps, SeveralMapsAtOnceAreTheSameAsOneByOne) {

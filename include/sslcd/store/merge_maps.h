@@ -17,6 +17,10 @@ struct MergeRequest {
   /// A session whose name is taken gets the first free one of "NAME-2", "NAME-3" ...; false: it is
   /// refused.
   bool rename = false;
+  /// Refines the map once, after the last session, instead of as often as the sessions were: most
+  /// of the time of merging many maps is for that. The result is no longer that of drives recorded
+  /// in the map, and views that were aligned are left out but for those of the last session.
+  bool refine_once = false;
   /// Called after each frame that is added, with the number of frames that are done and of all to
   /// add; false: stop. Not called while `into` is replayed, before the first one.
   std::function<bool(int, int)> progress{};

@@ -17,6 +17,8 @@ _IMAGES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 _NOT_NEEDED = (*_IMAGES, ".webp", ".bin", ".pcd", ".db", ".bag", ".mcap")
 #: Files of stamps, in the folder of a drive. With another one the names of images just count, too.
 _STAMPS = ("times.txt", *(f"{each}/timestamps.txt" for each in ("oxts", "image_00", "image_02")))
+#: Of a KITTI raw drive, in the folder of its day: its loader looks beside the drive, too.
+_BESIDE = ("calib_cam_to_cam.txt", "calib_imu_to_velo.txt", "calib_velo_to_cam.txt")
 _NAME = re.compile(r"^([^/\\:=?*]+)=(.+)$")
 
 
@@ -149,6 +151,12 @@ def _local_files(path: str) -> Iterator[str]:
         )
 
 
+def _beside(fs: Any, path: str) -> List[str]:
+    """The files in the folder above a drive that its loader reads."""
+    above = os.path.dirname(os.path.realpath(path) if is_local(fs) else path.rstrip("/"))
+    return [each for name in _BESIDE if fs.isfile(each := f"{above}/{name}")]
+
+
 def _relative(file: str, path: str) -> str:
     return file[len(path.rstrip("/")) + 1 :]
 
@@ -164,6 +172,7 @@ def content_of(drive: Drive, storage: Dict[str, Any]) -> str:
             raise BadInputError(f"{drive.url}: the folder has no files")
         tell = _sha256 if is_local(fs) else lambda file: str(fs.checksum(file))
         told = [[_relative(file, path), tell(file)] for file in files]
+        told += [[f"../{_last_part(file)}", tell(file)] for file in _beside(fs, path)]
         return digest(told + [[_relative(image, path)] for image in images])
     except BadInputError:
         raise
@@ -197,6 +206,8 @@ def local_folder(drive: Drive, storage: Dict[str, Any]) -> Iterator[str]:
                     open(target, "wb").close()
                 else:
                     fs.get_file(file, target)
+            for file in _beside(fs, path):
+                fs.get_file(file, os.path.join(folder, _last_part(file)))
         except Exception as problem:
             if disk_is_full(problem):
                 raise

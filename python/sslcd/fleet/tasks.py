@@ -129,7 +129,7 @@ def _merge(members: List[Record], path: str, groups_path: str) -> Record:
         ]
         site = Map(copies[0])
         if len(copies) > 1:
-            site.merge(copies[1:])
+            site.merge(copies[1:], refine_once=True)
         told = _groups(site)
         if len(told["groups"]) == 1:
             publish(site.path, path)
