@@ -82,7 +82,8 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   }
 }
 
-void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
+void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite,
+                           const std::string& way_out) {
   MakeWritableFolder(folder.string());
   std::error_code error;
   const bool empty = std::filesystem::is_empty(folder, error);
@@ -90,9 +91,7 @@ void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) 
     throw Error(ErrorKind::kOutput,
                 folder.string() + ": " + error.message() + "; choose another folder");
   if (!overwrite && !empty)
-    throw Error(
-        ErrorKind::kUsage,
-        folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+    throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; " + way_out);
 }
 
 }  // namespace sslcd

@@ -32,8 +32,10 @@ struct SequenceFiles {
 /// of an earlier run whose parts are missing, except config.yaml. Throws Error(kOutput).
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
-/// Creates the folder. Throws Error(kUsage) if it is not empty and `overwrite` is not set, and
-/// Error(kOutput) if it cannot be created.
-void PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
+/// Creates the folder. Throws Error(kUsage) if it is not empty and `overwrite` is not set, with
+/// what to do then, and Error(kOutput) if it cannot be created.
+void PrepareSequenceFolder(
+    const std::filesystem::path& folder, bool overwrite,
+    const std::string& way_out = "choose another folder or overwrite it (--force)");
 
 }  // namespace sslcd
