@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "formats/atomic_file.h"
+#include "formats/files.h"
 #include "sslcd/core/error.h"
 #include "sslcd/perception/opencv_image.h"
 
@@ -80,11 +81,9 @@ void Overlays::RemoveOthers() const {
   namespace fs = std::filesystem;
   std::error_code error;
   std::vector<fs::path> others;
-  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(it->path()))
-      others.push_back(it->path());
-  }
+  for (const std::string& name : FileNames(folder_.string()))
+    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(folder_ / name, error))
+      others.push_back(folder_ / name);
   for (const fs::path& path : others) {
     fs::remove(path, error);
     if (error)
