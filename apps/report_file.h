@@ -6,9 +6,10 @@
 
 namespace sslcd::apps {
 
-/// Writes a page that shows the run folders. `groundtruth`: see ReadRun. Throws Error if a run
-/// cannot be read, if the libraries of the page were not built in, or if it cannot be written.
+/// Writes a page that shows the run folders. `groundtruth`: see ReadRun; `images`: with crops of
+/// the matched objects, see AddLoopImages. Throws Error if a run cannot be read, if the libraries
+/// of the page were not built in, or if it cannot be written.
 void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
-                 const std::string& out);
+                 const std::string& out, bool images = true);
 
 }  // namespace sslcd::apps

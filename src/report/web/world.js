@@ -65,18 +65,6 @@ function clearGroup(group) {
   }
 }
 
-// Segments from each row to the next; none where a row has no position.
-function pathMesh(flat, colour) {
-  const count = flat.length / 3, positions = new Float32Array(Math.max(0, 6 * (count - 1)));
-  for (let i = 0; i + 1 < count; ++i) {
-    const there = flat[3 * i] !== null && flat[3 * i + 3] !== null;
-    for (let k = 0; k < 6; ++k) positions[6 * i + k] = there ? flat[3 * i + k] * 1e-3 : NaN;
-    if (!there) positions.fill(0, 6 * i, 6 * i + 6);
-    if (there) (positions[6 * i + 1] += lift(i)), (positions[6 * i + 4] += lift(i + 1));
-  }
-  return segmentsMesh(positions, colour);
-}
-
 function segmentsMesh(positions, colour, colours) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
