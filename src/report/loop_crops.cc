@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
 
 #include "perception/projection.h"
 
@@ -14,6 +15,7 @@ constexpr int kMostFramesAway = 150;  // from the camera of the loop
 constexpr int kFramesOfASide = 2;
 constexpr double kLeastWidthPx = 8, kLeastHeightPx = 12;
 
+using Sights = std::map<std::size_t, Sight>;  // by pair
 using ObjectById = std::map<int, const MapObject*>;
 
 struct Candidate {
@@ -62,16 +64,24 @@ std::map<int, std::vector<Candidate>> CandidatesOf(const RunView& run, const Obj
   return by_frame;
 }
 
-// A sight of each pair that has one, from as few frames as see most of them.
-std::map<std::size_t, Sight> SightsOf(const std::map<int, std::vector<Candidate>>& by_frame) {
-  std::map<std::size_t, Sight> sights;
+std::set<std::size_t> PairsOf(const std::map<int, std::vector<Candidate>>& by_frame) {
+  std::set<std::size_t> pairs;
+  for (const auto& [frame, candidates] : by_frame)
+    for (const Candidate& candidate : candidates) pairs.insert(candidate.pair);
+  return pairs;
+}
+
+// A sight of those pairs that have one, from as few frames as see most of them.
+Sights SightsOf(const std::map<int, std::vector<Candidate>>& by_frame,
+                const std::set<std::size_t>& pairs) {
+  Sights sights;
   for (int i = 0; i < kFramesOfASide; ++i) {
     std::pair<std::size_t, double> most{0, 0};  // pairs, area
     const std::pair<const int, std::vector<Candidate>>* best = nullptr;
     for (const auto& entry : by_frame) {
       std::pair<std::size_t, double> found{0, 0};
       for (const Candidate& candidate : entry.second) {
-        if (sights.count(candidate.pair) > 0) continue;
+        if (sights.count(candidate.pair) > 0 || pairs.count(candidate.pair) == 0) continue;
         ++found.first;
         found.second += candidate.box.Area();
       }
@@ -79,7 +89,8 @@ std::map<std::size_t, Sight> SightsOf(const std::map<int, std::vector<Candidate>
     }
     if (best == nullptr) break;
     for (const Candidate& candidate : best->second)
-      sights.emplace(candidate.pair, Sight{best->first, candidate.box});
+      if (pairs.count(candidate.pair) > 0)
+        sights.emplace(candidate.pair, Sight{best->first, candidate.box});
   }
   return sights;
 }
@@ -97,8 +108,12 @@ std::vector<SeenPair> SeenPairs(const RunView& run, const Camera& camera,
   std::vector<SeenPair> pairs;
   for (std::size_t k = 0; k < accepted.size(); k += std::max<std::size_t>(1, every)) {
     const LoopClosure& loop = run.loops[accepted[k]];
-    const auto query = SightsOf(CandidatesOf(run, objects, loop, true, camera));
-    const auto match = SightsOf(CandidatesOf(run, objects, loop, false, camera));
+    const auto near_query = CandidatesOf(run, objects, loop, true, camera);
+    const auto near_match = CandidatesOf(run, objects, loop, false, camera);
+    const Sights query = SightsOf(near_query, PairsOf(near_match));
+    std::set<std::size_t> seen;
+    for (const auto& [pair, sight] : query) seen.insert(pair);
+    const Sights match = SightsOf(near_match, seen);
     std::size_t count = 0;
     for (const auto& [pair, sight] : query) {
       const auto other = match.find(pair);

@@ -95,26 +95,29 @@ function pairNames(attempt) {
 // The matched objects as both cameras have seen them.
 function cropTable(attempt) {
   const image = (index, frame) => element("td", {}, element("img", { src: "data:image/jpeg;base64," + run.images[index], alt: `seen near frame ${frame}` }));
-  const rows = attempt.crops.map(([pair, query, match]) => element("tr", {}, element("td", { className: "text", textContent: pairNames(attempt)[pair] }),
-    image(query, attempt.query), image(match, attempt.match)));
-  const head = ["Object", `near frame ${attempt.query}`, `near frame ${attempt.match}`].map((text) => element("th", { textContent: text }));
-  return element("table", { className: "crops" }, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
+  const names = pairNames(attempt), heading = (text) => element("th", { className: "text", textContent: text });
+  const rows = [[heading(""), ...attempt.crops.map(([pair]) => element("td", { textContent: names[pair] }))],
+    [heading(`near ${attempt.query}`), ...attempt.crops.map(([, query]) => image(query, attempt.query))],
+    [heading(`near ${attempt.match}`), ...attempt.crops.map(([, , match]) => image(match, attempt.match))]];
+  return element("div", { className: "scroll" }, element("table", { className: "crops" }, element("tbody", {}, ...rows.map((cells) => element("tr", {}, ...cells)))));
 }
 
 function describeChosen() {
   $("details").hidden = !chosen;
-  if (!chosen) return;
+  if (!chosen) return makeRoom();
   const facts = [
     `${chosen.decision}: ${chosen.reason}`,
     `Viewpoint change ${chosen.angle.toFixed(0)}°, log odds ${chosen.score} (second best ${chosen.second})` +
       (chosen.probability === null ? "" : `, probability ${chosen.probability}`),
     chosen.error === null ? "" : `Off by ${chosen.error} m from the ground truth`,
-    `${chosen.pairs.length / 2} objects matched: ${pairNames(chosen).join(", ")}`,
   ];
+  const pairs = `${chosen.pairs.length / 2} objects matched: ${pairNames(chosen).join(", ")}`;
   const close = element("button", { type: "button", textContent: "Close" });
   close.onclick = () => chooseLoop(null);
   $("details").replaceChildren(element("strong", { textContent: `Frame ${chosen.query} at frame ${chosen.match}` }), " ", close,
-    ...facts.filter(Boolean).map((fact) => element("div", { textContent: fact })), ...(chosen.crops ? [cropTable(chosen)] : []));
+    ...facts.filter(Boolean).map((fact) => element("div", { textContent: fact })), ...(chosen.crops ? [cropTable(chosen)] : []),
+    element("div", { textContent: pairs }));
+  makeRoom();
 }
 
 function chooseLoop(attempt) {

@@ -18,7 +18,7 @@ function startWorld() {
   const sun = new THREE.DirectionalLight(0xffffff, 0.35);
   sun.position.set(0.4, 1, 0.6);
   world.scene.add(sun);
-  new ResizeObserver(resize).observe($("stage"));
+  new ResizeObserver(resize).observe($("scene"));
   return true;
 }
 
@@ -35,12 +35,22 @@ function drawNow() {
   if (!world.first_frame_ms) world.first_frame_ms = performance.now();
 }
 
+// The middle of the view is beside the box that describes the chosen loop; on narrow screens that is below the map.
+function makeRoom() {
+  if (!world.renderer) return;
+  const scene = $("scene"), box = $("details"), over = !box.hidden && getComputedStyle(box).position === "absolute";
+  if (over && view.mode !== "driver") world.camera.setViewOffset(scene.clientWidth, scene.clientHeight, box.offsetWidth / 2, 0, scene.clientWidth, scene.clientHeight);
+  else world.camera.clearViewOffset();
+  draw();
+}
+
 function resize() {
-  const stage = $("stage"), width = stage.clientWidth, height = stage.clientHeight;
+  const width = $("scene").clientWidth, height = $("scene").clientHeight;
   world.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
   world.renderer.setSize(width, height, false);
   world.camera.aspect = width / Math.max(1, height);
   world.camera.updateProjectionMatrix();
+  makeRoom();
   drawNow(); // a canvas that was resized is empty
 }
 
