@@ -55,6 +55,17 @@ TEST(SeenPairs, KeepsItsLimits) {
   EXPECT_EQ(SeenPairs(run, kCamera, {3, 5}).size(), 3 * 4u) << "each third of seven";
 }
 
+TEST(SeenPairs, LeavesOutWhatIsBehindSomething) {
+  RunView run = TwoPasses();
+  MapObject front = run.map.objects[1];
+  front.id.value = 50;
+  front.T_world_object.translation() *= .9;
+  run.map.objects.push_back(front);
+  EXPECT_EQ(SeenPairs(run, kCamera).size(), 3u);
+  for (Observation& seen : run.map.objects.back().observations) seen.frame += 10;
+  EXPECT_EQ(SeenPairs(run, kCamera).size(), 4u) << "not in front in those frames";
+}
+
 TEST(SeenPairs, LeavesOutWhatNobodyCouldSee) {
   RunView run = TwoPasses();
   run.loops[0].decision = LoopDecision::kAmbiguous;
