@@ -36,12 +36,13 @@ std::vector<std::string> NamesOf(const std::vector<RunView>& runs) {
 }  // namespace
 
 void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
-                 const std::string& out, bool images) {
+                 const std::string& out, bool images, const std::string& metrics) {
   RequireReportLibraries();
   std::vector<RunView> views;
   for (const std::string& run : runs) {
     views.push_back(ReadRun(run, groundtruth));
     if (images) AddLoopImages(views.back());
+    if (!metrics.empty()) views.back().metrics_json = metrics;
   }
   const std::vector<std::string> names = NamesOf(views);
   const std::string title = views.size() == 1 ? names[0] : std::to_string(views.size()) + " runs";
