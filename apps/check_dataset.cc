@@ -13,11 +13,13 @@ check::CheckReport CheckDataset(const DatasetRequest& request, const Dataset& da
   return check::CheckSequence(check::MakeSequence(dataset, file));
 }
 
-void WarnOfMistakes(const DatasetRequest& request, const Dataset& dataset) {
-  for (const auto& line : CheckDataset(request, dataset).lines)
+check::CheckReport WarnOfMistakes(const DatasetRequest& request, const Dataset& dataset) {
+  check::CheckReport report = CheckDataset(request, dataset);
+  for (const auto& line : report.lines)
     if (const auto& mistake = line.outcome.mistake)
       Log(LogLevel::kWarning, "check: " + mistake->id + ": " + mistake->evidence +
                                   ". Try: " + check::MistakeOf(mistake->id).fix);
+  return report;
 }
 
 }  // namespace sslcd::apps

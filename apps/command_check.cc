@@ -57,7 +57,7 @@ int Check(CheckArguments& a, const Console& console) {
   if (!a.fix.empty()) {
     const SequenceFiles files = check::RepairedFiles(report);
     RefuseFolder(a.request.path, a.fix);
-    const FileLock lock = PrepareSequenceFolder(a.fix, false);
+    const FileLock lock = PrepareSequenceFolder(a.fix, false, "choose another folder or empty it");
     WriteSequenceFiles(a.fix, files);
     if (!a.json) console.Say("wrote " + a.fix);
     return 0;

@@ -6,6 +6,8 @@
 #include "datasets/run_folder.h"
 #include "evaluation.h"
 #include "examples.h"
+#include "report/report_page.h"
+#include "report_file.h"
 #include "sslcd/core/error.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/formats/poses.h"
@@ -14,12 +16,13 @@ namespace sslcd::apps {
 namespace {
 
 struct EvalArguments {
-  std::string run, groundtruth, labels, detections;
+  std::string run, groundtruth, labels, detections, report;
   bool json = false;
 };
 
 int Eval(const EvalArguments& a, const Console& console) {
   CheckRunFolder(a.run);
+  if (!a.report.empty()) RequireReportLibraries();
   EvaluationInput input;
   input.estimate = ReadTrajectory(a.run + "/trajectory_tum.txt");
   input.odometry = ReadTrajectory(a.run + "/odometry_tum.txt");
@@ -43,6 +46,7 @@ int Eval(const EvalArguments& a, const Console& console) {
     input.labels_path = a.labels;
   }
   const Metrics metrics = Evaluate(input);
+  if (!a.report.empty()) WriteReport({a.run}, a.groundtruth, a.report, true, MetricsJson(metrics));
   if (a.json) {
     std::fputs(MetricsJson(metrics).c_str(), stdout);
     return 0;
@@ -70,9 +74,12 @@ Command AddEvalCommand(CLI::App& app, Console& console) {
                                                 "the detections that the run was made from");
   labels->needs(detections);
   detections->needs(labels);
+  command->add_option("--report", arguments->report,
+                      "and a page with this comparison, see 'sslcd_run report'");
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(Examples({"eval runs/monday --groundtruth my_sequence/groundtruth.txt",
-                            "eval runs/monday --groundtruth my_sequence/groundtruth.txt --json"}));
+                            "eval runs/monday --groundtruth my_sequence/groundtruth.txt --json",
+                            "eval runs/monday --groundtruth gps.txt --report monday.html"}));
   return [arguments, &console] {
     console.InstallLog();
     return Eval(*arguments, console);

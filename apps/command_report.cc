@@ -9,6 +9,7 @@
 #include "report/report_data.h"
 #include "report/report_page.h"
 #include "report_file.h"
+#include "report_images.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd::apps {
@@ -17,6 +18,7 @@ namespace {
 struct ReportArguments {
   std::vector<std::string> runs;
   std::string out, groundtruth;
+  bool no_images = false;
 };
 
 // The name of the sequence, and of the folder where several have the same.
@@ -34,10 +36,14 @@ std::vector<std::string> NamesOf(const std::vector<RunView>& runs) {
 }  // namespace
 
 void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
-                 const std::string& out) {
+                 const std::string& out, bool images, const std::string& metrics) {
   RequireReportLibraries();
   std::vector<RunView> views;
-  for (const std::string& run : runs) views.push_back(ReadRun(run, groundtruth));
+  for (const std::string& run : runs) {
+    views.push_back(ReadRun(run, groundtruth));
+    if (images) AddLoopImages(views.back());
+    if (!metrics.empty()) views.back().metrics_json = metrics;
+  }
   const std::vector<std::string> names = NamesOf(views);
   const std::string title = views.size() == 1 ? names[0] : std::to_string(views.size()) + " runs";
   WriteFileAtomically(out, ReportPage(ReportJson(views, names), title + " - sslcd"));
@@ -52,12 +58,14 @@ Command AddReportCommand(CLI::App& app, Console& console) {
   command->add_option("--out", a->out, "page to write; default: report.html in the first RUN");
   command->add_option("--groundtruth", a->groundtruth,
                       "true poses; default: those that the run was compared with");
+  command->add_flag("--no-images", a->no_images,
+                    "no crops of the run's images, e.g. in a page for others");
   command->footer(
       Examples({"report runs/monday", "report runs/monday runs/tuesday --out both.html"}));
   return [a, &console] {
     console.InstallLog();
     const std::string out = a->out.empty() ? a->runs[0] + "/report.html" : a->out;
-    WriteReport(a->runs, a->groundtruth, out);
+    WriteReport(a->runs, a->groundtruth, out, !a->no_images);
     console.Say("wrote " + out);
     return 0;
   };

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "check/report_text.h"
 #include "check_dataset.h"
 #include "commands.h"
 #include "datasets/run_folder.h"
@@ -73,7 +74,12 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_flag("--json", a.json, "print the metrics as JSON and nothing else");
 }
 
-Dataset Load(RunArguments& a, const Console& console) {
+struct Input {
+  Dataset dataset;
+  std::optional<std::vector<CheckRecord>> check;  // none: not tested
+};
+
+Input Load(RunArguments& a, const Console& console) {
   ChooseOdometry(a.request);
   if (!a.images.embedder.empty() && !a.images.detects())
     throw Error(ErrorKind::kUsage,
@@ -85,9 +91,10 @@ Dataset Load(RunArguments& a, const Console& console) {
   a.request.detection_options.score = a.score == "auto"          ? ScoreKind::kAuto
                                       : a.score == "probability" ? ScoreKind::kProbability
                                                                  : ScoreKind::kLogit;
-  Dataset dataset = LoadDataset(a.request);
+  Input input{LoadDataset(a.request), {}};
+  const Dataset& dataset = input.dataset;
   for (const std::string& warning : dataset.warnings) Log(LogLevel::kWarning, warning);
-  if (!a.no_check) WarnOfMistakes(a.request, dataset);
+  if (!a.no_check) input.check = check::Records(WarnOfMistakes(a.request, dataset));
   std::string line = dataset.name + ": " + dataset.format +
                      (a.request.format == "auto" ? " (guessed), " : ", ") +
                      std::to_string(dataset.frames.size()) + " frames, " +
@@ -99,7 +106,7 @@ Dataset Load(RunArguments& a, const Console& console) {
     Log(LogLevel::kWarning,
         "no detections: the map will be empty, and nothing but images that can be aligned corrects "
         "the odometry");
-  return dataset;
+  return input;
 }
 
 // The file of the true identities. Empty if there is none, or no ground-truth poses.
@@ -281,7 +288,8 @@ int Run(RunArguments& a, const Console& console) {
     lock.emplace(LockFolder(a.out));  // fails before the run, not after it
     if (!a.force && a.out != kLatest) RefuseOtherRun(a.out);
   }
-  Dataset dataset = Load(a, console);
+  Input input = Load(a, console);
+  Dataset& dataset = input.dataset;
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file, a.map.file},
                     RunFolderPaths(a.out));
@@ -295,6 +303,7 @@ int Run(RunArguments& a, const Console& console) {
   outputs.metrics = EvaluateRun(a, dataset, std::move(identities), mapped, outputs);
   WarnOfLimits(mapped);
   outputs.record = RecordOfRun(a, dataset, mapped, console);
+  outputs.record.check = std::move(input.check);
   std::vector<std::string> paths;
   if (!a.out.empty()) paths = WriteRunFolder(a.out, outputs);
   if (a.report && !a.out.empty()) {

@@ -8,13 +8,20 @@
 
 #include "console.h"
 #include "formats/atomic_file.h"
+#include "formats/files.h"
 #include "sslcd/core/error.h"
 #include "sslcd/perception/opencv_image.h"
 
 namespace sslcd::apps {
 namespace {
 
-// Corner k of a cuboid: bit 0 front, bit 1 left, bit 2 top.
+void DrawLabel(cv::Mat& image, const std::string& text, const cv::Point& at, double scale,
+               const cv::Scalar& colour) {
+  for (const auto& [ink, width] : {std::pair(cv::Scalar(0, 0, 0), 3), std::pair(colour, 1)})
+    cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, scale, ink, width, cv::LINE_AA);
+}
+
+// Corner k of a cuboid: bit 0 front, bit 1 left, bit 2 top. A cross marks the front.
 void DrawCuboid(cv::Mat& image, const Detection& detection, const Camera& camera,
                 const cv::Scalar& colour) {
   constexpr double kNear = 0.5;  // [m]
@@ -31,6 +38,8 @@ void DrawCuboid(cv::Mat& image, const Detection& detection, const Camera& camera
   for (int k = 0; k < 8; ++k)
     for (const int bit : {1, 2, 4})
       if (!(k & bit)) cv::line(image, corners[k], corners[k | bit], colour, 1, cv::LINE_AA);
+  cv::line(image, corners[1], corners[7], colour, 1, cv::LINE_AA);
+  cv::line(image, corners[3], corners[5], colour, 1, cv::LINE_AA);
 }
 
 std::string NameOf(int frame) {
@@ -64,13 +73,15 @@ void Overlays::Write(const Frame& frame, const ImageView& left, const Camera& ca
   for (const Detection& detection : frame.detections) {
     DrawCuboid(image, detection, camera, cuboid_colour);
     if (!detection.box) continue;
+    const double distance_m = detection.T_cam_object.translation().norm();
     const cv::Point top_left(cvRound(detection.box->left), cvRound(detection.box->top));
     cv::rectangle(image, top_left, {cvRound(detection.box->right), cvRound(detection.box->bottom)},
                   box_colour);
-    cv::putText(image, detection.label + Number(" %.2f", detection.score),
-                top_left + cv::Point(2, -3), cv::FONT_HERSHEY_SIMPLEX, 0.4, box_colour, 1,
-                cv::LINE_AA);
+    DrawLabel(image,
+              detection.label + Number(" %.2f", detection.score) + Number(" %.1f m", distance_m),
+              top_left + cv::Point(2, -3), 0.4, box_colour);
   }
+  DrawLabel(image, "frame " + std::to_string(frame.index), {6, 20}, 0.6, {255, 255, 255});
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", image, bytes);
   WriteFileAtomically(path, {bytes.begin(), bytes.end()}, Durability::kUnsynced);
@@ -80,11 +91,9 @@ void Overlays::RemoveOthers() const {
   namespace fs = std::filesystem;
   std::error_code error;
   std::vector<fs::path> others;
-  for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(it->path()))
-      others.push_back(it->path());
-  }
+  for (const std::string& name : FileNames(folder_.string()))
+    if (IsName(name) && written_.count(name) == 0 && fs::is_regular_file(folder_ / name, error))
+      others.push_back(folder_ / name);
   for (const fs::path& path : others) {
     fs::remove(path, error);
     if (error)

@@ -12,7 +12,8 @@
 
 namespace sslcd::apps {
 
-/// Left images with boxes and cuboids drawn on them, one file per frame: FOLDER/000007.jpg. Creates
+/// Left images with the frame's number, boxes with label, score and distance, and cuboids whose
+/// front has a cross, one file per frame: FOLDER/000007.jpg. Creates
 /// the folder with the first image and leaves all other files alone.
 class Overlays {
  public:

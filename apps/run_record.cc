@@ -60,6 +60,7 @@ RunRecord RecordRun(const Dataset& dataset,
   record.dataset = dataset.name;
   record.format = dataset.format;
   record.labels = dataset.labels;
+  record.camera = dataset.camera;
   record.started = g_started;
   std::vector<std::pair<std::string, std::string>> inputs = dataset.parts;
   inputs.insert(inputs.end(), others.begin(), others.end());

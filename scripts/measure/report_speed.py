@@ -11,9 +11,15 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../tests/browser'))
 from browser import Browser, find_chromium  # noqa: E402
 
+# The charts are drawn after the map's first frame, and the first step would wait for them.
+READY = '''new Promise((done) => {
+  const wait = () => (Chart.getChart("timing_chart") ? requestIdleCallback(done) : setTimeout(wait, 20));
+  wait();
+})'''
 # Reading a pixel waits until the frame is done.
 STEPS = '''(() => {
   const slider = document.getElementById("time"), gl = report.world.renderer.getContext(), times = [], pixel = new Uint8Array(4);
+  gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
   for (let i = 1; i <= 40; ++i) {
     const start = performance.now();
     slider.value = Math.round(slider.max * i / 40);
@@ -36,6 +42,7 @@ def main():
         try:
             browser.open(sys.argv[1], 1920, 1080)
             first.append(browser.run('report.world.first_frame_ms'))
+            browser.run(READY)
             steps += browser.run(STEPS)
         finally:
             browser.close()

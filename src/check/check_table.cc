@@ -145,13 +145,15 @@ std::vector<Check> OtherChecks() {
         {"embeddings_empty", "rows of zeros", "embeddings.npy: make it, or remove it", false}},
        CheckEmbeddings},
       {"ground truth",
-       "distances between places of the drive, in ground truth and odometry",
+       "distances between places and directions of motion, in ground truth and odometry",
        "8 distances",
        {{"groundtruth_inverse", "T_cam_world for T_world_cam", "ground truth: invert the poses",
          true},
         {"groundtruth_units", "positions in mm or cm", "ground truth: write metres", true},
         {"groundtruth_other", "ground truth of another drive",
-         "name the right file (--groundtruth)", false}},
+         "name the right file (--groundtruth)", false},
+        {"groundtruth_axes", "poses of a body with x forward or z backward, not of the camera",
+         "ground truth: multiply by the camera's pose in the body on the right", true}},
        CheckGroundTruth}};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/ground_truth_axes.h"
 #include "core/median.h"
 
 namespace sslcd::check {
@@ -99,6 +100,16 @@ Outcome CheckGroundTruth(const Sequence& sequence) {
       for (Pose& pose : s.groundtruth->poses) pose = Pose(pose.so3(), factor * pose.translation());
     });
   }
+  if (const auto axes = FindBodyAxes(pairs))
+    return Found("groundtruth_axes",
+                 std::string("the motions are those of a body with ") + axes->name +
+                     " (mean cosine " + Figure(axes->agrees) + ")",
+                 [R = axes->R_cam_body](Sequence& s) {
+                   const Pose T_body_cam(
+                       lie::SO3<double>(Eigen::Quaterniond(Eigen::Matrix3d(R.transpose()))),
+                       Vec3::Zero());
+                   for (Pose& pose : s.groundtruth->poses) pose = pose * T_body_cam;
+                 });
   return Ok(measured);
 }
 

@@ -47,16 +47,29 @@ std::string ReportText(const CheckReport& report) {
                             : std::to_string(count) + (count == 1 ? " mistake" : " mistakes"));
 }
 
+std::vector<CheckRecord> Records(const CheckReport& report) {
+  std::vector<CheckRecord> records;
+  for (const CheckReport::Line& line : report.lines) {
+    const auto& mistake = line.outcome.mistake;
+    CheckRecord& record = records.emplace_back();
+    record.check = line.check;
+    record.result = mistake ? "mistake" : ResultText(line.outcome.status);
+    record.text = line.outcome.text;
+    if (!mistake) continue;
+    record.mistake = mistake->id;
+    record.fix = MistakeOf(mistake->id).fix;
+  }
+  return records;
+}
+
 std::string ReportJson(const CheckReport& report) {
   nlohmann::ordered_json root, checks = nlohmann::ordered_json::array();
-  for (const CheckReport::Line& line : report.lines) {
-    nlohmann::ordered_json one;
-    one["check"] = line.check;
-    one["result"] = line.outcome.mistake ? "mistake" : ResultText(line.outcome.status);
-    one["text"] = line.outcome.text;
-    if (line.outcome.mistake) {
-      one["mistake"] = line.outcome.mistake->id;
-      one["fix"] = MistakeOf(line.outcome.mistake->id).fix;
+  for (const CheckRecord& record : Records(report)) {
+    nlohmann::ordered_json one = {
+        {"check", record.check}, {"result", record.result}, {"text", record.text}};
+    if (!record.mistake.empty()) {
+      one["mistake"] = record.mistake;
+      one["fix"] = record.fix;
     }
     checks.push_back(std::move(one));
   }

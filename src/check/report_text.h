@@ -4,11 +4,15 @@
 #include <string>
 
 #include "check/checks.h"
+#include "formats/run_json.h"
 
 namespace sslcd::check {
 
 /// A line for each test, and for each mistake its evidence and the fix to try.
 std::string ReportText(const CheckReport& report);
+
+/// The same for run.json, one for each test.
+std::vector<CheckRecord> Records(const CheckReport& report);
 
 /// {"mistakes": count, "checks": [{"check", "result", "text", "mistake", "fix"}]}; "mistake" and
 /// "fix" only of a mistake.

@@ -43,6 +43,16 @@ ImageSize SizeOfImages(const std::vector<Frame>& frames) {
 
 }  // namespace
 
+ImageOfFrame::ImageOfFrame(const ImageFolder& left, std::size_t frames)
+    : left_(left),
+      in_order_(left.images.size() == frames),
+      half_step_(0.5 * MedianStep(left.Keys())) {}
+
+const ImageFolder::Entry* ImageOfFrame::operator()(int frame, double stamp) const {
+  if (!left_.by_stamp) return left_.Find(frame, 0);
+  return in_order_ ? &left_.images[static_cast<std::size_t>(frame)] : left_.Find(stamp, half_step_);
+}
+
 std::vector<double> StampsOfImages(const ImageFolder& left, double frame_step_s) {
   if (left.by_stamp) return left.Keys();
   if (left.images.empty()) return {};
@@ -82,12 +92,9 @@ int ImagesAfter(const ImageFolder& left, std::size_t frames, double last_stamp) 
 
 void AddImages(const DatasetLayout& layout, const SequenceImages& images, const SequenceInfo& info,
                std::size_t frames_in_file, Dataset& dataset) {
-  const bool in_order = images.left.images.size() == frames_in_file;
-  const double half_step = 0.5 * MedianStep(images.left.Keys());
+  const ImageOfFrame image_of(images.left, frames_in_file);
   for (Frame& frame : dataset.frames) {
-    const ImageFolder::Entry* left = !images.left.by_stamp ? images.left.Find(frame.index, 0)
-                                     : in_order            ? &images.left.images[frame.index]
-                                                : images.left.Find(frame.stamp, half_step);
+    const ImageFolder::Entry* left = image_of(frame.index, frame.stamp);
     frame.image_left = images.left.PathOf(left);
     if (images.right.by_stamp == images.left.by_stamp && (left || !images.left.by_stamp))
       frame.image_right =

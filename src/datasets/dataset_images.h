@@ -15,6 +15,20 @@ struct SequenceImages {
   ImageFolder left, right;
 };
 
+/// Finds the left image of a frame. Images named by stamps belong to frames in order where they are
+/// as many, otherwise by stamp, to half a step.
+class ImageOfFrame {
+ public:
+  ImageOfFrame(const ImageFolder& left, std::size_t frames);
+  /// Null: there is none. The entry is that of the folder, which has to outlive it.
+  const ImageFolder::Entry* operator()(int frame, double stamp) const;
+
+ private:
+  const ImageFolder& left_;
+  bool in_order_ = false;
+  double half_step_ = 0;
+};
+
 /// The stamps of a sequence that has left images only [s]: those of their names, or one per frame
 /// up to the last image, missing ones included. Throws Error(kBadInput) if more than ten thousand
 /// are missing: then the names are no frame numbers.
@@ -29,10 +43,9 @@ std::vector<double> StampsOfPoses(const ImageFolder& left, std::size_t poses,
 int ImagesAfter(const ImageFolder& left, std::size_t frames, double last_stamp);
 
 /// Sets the image paths of the dataset's frames and the image size of its cameras, from the first
-/// few images or, without images, from `info`. Images named by stamps belong to frames in order
-/// where they are as many, otherwise by stamp, to half a step; left and right ones belong together
-/// to 5 ms. Throws Error(kBadInput) if the two sizes differ. Without odometry the sequence ends
-/// with the last image, with a warning. `frames_in_file`: before max_frames.
+/// few images or, without images, from `info`. Left and right images named by stamps belong
+/// together to 5 ms. Throws Error(kBadInput) if the two sizes differ. Without odometry the sequence
+/// ends with the last image, with a warning. `frames_in_file`: before max_frames.
 void AddImages(const DatasetLayout& layout, const SequenceImages& images, const SequenceInfo& info,
                std::size_t frames_in_file, Dataset& dataset);
 

@@ -78,12 +78,11 @@ void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles
   WriteFileSet(std::move(set));
 }
 
-FileLock PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite) {
+FileLock PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite,
+                               const std::string& way_out) {
   FileLock lock = LockFolder(folder.string());
   if (!overwrite && !IsEmptyFolder(folder.string()))
-    throw Error(
-        ErrorKind::kUsage,
-        folder.string() + ": is not empty; choose another folder or overwrite it (--force)");
+    throw Error(ErrorKind::kUsage, folder.string() + ": is not empty; " + way_out);
   return lock;
 }
 

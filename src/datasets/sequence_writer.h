@@ -35,7 +35,10 @@ struct SequenceFiles {
 void WriteSequenceFiles(const std::filesystem::path& folder, const SequenceFiles& files);
 
 /// Creates the folder and locks it (LockFolder). Throws Error(kUsage) if it is not empty and
-/// `overwrite` is not set, and Error(kOutput) if it cannot be created or another process writes.
-[[nodiscard]] FileLock PrepareSequenceFolder(const std::filesystem::path& folder, bool overwrite);
+/// `overwrite` is not set, with what to do then, and Error(kOutput) if it cannot be created or
+/// another process writes.
+[[nodiscard]] FileLock PrepareSequenceFolder(
+    const std::filesystem::path& folder, bool overwrite,
+    const std::string& way_out = "choose another folder or overwrite it (--force)");
 
 }  // namespace sslcd

@@ -42,6 +42,47 @@ FileRecord FileOf(const JsonValue& json, const char* name) {
   return file;
 }
 
+Json JsonOfCheck(const CheckRecord& check) {
+  Json json = {{"check", check.check}, {"result", check.result}, {"text", check.text}};
+  if (!check.mistake.empty()) {
+    json["mistake"] = check.mistake;
+    json["fix"] = check.fix;
+  }
+  return json;
+}
+
+CheckRecord CheckOf(const JsonValue& json) {
+  CheckRecord check;
+  check.check = json.Child("check").Text();
+  check.result = json.Child("result").Text();
+  check.text = json.Child("text").Text();
+  if (const JsonValue* mistake = json.Find("mistake")) check.mistake = mistake->Text();
+  if (const JsonValue* fix = json.Find("fix")) check.fix = fix->Text();
+  return check;
+}
+
+Json JsonOfCamera(const Camera& camera) {
+  return {{"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"offset", {camera.offset.x(), camera.offset.y(), camera.offset.z()}},
+          {"width", camera.width},
+          {"height", camera.height}};
+}
+
+Camera CameraOf(const JsonValue& json) {
+  Camera camera;
+  camera.fx = json.Child("fx").Number();
+  camera.fy = json.Child("fy").Number();
+  camera.cx = json.Child("cx").Number();
+  camera.cy = json.Child("cy").Number();
+  camera.offset = Vec3(json.Child("offset").Numbers(3).data());
+  camera.width = json.Child("width").Integer();
+  camera.height = json.Child("height").Integer();
+  return camera;
+}
+
 std::vector<std::string> Texts(const JsonValue& list) {
   std::vector<std::string> texts;
   for (const JsonValue& item : list.List()) texts.push_back(item.Text());
@@ -80,6 +121,11 @@ std::string RunJson(const RunRecord& record) {
   Json& counts = root["counts"] = Json::object();
   for (const auto& [name, value] : record.counts) counts[name] = value;
   root["warnings"] = record.warnings;
+  if (record.camera) root["camera"] = JsonOfCamera(*record.camera);
+  if (record.check) {
+    Json& check = root["check"] = Json::array();
+    for (const CheckRecord& one : *record.check) check.push_back(JsonOfCheck(one));
+  }
   Json& inputs = root["inputs"] = Json::array();
   for (const FileRecord& file : record.inputs) inputs.push_back(JsonOfFile(file, "path"));
   Json& files = root["files"] = Json::array();
@@ -113,6 +159,10 @@ RunRecord ReadRunJson(const std::string& path) {
   for (std::size_t i = 0; i < counts.keys.size(); ++i)
     record.counts.emplace_back(counts.keys[i], counts.items[i].Number());
   record.warnings = Texts(root.Child("warnings"));
+  if (const JsonValue* camera = root.Find("camera")) record.camera = CameraOf(*camera);
+  if (const JsonValue* check = root.Find("check"))
+    for (const JsonValue& one : (record.check.emplace(), check->List()))
+      record.check->push_back(CheckOf(one));
   for (const JsonValue& file : root.Child("inputs").List())
     record.inputs.push_back(FileOf(file, "path"));
   for (const JsonValue& file : root.Child("files").List())

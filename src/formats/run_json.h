@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "sslcd/core/camera.h"
 #include "sslcd/core/label.h"
 
 namespace sslcd {
@@ -21,6 +23,14 @@ struct FileRecord {
   std::string sha256;
 };
 
+/// What one test of the dataset has found (docs/check.md).
+struct CheckRecord {
+  std::string check;         ///< name of the test
+  std::string result;        ///< "ok", "not testable" or "mistake"
+  std::string text;          ///< what was measured, or why nothing could be
+  std::string mistake, fix;  ///< of a mistake: its name, and what to change
+};
+
 /// The content of run.json: how a run came about (docs/formats.md).
 struct RunRecord {
   std::string version, commit;  ///< of the program
@@ -32,6 +42,8 @@ struct RunRecord {
   double wall_s = 0, cpu_s = 0;
   std::vector<std::pair<std::string, double>> counts;
   std::vector<std::string> warnings;
+  std::optional<std::vector<CheckRecord>> check;  ///< none: the dataset was not tested
+  std::optional<Camera> camera;                   ///< the left one; none: no calibration
   std::vector<FileRecord> inputs;
   std::vector<FileRecord> files;  ///< all other files of the run folder
 };

@@ -8,14 +8,15 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/json_text.h"
+#include "report/base64.h"
+#include "report/loop_truth.h"
 #include "report/palette.h"
+#include "report/viewpoint_recall.h"
 
 namespace sslcd {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMatchTolerance = .01;  // of the stamps of a true pose and a frame, as in evo [s]
 
 double Rounded(double value, int decimals) {
   const double unit = std::pow(10, decimals);
@@ -26,19 +27,6 @@ std::int64_t Millimetres(double metres) {
   return std::isfinite(metres) ? std::llround(1000 * metres) : 0;
 }
 
-// The nearest pose in time to each stamp; -1: there is none.
-std::vector<int> NearestInTime(const std::vector<double>& stamps, const Trajectory& trajectory) {
-  std::vector<int> nearest;
-  const auto& many = trajectory.stamps;
-  for (const double stamp : stamps) {
-    auto at = std::lower_bound(many.begin(), many.end(), stamp);
-    if (at != many.begin() && (at == many.end() || stamp - at[-1] <= *at - stamp)) --at;
-    const bool found = at != many.end() && std::abs(*at - stamp) <= kMatchTolerance;
-    nearest.push_back(found ? static_cast<int>(at - many.begin()) : -1);
-  }
-  return nearest;
-}
-
 class RunJsonMaker {
  public:
   RunJsonMaker(const RunView& run, const ReportLimits& limits) : run_(run), limits_(limits) {
@@ -47,10 +35,10 @@ class RunJsonMaker {
     const std::size_t frames = run.trajectory.size();
     stride_ = std::max<std::size_t>(1, (frames + limits.poses - 1) / limits.poses);
     for (std::size_t i = 0; i < frames; i += stride_) rows_.push_back(i);
-    truth_ = NearestInTime(run.trajectory.stamps, run.truth);
+    truth_ = TrueRows(run);
   }
 
-  Json Make(const std::string& name) const {
+  Json Make(const std::string& name) {
     Json json;
     json["name"] = name;
     json["stride"] = stride_;
@@ -64,6 +52,9 @@ class RunJsonMaker {
     json["turns"] = Turns();
     json["truth"] = run_.truth.poses.empty() ? Json() : Truth();
     AddObjects(json);
+    json["recall"] = Recall();
+    json["images"] = Images();
+    json["images_note"] = run_.crops_note;
     json["attempts"] = Attempts();
     json["attempts_left_out"] = run_.loops.size() - std::min(run_.loops.size(), limits_.attempts);
     return json;
@@ -147,17 +138,25 @@ class RunJsonMaker {
     }
   }
 
-  // How far a loop is off the true relative pose of its cameras; empty: unknown. [m]
-  std::optional<double> ErrorOf(const LoopClosure& loop) const {
-    const auto truth = [&](int frame) {
-      const bool there = frame >= 0 && static_cast<std::size_t>(frame) < truth_.size();
-      return there ? truth_[static_cast<std::size_t>(frame)] : -1;
+  Json Recall() const {
+    Json list = Json::array();
+    for (const ViewpointCounts& bin : ViewpointRecall(run_, truth_))
+      list.push_back({bin.revisits, bin.recognised, bin.loops, bin.right});
+    return list;
+  }
+
+  // The images, each once. Fills `crops_`: pair, image at the query, image at the match; by loop.
+  Json Images() {
+    Json list = Json::array();
+    std::map<std::string, std::size_t> known;
+    const auto index = [&](const std::string& bytes) {
+      const auto [entry, is_new] = known.emplace(bytes, list.size());
+      if (is_new) list.push_back(Base64(bytes));
+      return entry->second;
     };
-    const int query = truth(loop.query_frame), match = truth(loop.match_frame);
-    if (query < 0 || match < 0) return std::nullopt;
-    const Pose T = run_.truth.poses[static_cast<std::size_t>(match)].inverse() *
-                   run_.truth.poses[static_cast<std::size_t>(query)];
-    return (loop.T_match_query.translation() - T.translation()).norm();
+    for (const PairCrops& crops : run_.crops)
+      crops_[crops.loop].push_back({crops.pair, index(crops.query_jpeg), index(crops.match_jpeg)});
+    return list;
   }
 
   Json Attempts() const {
@@ -174,13 +173,14 @@ class RunJsonMaker {
       row["second"] = Rounded(loop.second_score, 3);
       row["probability"] = loop.probability ? Json(Rounded(*loop.probability, 6)) : Json();
       row["angle"] = Rounded(loop.viewpoint_change_rad * 180 / M_PI, 2);
-      const auto error = ErrorOf(loop);
+      const auto error = LoopError(run_, truth_, loop);
       row["error"] = error ? Json(Rounded(*error, 3)) : Json();
       Json& pairs = row["pairs"] = Json::array();
       for (const auto& [local, global] : loop.pairs) {
         pairs.push_back(local.value);
         pairs.push_back(global.value);
       }
+      if (const auto crops = crops_.find(i); crops != crops_.end()) row["crops"] = crops->second;
       list.push_back(std::move(row));
     }
     return list;
@@ -198,8 +198,9 @@ class RunJsonMaker {
   Vec3 origin_{0, 0, 0};
   Eigen::Matrix3d R_page_world_;
   std::size_t stride_ = 1;
-  std::vector<std::size_t> rows_;  // of the trajectory, those that are shown
-  std::vector<int> truth_;         // by row of the trajectory
+  std::vector<std::size_t> rows_;      // of the trajectory, those that are shown
+  std::vector<int> truth_;             // by row of the trajectory
+  std::map<std::size_t, Json> crops_;  // by loop
 };
 
 }  // namespace

@@ -14,6 +14,12 @@
 
 namespace sslcd {
 
+/// Images of two landmarks that a loop has matched, seen near its two cameras.
+struct PairCrops {
+  std::size_t loop = 0, pair = 0;  ///< LoopClosure::pairs[pair] of RunView::loops[loop]
+  std::string query_jpeg, match_jpeg;
+};
+
 /// A run folder, read back to be looked at.
 struct RunView {
   std::string folder;
@@ -25,6 +31,9 @@ struct RunView {
   Trajectory truth;
   std::vector<LoopClosure> loops;  ///< all attempts
   std::string metrics_json, timing_json, config_yaml;
+  /// for reports; ReadRun leaves them empty, who can read images fills them
+  std::vector<PairCrops> crops;
+  std::string crops_note;  ///< why there are none, or not of all loops
 };
 
 /// Reads the folder. `groundtruth` is a pose file to compare with; empty: the poses that the run

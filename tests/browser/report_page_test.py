@@ -6,10 +6,13 @@ usage: report_page_test.py SSLCD_RUN SSLCD_SIM FOLDER [unittest arguments]     s
 import json
 import os
 import re
+import shutil
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 from browser import Browser, find_chromium
 
@@ -19,6 +22,16 @@ SIZES = ((1920, 1080), (390, 844))
 
 def call(*arguments):
     subprocess.run([*map(str, arguments)], check=True, capture_output=True, timeout=60)
+
+
+def write_png(path, width, height):
+    """Stripes of grey."""
+    def chunk(kind, content):
+        return struct.pack('>I', len(content)) + kind + content + struct.pack('>I', zlib.crc32(kind + content))
+    rows = b'\0' + bytes(16 * (x // 40 % 16) for x in range(width))
+    with open(path, 'wb') as file:
+        file.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, 0, 0, 0, 0)) +
+                   chunk(b'IDAT', zlib.compress(rows * height)) + chunk(b'IEND', b''))
 
 
 class ReportPage(unittest.TestCase):
@@ -35,6 +48,11 @@ class ReportPage(unittest.TestCase):
             row[2] = cls.label if row[2] == 'Van' else row[2]
         with open(root + '/halv/detections.txt', 'w') as file:
             file.writelines(' '.join(row) + '\n' for row in rows)
+        cls.images = root + '/halv/left'  # one picture for all frames; the colours are those of colours.npy
+        os.mkdir(cls.images)
+        write_png(root + '/image.png', 1280, 720)
+        for frame in range(max(int(row[0]) for row in rows) + 1):
+            os.link(root + '/image.png', f'{cls.images}/{frame:06}.png')
         cls.run_folder = root + '/' + 'run'
         call(RUN, 'run', root + '/halv', '--groundtruth', 'groundtruth.txt', '--out', cls.run_folder, '--report')
         cls.browser = Browser(find_chromium())
@@ -90,6 +108,23 @@ class ReportPage(unittest.TestCase):
         self.page.run('document.getElementById("play").click()')
         self.page.wait('report.state().row > 105')
 
+    def test_paths_end_at_the_camera(self):
+        self.open()
+        off = self.page.run('''(() => { const run = report.data.runs[0], slider = document.getElementById("time"); let most = 0, whole = 0;
+            const lines = report.world.scene.children.flatMap((group) => group.children).filter((mesh) => mesh.userData.segments);
+            for (const row of [1, 2, 77, 78, 300, 301, 250, Number(slider.max)]) {
+              report.setRow(row);
+              [run.odometry, run.corrected, run.truth].forEach((flat, i) => {
+                const end = lines[i].geometry.attributes.position.array, last = 3 * (lines[i].geometry.drawRange.count - 1);
+                for (let k = 0; k < 3; ++k) most = Math.max(most, Math.abs(end[last + k] - flat[3 * row + k] / 1000));
+              });
+            }
+            for (const { geometry, userData } of lines)  // what was cut is whole again
+              userData.segments.forEach(([from, to], i) => { whole = Math.max(whole, Math.abs(geometry.attributes.position.array[6 * i + 3] - userData.at[to].x)); });
+            return [lines.length, most, whole]; })()''')
+        self.assertEqual(off[0], 3)
+        self.assertLess(max(off[1:]), 1e-3)
+
     def test_a_click_on_a_loop_flies_there(self):
         self.open()
         before = self.camera()
@@ -97,7 +132,47 @@ class ReportPage(unittest.TestCase):
         self.page.wait(f'JSON.stringify(report.world.camera.position.toArray()) !== {json.dumps(json.dumps(before))}')
         self.assertIn('objects matched', self.page.run('document.getElementById("details").textContent'))
         self.assertEqual(self.page.run('document.querySelectorAll("#loops tr.chosen").length'), 1)
+        self.page.wait('[...document.querySelectorAll("#details img")].every((image) => image.complete)')
+        sizes = self.page.run('[...document.querySelectorAll("#details img")].map((image) => Math.max(image.naturalWidth, image.naturalHeight))')
+        self.assertGreaterEqual(len(sizes), 2, 'the objects in the images of both cameras')
+        self.assertTrue(all(8 <= size <= 112 for size in sizes), sizes)
         self.page.screenshot(SHOTS + '/report_loop.png')
+
+    def test_images_are_those_of_the_run(self):
+        other, hidden = self.run_folder + '/other.html', self.images + '_moved'
+        call(RUN, 'report', self.run_folder, '--out', other, '--no-images')
+        with open(other) as file:
+            self.assertIn('"images":[]', file.read())
+        os.rename(self.images, hidden)
+        os.mkdir(self.images)
+        try:  # another folder in its place
+            write_png(self.images + '/000000.png', 1280, 720)
+            call(RUN, 'report', self.run_folder, '--out', other)
+        finally:
+            shutil.rmtree(self.images)
+            os.rename(hidden, self.images)
+        self.page.open(other, 1200, 680)
+        self.assertIn('has changed', self.page.run('document.getElementById("notes").textContent'))
+        self.assertEqual(self.page.run('report.data.runs[0].images.length'), 0)
+
+    def test_what_the_check_has_found(self):
+        self.open()
+        with open(self.run_folder + '/run.json') as file:
+            check = json.load(file)['check']
+        shown = self.page.run('[...document.querySelectorAll("#check tr")].map((row) => row.textContent)')
+        self.assertGreater(len(check), 10)
+        self.assertEqual(shown, [one['check'] + one['result'] + one['text'] for one in check if 'mistake' not in one])
+
+    def test_recall_by_viewpoint(self):
+        self.open()
+        bins = self.page.run('report.data.runs[0].recall')
+        with open(self.run_folder + '/metrics.json') as file:
+            metrics = json.load(file)
+        self.assertEqual(sum(loops for _, _, loops, _ in bins), metrics['loops'])
+        self.assertEqual(sum(loops - right for _, _, loops, right in bins), metrics['loops_wrong'])
+        self.assertGreater(sum(places for places, _, _, _ in bins), 10)
+        shown = self.page.run('Chart.getChart("recall_chart").data.datasets[0].data')
+        self.assertEqual(shown, [found / places if places else None for places, found, _, _ in bins])
 
     def test_views(self):
         self.open()

@@ -33,9 +33,9 @@ def axes(A):
     return each_pose(lambda R, t: (product(product(A, R), transposed(A)), times(A, t)))
 
 
-def body_axes(A):
+def body_axes(A, which='poses'):
     """The camera in other axes, the world as it was."""
-    return each_pose(lambda R, t: (product(R, transposed(A)), t))
+    return each_pose(lambda R, t: (product(R, transposed(A)), t), which)
 
 
 def z_up_world(s):
@@ -322,6 +322,7 @@ MISTAKES = {
     'embeddings empty': ('embeddings_empty', empty_embeddings),
     # ground truth
     'inverse ground truth': ('groundtruth_inverse', inverse_truth),
+    'ground truth of a ROS body': ('groundtruth_axes', body_axes(ROS, 'truth')),
     'another ground truth': ('groundtruth_other', other_truth),
     'ground truth in mm': ('groundtruth_units', scaled_truth),
 }

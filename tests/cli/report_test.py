@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """sslcd_run draw, report and compare: what they write, and what goes wrong. usage: see cli_case.main"""
+import json
 import os
 
 from cli_case import CliCase, call, read, write, main
@@ -83,6 +84,11 @@ class ReportTest(CliCase):
         self.assertIn('<title>2 runs - sslcd</title>', read(both))
         self.assertTrue('"truth":null' in one and '"truth":null' not in read(both))
         self.assertEqual(self.run_data('--report').returncode, 0, 'the page is no other run')
+        judged = self.data + '/judged.html'  # with the figures that eval prints
+        result = call('eval', self.out, '--groundtruth', truth, '--report', judged, '--json')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('ate_se3_rmse_m', result.stdout)
+        self.assertIn(json.dumps(result.stdout).replace('<', '\\u003c'), read(judged))
 
     def test_what_has_no_page(self):
         self.run_data()

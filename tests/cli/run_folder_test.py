@@ -23,6 +23,7 @@ class RunFolderTest(CliCase):
                          (40, sum(o['state'] == 'confirmed' for o in objects)))
         self.assertEqual({file['role'] for file in record['inputs']} & {'odometry', 'detections', 'ground truth', 'identities'},
                          {'odometry', 'detections', 'ground truth', 'identities'})
+        self.assertEqual(record['check'], json.loads(call('check', self.data, '--groundtruth', 'groundtruth.txt', '--json').stdout)['checks'])
         listed = [(file['path'], file) for file in record['inputs']]
         listed += [(f'{self.out}/{file["name"]}', file) for file in record['files']]
         for path, file in listed:

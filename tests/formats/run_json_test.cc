@@ -20,6 +20,9 @@ TEST(RunJson, ReadsWhatItWrites) {
   record.cpu_s = 2.25;
   record.counts = {{"frames", 40}, {"odometry_scale", 1.03}};
   record.warnings = {"calib.txt: \"</script>\""};
+  record.check = {{"stamps", "ok", "steps of 0.1 s", "", ""},
+                  {"scores", "mistake", "up to 98", "score_percent", "divide by 100"}};
+  record.camera = Camera{700.25, 701, 600, 180, {.06, 0, 0}, 1242, 375};
   record.inputs = {{"data/odometry.txt", "odometry", 1, 12, "ab"},
                    {"data/image_2", "left images", 40, 3000000000u, ""}};
   record.files = {{"map.json", "", 1, 7, "cd"}};
@@ -29,6 +32,9 @@ TEST(RunJson, ReadsWhatItWrites) {
   EXPECT_EQ(read.inputs[1].bytes, 3000000000u);
   EXPECT_EQ(read.inputs[1].files, 40);
   EXPECT_FALSE(read.complete);
+  EXPECT_EQ(read.check->at(1).mistake, "score_percent");
+  EXPECT_EQ(read.camera->offset.x(), .06);
+  EXPECT_FALSE(ReadRunJson(folder.Write("run.json", RunJson({}))).check) << "was not tested";
 }
 
 TEST(RunJson, RefusesOtherFiles) {

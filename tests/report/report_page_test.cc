@@ -73,6 +73,19 @@ TEST(ReportJson, LoopsAreComparedWithTheTruth) {
   EXPECT_EQ(parsed.Child("attempts").List()[1].Child("error").kind, JsonValue::Kind::kNull);
 }
 
+TEST(ReportJson, CropsOfALoopNameTheirImages) {
+  RunView run = Drive(3);
+  run.crops = {{1, 0, "query", "match"}, {2, 0, "query", "other"}};
+  run.crops_note = "2 of 4 loops";
+  const JsonValue parsed = Parsed(run);
+  ASSERT_EQ(parsed.Child("images").List().size(), 3u) << "each once";
+  EXPECT_EQ(parsed.Child("images").List()[0].Text(), "cXVlcnk=");
+  EXPECT_EQ(parsed.Child("images_note").Text(), "2 of 4 loops");
+  const auto& attempts = parsed.Child("attempts").List();
+  EXPECT_EQ(attempts[0].Find("crops"), nullptr);
+  EXPECT_EQ(attempts[2].Child("crops").List()[0].Numbers(3), (std::vector<double>{0, 0, 2}));
+}
+
 TEST(ReportJson, LongRunsAreThinnedAndSaySo) {
   const JsonValue run = Parsed(Drive(10), {4, 2, 2});
   EXPECT_EQ(run.Child("stride").Integer(), 3);

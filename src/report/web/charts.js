@@ -35,6 +35,19 @@ function viewpointChart() {
     { x: axis("", { stacked: true }), y: axis("", { stacked: true, ticks: { precision: 0 } }) });
 }
 
+function recallChart() {
+  $("recall_panel").hidden = !run.recall.some(([revisits]) => revisits);
+  if ($("recall_panel").hidden) return;
+  const width = 180 / run.recall.length, share = (part, all) => (all ? part / all : null);
+  const counted = [["recall", ([revisits, recognised]) => [recognised, revisits, "places"], CHART_COLOURS.x],
+    ["precision", ([, , loops, right]) => [right, loops, "loops"], CHART_COLOURS.y]];
+  const datasets = counted.map(([label, count, backgroundColor]) => ({ label, backgroundColor, counts: run.recall.map(count),
+    data: run.recall.map((bin) => share(...count(bin))) }));
+  const tip = ({ dataset, dataIndex }) => { const [part, all, what] = dataset.counts[dataIndex]; return `${dataset.label}: ${part} of ${all} ${what}`; };
+  chart("recall_chart", "bar", { labels: run.recall.map(([revisits], i) => [`${width * i}`, `(${revisits})`]), datasets },
+    { x: axis("viewpoint change from [degrees] (places)"), y: axis("", { min: 0, max: 1 }) }, { plugins: { tooltip: { callbacks: { label: tip } } } });
+}
+
 function reliabilityChart() {
   const edges = [0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.99, 0.999, 1.000001];
   const judged = run.attempts.filter((attempt) => attempt.error !== null && attempt.probability !== null);
@@ -60,5 +73,5 @@ function makeCharts() {
   for (const old of charts) old.destroy();
   charts = [];
   Chart.defaults.color = ink();
-  for (const make of [errorChart, viewpointChart, reliabilityChart, timingChart]) make();
+  for (const make of [errorChart, viewpointChart, recallChart, reliabilityChart, timingChart]) make();
 }

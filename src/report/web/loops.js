@@ -19,7 +19,7 @@ function attemptsMesh(attempts, colourOf) {
 
 // Bars from camera to camera: lines of WebGL are never wider than a pixel. One mesh for each colour.
 const VIEWPOINT_BIN_DEG = 20;
-const barGeometry = new THREE.BoxBufferGeometry(1, 1, 1);
+const barGeometry = new THREE.CylinderBufferGeometry(0.58, 0.58, 1, 3, 1, true).rotateX(Math.PI / 2); // 6 triangles
 
 function barMatrix(attempt) {
   const from = poseAt(rowOf(attempt.match)), to = poseAt(rowOf(attempt.query)), along = to.clone().sub(from);
@@ -81,7 +81,7 @@ function showChosen() {
   draw();
 }
 
-function pairText(attempt) {
+function pairNames(attempt) {
   const names = [];
   for (let i = 0; i < attempt.pairs.length; i += 2) {
     const [local, global] = [attempt.pairs[i], attempt.pairs[i + 1]];
@@ -89,23 +89,35 @@ function pairText(attempt) {
     const label = object ? run.labels[object[OBJECT.label]].name + " " : "";
     names.push(label + (local === global ? `${local}` : `${local} = ${global}`));
   }
-  return names.join(", ");
+  return names;
+}
+
+// The matched objects as both cameras have seen them.
+function cropTable(attempt) {
+  const image = (index, frame) => element("td", {}, element("img", { src: "data:image/jpeg;base64," + run.images[index], alt: `seen near frame ${frame}` }));
+  const names = pairNames(attempt), heading = (text) => element("th", { className: "text", textContent: text });
+  const rows = [[heading(""), ...attempt.crops.map(([pair]) => element("td", { textContent: names[pair] }))],
+    [heading(`near ${attempt.query}`), ...attempt.crops.map(([, query]) => image(query, attempt.query))],
+    [heading(`near ${attempt.match}`), ...attempt.crops.map(([, , match]) => image(match, attempt.match))]];
+  return element("div", { className: "scroll" }, element("table", { className: "crops" }, element("tbody", {}, ...rows.map((cells) => element("tr", {}, ...cells)))));
 }
 
 function describeChosen() {
   $("details").hidden = !chosen;
-  if (!chosen) return;
+  if (!chosen) return makeRoom();
   const facts = [
     `${chosen.decision}: ${chosen.reason}`,
     `Viewpoint change ${chosen.angle.toFixed(0)}°, log odds ${chosen.score} (second best ${chosen.second})` +
       (chosen.probability === null ? "" : `, probability ${chosen.probability}`),
     chosen.error === null ? "" : `Off by ${chosen.error} m from the ground truth`,
-    `${chosen.pairs.length / 2} objects matched: ${pairText(chosen)}`,
   ];
+  const pairs = `${chosen.pairs.length / 2} objects matched: ${pairNames(chosen).join(", ")}`;
   const close = element("button", { type: "button", textContent: "Close" });
   close.onclick = () => chooseLoop(null);
   $("details").replaceChildren(element("strong", { textContent: `Frame ${chosen.query} at frame ${chosen.match}` }), " ", close,
-    ...facts.filter(Boolean).map((fact) => element("div", { textContent: fact })));
+    ...facts.filter(Boolean).map((fact) => element("div", { textContent: fact })), ...(chosen.crops ? [cropTable(chosen)] : []),
+    element("div", { textContent: pairs }));
+  makeRoom();
 }
 
 function chooseLoop(attempt) {

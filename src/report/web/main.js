@@ -44,6 +44,7 @@ function showRun(index) {
   row = rowCount() - 1;
   fillNotes();
   fillSummary();
+  fillCheck();
   fillRecord();
   fillLegend();
   fillLayers();

@@ -12,7 +12,7 @@ function objectMatrix(object) {
 }
 
 const boxGeometry = new THREE.BoxBufferGeometry(1, 1, 1);
-const roundGeometry = new THREE.CylinderBufferGeometry(0.5, 0.5, 1, 14);
+const roundGeometry = new THREE.CylinderBufferGeometry(0.5, 0.5, 1, 10);
 
 function makeObjects() {
   for (const child of [...objectGroup.children]) objectGroup.remove(child);

@@ -25,7 +25,19 @@ function fillNotes() {
   if (run.record && !run.record.complete) notes.push("The run was stopped before its end.");
   if (!run.record) notes.push("No run.json: this run does not say how it was made.");
   if (!run.truth) notes.push("No ground truth was given.");
+  if (run.images_note) notes.push(run.images_note);
   $("notes").textContent = notes.join(" ");
+}
+
+function fillCheck() {
+  const check = run.record && run.record.check;
+  if (!check) return $("check").replaceChildren("This run did not test its data: 'sslcd_run check' does.");
+  const rows = check.map((one) => {
+    const text = one.mistake ? `${one.mistake}: ${one.text}. Try: ${one.fix}` : one.text;
+    return element("tr", { className: one.result.replace(" ", "_") }, element("td", { className: "text" }, one.check, element("small", { textContent: one.result })),
+      element("td", { className: "text", textContent: text }));
+  });
+  $("check").replaceChildren(element("table", {}, element("tbody", {}, ...rows)));
 }
 
 function fillRecord() {

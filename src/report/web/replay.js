@@ -28,7 +28,7 @@ function setRow(to) {
   $("time").value = row;
   $("clock").textContent = `${run.stamps[row].toFixed(1)} s, frame ${row * run.stride}`;
   if (!world.renderer) return;
-  for (const mesh of Object.values(paths)) if (mesh) mesh.geometry.setDrawRange(0, 2 * row);
+  for (const mesh of Object.values(paths)) if (mesh) showPathUntil(mesh, row);
   showObjectsUntil((row + 1) * run.stride - 1);
   showLoopsUntil(row);
   cursor.position.copy(poseAt(row));

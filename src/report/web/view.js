@@ -43,6 +43,7 @@ function setView(mode) {
   world.controls.mouseButtons.LEFT = mode === "above" ? THREE.MOUSE.PAN : THREE.MOUSE.ROTATE;
   world.controls.touches.ONE = mode === "above" ? THREE.TOUCH.PAN : THREE.TOUCH.ROTATE;
   if (mode !== "orbit" && world.spread) spreadPasses(false);
+  makeRoom();
   mode === "driver" ? follow() : showAll();
 }
 

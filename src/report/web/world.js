@@ -18,7 +18,7 @@ function startWorld() {
   const sun = new THREE.DirectionalLight(0xffffff, 0.35);
   sun.position.set(0.4, 1, 0.6);
   world.scene.add(sun);
-  new ResizeObserver(resize).observe($("stage"));
+  new ResizeObserver(resize).observe($("scene"));
   return true;
 }
 
@@ -35,12 +35,22 @@ function drawNow() {
   if (!world.first_frame_ms) world.first_frame_ms = performance.now();
 }
 
+// The middle of the view is beside the box that describes the chosen loop; on narrow screens that is below the map.
+function makeRoom() {
+  if (!world.renderer) return;
+  const scene = $("scene"), box = $("details"), over = !box.hidden && getComputedStyle(box).position === "absolute";
+  if (over && view.mode !== "driver") world.camera.setViewOffset(scene.clientWidth, scene.clientHeight, box.offsetWidth / 2, 0, scene.clientWidth, scene.clientHeight);
+  else world.camera.clearViewOffset();
+  draw();
+}
+
 function resize() {
-  const stage = $("stage"), width = stage.clientWidth, height = stage.clientHeight;
+  const width = $("scene").clientWidth, height = $("scene").clientHeight;
   world.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
   world.renderer.setSize(width, height, false);
   world.camera.aspect = width / Math.max(1, height);
   world.camera.updateProjectionMatrix();
+  makeRoom();
   drawNow(); // a canvas that was resized is empty
 }
 
@@ -63,18 +73,6 @@ function clearGroup(group) {
     child.geometry.dispose();
     child.material.dispose();
   }
-}
-
-// Segments from each row to the next; none where a row has no position.
-function pathMesh(flat, colour) {
-  const count = flat.length / 3, positions = new Float32Array(Math.max(0, 6 * (count - 1)));
-  for (let i = 0; i + 1 < count; ++i) {
-    const there = flat[3 * i] !== null && flat[3 * i + 3] !== null;
-    for (let k = 0; k < 6; ++k) positions[6 * i + k] = there ? flat[3 * i + k] * 1e-3 : NaN;
-    if (!there) positions.fill(0, 6 * i, 6 * i + 6);
-    if (there) (positions[6 * i + 1] += lift(i)), (positions[6 * i + 4] += lift(i + 1));
-  }
-  return segmentsMesh(positions, colour);
 }
 
 function segmentsMesh(positions, colour, colours) {
