@@ -12,7 +12,7 @@ namespace sslcd {
 namespace {
 
 constexpr int kMostFramesAway = 150;  // from the camera of the loop
-constexpr int kFramesOfASide = 2;
+constexpr int kFramesOfASide = 3;
 constexpr double kLeastWidthPx = 8, kLeastHeightPx = 20;
 constexpr double kMostCovered = .3;  // of a box by one of a nearer object
 

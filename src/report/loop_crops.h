@@ -23,11 +23,11 @@ struct SeenPair {
 
 /// What a report shows of images at most. Of more loops it takes some, evenly chosen.
 struct CropLimits {
-  std::size_t loops = 120, pairs = 5;  ///< pairs of a loop
+  std::size_t loops = 120, pairs = 4;  ///< pairs of a loop
 };
 
 /// The matched pairs to show. The map's objects are projected into frames that have observed them,
-/// at most two frames for each camera of a loop, so that few images have to be read.
+/// at most three frames for each camera of a loop, so that few images have to be read.
 std::vector<SeenPair> SeenPairs(const RunView& run, const Camera& camera,
                                 const CropLimits& limits = {});
 

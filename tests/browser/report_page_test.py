@@ -108,8 +108,7 @@ class ReportPage(unittest.TestCase):
         self.page.run('document.getElementById("play").click()')
         self.page.wait('report.state().row > 105')
 
-    def test_paths_end_at_the_camera(self):
-        self.open()
+        # paths end at the camera
         off = self.page.run('''(() => { const run = report.data.runs[0], slider = document.getElementById("time"); let most = 0, whole = 0;
             const lines = report.world.scene.children.flatMap((group) => group.children).filter((mesh) => mesh.userData.segments);
             for (const row of [1, 2, 77, 78, 300, 301, 250, Number(slider.max)]) {
@@ -155,7 +154,7 @@ class ReportPage(unittest.TestCase):
         self.assertIn('has changed', self.page.run('document.getElementById("notes").textContent'))
         self.assertEqual(self.page.run('report.data.runs[0].images.length'), 0)
 
-    def test_what_the_check_has_found(self):
+    def test_panels_of_check_and_recall(self):
         self.open()
         with open(self.run_folder + '/run.json') as file:
             check = json.load(file)['check']
@@ -163,8 +162,7 @@ class ReportPage(unittest.TestCase):
         self.assertGreater(len(check), 10)
         self.assertEqual(shown, [one['check'] + one['result'] + one['text'] for one in check if 'mistake' not in one])
 
-    def test_recall_by_viewpoint(self):
-        self.open()
+        # and of the true poses
         bins = self.page.run('report.data.runs[0].recall')
         with open(self.run_folder + '/metrics.json') as file:
             metrics = json.load(file)
