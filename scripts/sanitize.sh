@@ -39,11 +39,9 @@ cmake --preset dev -B "$build" -DSSLCD_SANITIZE=$sanitizers -DSSLCD_BUILD_SHARED
   -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 \
   -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O1 -g1 -DNDEBUG" >/dev/null
 
-suppressions=$PWD/tests/sanitizers
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1
-export LSAN_OPTIONS=suppressions=$suppressions/lsan.txt:print_suppressions=0
-export TSAN_OPTIONS=suppressions=$suppressions/tsan.txt:second_deadlock_stack=1
+export TSAN_OPTIONS=second_deadlock_stack=1
 
 row() { printf '%-16s %6s %7s %8s %7s %8s %8s\n' "$@"; }
 row part tests passed skipped failed reports seconds
