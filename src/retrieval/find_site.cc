@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -20,8 +21,10 @@ namespace {
 // All set by hand on generated sites (docs/scale.md).
 constexpr float kMostCost = 4;                     // of a probe [nats]
 constexpr std::size_t kMostProbes = 60000;         // cells that are looked up
-constexpr std::size_t kMostVisits = 800000;        // entries that are read
-constexpr std::size_t kMostFits = 150;             // poses that are aligned
+constexpr std::size_t kMostVisits = 650000;        // entries that are read
+constexpr std::size_t kMostPoses = 1000;           // poses that are aligned with some objects
+constexpr std::size_t kSomeObjects = 20;           // the nearest ones to the middle
+constexpr std::size_t kMostFits = 60;              // poses that are aligned with all objects
 constexpr int kMostSteps = 10 * kDifferenceSteps;  // difference of a vote's constellation
 constexpr std::size_t kAhead = 16;                 // lookups that are fetched from memory ahead
 
@@ -168,7 +171,34 @@ std::vector<PoseVote> LikelyPoses(const SiteFile& file, const std::vector<SitePo
         votes.Add(headings.VoteOf(entry, one.constellation(), yaw, weight));
     }
   }
-  return votes.Best(kMostFits);
+  return votes.Best(kMostPoses);
+}
+
+// The objects nearest to the middle. Errors of heading and scale hardly move them, and few objects
+// are quickly aligned.
+std::vector<SitePoint> AmidOf(std::vector<SitePoint> points) {
+  const auto nearer = [](const SitePoint& a, const SitePoint& b) {
+    return a.x * a.x + a.y * a.y < b.x * b.x + b.y * b.y;
+  };
+  std::stable_sort(points.begin(), points.end(), nearer);
+  points.resize(std::min(points.size(), kSomeObjects));
+  return points;
+}
+
+// The poses that fit best to the objects amid the stretch, in the order of their votes.
+std::vector<PoseVote> BestAmid(const SiteFile& file, const std::vector<SitePoint>& points,
+                               const std::vector<PoseVote>& poses) {
+  if (poses.size() <= kMostFits) return poses;
+  const std::vector<SitePoint> amid = AmidOf(points);
+  std::vector<float> scores;
+  for (const PoseVote& vote : poses)
+    scores.push_back(FitSite(amid, file.points(vote.site), vote.pose).score);
+  std::vector<float> sorted = scores;
+  std::nth_element(sorted.begin(), sorted.begin() + kMostFits, sorted.end(), std::greater<>());
+  std::vector<PoseVote> best;
+  for (std::size_t i = 0; i < poses.size() && best.size() < kMostFits; ++i)
+    if (scores[i] >= sorted[kMostFits]) best.push_back(poses[i]);
+  return best;
 }
 
 }  // namespace
@@ -177,7 +207,8 @@ std::vector<SiteCandidate> FindSites(const SiteFile& file, const std::vector<Sit
                                      int most, PoseVotes& votes) {
   const Stretch stretch = StretchOf(file, objects);
   std::map<std::uint32_t, SiteFit> fits;  // the best of each site
-  for (const PoseVote& vote : LikelyPoses(file, stretch.points, votes)) {
+  const std::vector<PoseVote> likely = LikelyPoses(file, stretch.points, votes);
+  for (const PoseVote& vote : BestAmid(file, stretch.points, likely)) {
     const SiteFit fit = FitSite(stretch.points, file.points(vote.site), vote.pose);
     const auto [known, fresh] = fits.insert({vote.site, fit});
     if (!fresh && fit.score > known->second.score) known->second = fit;

@@ -9,8 +9,8 @@ namespace sslcd {
 namespace {
 
 // All set by hand on generated sites (docs/scale.md).
-constexpr float kCell = 4;                // of the grid [m]
-constexpr float kGates[] = {4, 3, 2, 2};  // largest distance of a match, by step [m]
+constexpr float kCell = 4;               // of the grid [m]
+constexpr float kGates[] = {4, 2.5, 2};  // largest distance of a match, by step [m]
 constexpr float kMatchGate = 2;
 constexpr float kSigma = 0.7f;       // of a matched object, each axis [m]
 constexpr float kSeen = 0.75f;       // share of objects that both have
