@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sslcd/core/detection.h"
+#include "sslcd/core/landmark.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
@@ -23,5 +24,13 @@ double WholeMicroseconds(double time_s);
 
 /// The indices of detections with finite values by score, the highest first, then by place.
 std::vector<int> CanonicalOrder(const std::vector<Detection>& detections);
+
+/// The detections in that order.
+std::vector<Detection> InOrder(const std::vector<Detection>& detections,
+                               const std::vector<int>& order);
+
+/// The landmarks of detections in that order, for the detections as they were.
+std::vector<LandmarkId> BackInOrder(const std::vector<LandmarkId>& sorted,
+                                    const std::vector<int>& order);
 
 }  // namespace sslcd

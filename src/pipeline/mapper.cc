@@ -67,20 +67,6 @@ std::vector<Detection> WithoutAppearance(std::vector<Detection> detections) {
   return detections;
 }
 
-std::vector<Detection> InOrder(const std::vector<Detection>& detections,
-                               const std::vector<int>& order) {
-  std::vector<Detection> sorted;
-  for (const int i : order) sorted.push_back(detections[i]);
-  return sorted;
-}
-
-std::vector<LandmarkId> BackInOrder(const std::vector<LandmarkId>& sorted,
-                                    const std::vector<int>& order) {
-  std::vector<LandmarkId> matched(sorted.size());
-  for (std::size_t i = 0; i < order.size(); ++i) matched[order[i]] = sorted[i];
-  return matched;
-}
-
 }  // namespace
 
 struct SSLCD_HIDDEN Mapper::Impl {

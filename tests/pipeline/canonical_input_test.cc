@@ -87,5 +87,16 @@ TEST(CanonicalInput, TheOrderOfDetectionsIsThatOfTheirContent) {
   EXPECT_TRUE(CanonicalOrder({}).empty());
 }
 
+TEST(CanonicalInput, LandmarksGoBackToTheirDetections) {
+  std::vector<Detection> detections(3);
+  for (int i = 0; i < 3; ++i) detections[i].row = i;
+  const std::vector<int> order{2, 0, 1};
+  const std::vector<Detection> sorted = InOrder(detections, order);
+  std::vector<LandmarkId> ids;
+  for (const Detection& detection : sorted) ids.push_back({10 + detection.row});
+  EXPECT_EQ(sorted[0].row, 2);
+  EXPECT_EQ(BackInOrder(ids, order), (std::vector<LandmarkId>{{10}, {11}, {12}}));
+}
+
 }  // namespace
 }  // namespace sslcd
