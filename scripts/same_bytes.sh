@@ -5,7 +5,11 @@
 #   scripts/same_bytes.sh [COMMIT]     default: where this branch left main (git merge-base HEAD main)
 # SSLCD_BUILD_DIR: build folder of sslcd_run (default build/release). SSLCD_DATA_DIR: real data
 # (default ../shared/data). Sequences that are not there are named and skipped, but there must be
-# one at least. SSLCD_SAME_BYTES_DIR: the reference is built and run once per commit and kept there
+# one at least. SSLCD_SAME_BYTES_CMAKE: options of CMake for the reference, for another compiler or
+# another optimisation of the same code:
+#   SSLCD_SAME_BYTES_CMAKE='-DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_CXX_FLAGS_RELEASE=-O1' \
+#     scripts/same_bytes.sh HEAD
+# SSLCD_SAME_BYTES_DIR: the reference is built and run once per commit and kept there
 # (default build/same_bytes). Exit code 1: something differs. Both runs are kept.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +17,11 @@ build=$(realpath "${SSLCD_BUILD_DIR:-build/release}")
 data=$(realpath -m "${SSLCD_DATA_DIR:-../shared/data}")
 cache=$(realpath -m "${SSLCD_SAME_BYTES_DIR:-build/same_bytes}")
 commit=$(git rev-parse --short=12 "${1:-$(git merge-base HEAD main)}^{commit}")
+read -ra options <<<"${SSLCD_SAME_BYTES_CMAKE:-}"
 reference=$cache/$commit
+if ((${#options[@]})); then
+  reference+=-$(printf '%s\n' "${options[@]}" | sha256sum | cut -c 1-8)
+fi
 
 # name | folder that must be there | arguments of `sslcd_run run`
 sequences() {
@@ -45,7 +53,7 @@ if [[ ! -e $reference/done ]]; then
   source=$reference/source
   mkdir -p "$source"
   git archive "$commit" | tar -x -C "$source"
-  (cd "$source" && cmake --preset release -DSSLCD_BUILD_TESTS=OFF &&
+  (cd "$source" && cmake --preset release -DSSLCD_BUILD_TESTS=OFF "${options[@]}" &&
     cmake --build build/release -j "$(nproc)" --target sslcd_run sslcd_sim) >"$reference/build.log"
   apps=$source/build/release/apps
   "$apps/sslcd_sim" halv --case 1 --seed 7 --out "$reference/halv" >/dev/null

@@ -10,7 +10,7 @@ from tables import TABLES
 
 FIGURES = 'docs/figures.json'
 DOCUMENTS = ['README.md', 'docs/results.md', 'docs/hosts.md', 'docs/sessions.md', 'docs/change.md',
-             'docs/scale.md']
+             'docs/scale.md', 'docs/properties.md']
 MARK = re.compile(r'(<!-- figures (\w+) -->\n)(.*?)(<!-- /figures -->)', re.DOTALL)
 
 

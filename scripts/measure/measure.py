@@ -11,15 +11,19 @@ from fleet import fleet_sets
 from halv import halv_sets
 from pairs import city_sets, pair_sets
 from program import Program, processor
+from properties import property_sets
 from retrieval import retrieval_sets
 from runs import kitti_sets, loop_sets
 from sessions import relocalise_sets, session_sets
+from soak import soak_sets
 from stream import stream_sets
 from store import Store, last_code_commit, same_code
+from worlds import world_sets
 
 PARTS = {'loops': loop_sets, 'kitti': kitti_sets, 'pairs': pair_sets, 'city': city_sets,
          'halv': halv_sets, 'sessions': session_sets, 'relocalise': relocalise_sets, 'retrieval': retrieval_sets,
-         'change': change_sets, 'fleet': fleet_sets, 'stream': stream_sets, 'bench': bench_sets}
+         'change': change_sets, 'fleet': fleet_sets, 'stream': stream_sets, 'bench': bench_sets,
+         'properties': property_sets, 'soak': soak_sets, 'worlds': world_sets}
 USUAL = ['loops', 'kitti', 'pairs']  # what takes seconds a set
 
 

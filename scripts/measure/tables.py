@@ -7,6 +7,7 @@ from cells import LOOPS, arrow, mean, note, number, percent, role, table
 from pairs import CITY_OBJECTS
 from fleet import fleet, fleet_merge, fleet_stages
 from retrieval_tables import retrieval, retrieval_real, retrieval_size
+from soak_tables import properties, soak, worlds, worlds_worst
 from session_tables import (change, change_still, relocalise, relocalise_halv, sessions,
                             sessions_halv)
 
@@ -250,7 +251,7 @@ TABLES = {f.__name__: f for f in (summary, kitti_scale, loops, kitti_ate, kitti_
                                   sessions, sessions_halv, relocalise, relocalise_halv,
                                   retrieval, retrieval_size, retrieval_real,
                                   change, change_still, fleet, fleet_merge, fleet_stages, stream, halv_ate,
-                                  halv_viewpoints)}
+                                  halv_viewpoints, properties, soak, worlds, worlds_worst)}
 for bench_key in ('table1', 'table2', 'table3', 'attempts', 'attempts_churn',
                   'attempts_layout_very_important_3_cuboids', 'pr', 'viewpoint', 'ablation'):
     TABLES['bench_' + bench_key] = functools.partial(bench, 'bench/all', bench_key)

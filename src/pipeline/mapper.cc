@@ -14,6 +14,7 @@
 #include "core/frame_store.h"
 #include "core/turning_axis.h"
 #include "odometry/odometry_edge.h"
+#include "pipeline/canonical_input.h"
 #include "pipeline/change_reporter.h"
 #include "pipeline/check_input.h"
 #include "pipeline/final_trajectory.h"
@@ -72,20 +73,22 @@ struct SSLCD_HIDDEN Mapper::Impl {
   Impl(const Options& all, const MapperContext& world, std::unique_ptr<LoopFinder> finder)
       : options(all),
         context(world),
-        state{ObjectMap(world.gravity, world.labels, all.noise, all.association, all.map),
+        state{ObjectMap(GravityFrame(), world.labels, all.noise, all.association, all.map),
               FrameStore(PathOfLostStep(all))},
-        aligner(world.gravity, all.level),
+        aligner(state.gravity(), all.level),
         window(all.window, all.ba, all.noise),
         loops(all.loop, WholeMap(all), GalleryMode(all.association), std::move(finder)) {}
 
   const Camera* camera() const { return context.camera ? &*context.camera : nullptr; }
   double scale() const { return std::exp(log_scale); }
+  Pose ToHost(const Pose& T_start_any) const { return T_start_odom.inverse() * T_start_any; }
   StepUncertainty BeginSequence(const Frame& frame);
   void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
   BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
 
   Options options;
   MapperContext context;
+  Pose T_start_odom;  // from the host's world to that of `state`, see StartOf
   MapState state;
   GravityAligner aligner;
   SlidingWindow window;
@@ -97,7 +100,8 @@ struct SSLCD_HIDDEN Mapper::Impl {
   ChangeReporter reporter;
   bool starts_sequence = false;  // with the next frame
   int sequence = 0;              // of the newest frame
-  double stamp_shift = 0;        // from the stamps of this sequence to those of the store [s]
+  double first_stamp = 0;        // of this sequence: as odometry gave it, and in the store [s]
+  double first_stored_stamp = 0;
   TimingTable timing;
 };
 
@@ -114,7 +118,7 @@ Mapper& Mapper::operator=(Mapper&&) noexcept = default;
 
 double Mapper::scale() const { return impl_->scale(); }
 ImprovementProbability Mapper::improvement() const { return impl_->improvement; }
-const GravityFrame& Mapper::gravity() const { return impl_->state.map.gravity(); }
+const GravityFrame& Mapper::gravity() const { return impl_->context.gravity; }
 NoiseScale Mapper::noise_scale() const { return impl_->state.map.noise_scale(); }
 const std::vector<ViewTie>& Mapper::view_ties() const { return impl_->view_ties; }
 TimingTable& Mapper::timing() { return impl_->timing; }
@@ -130,8 +134,9 @@ void Mapper::StartSequence() { impl_->starts_sequence = true; }
 // Before the first frame of a sequence other than the first: stamps go on over all sequences, its
 // odometry is upright again. Returns the step to it.
 StepUncertainty Mapper::Impl::BeginSequence(const Frame& frame) {
-  stamp_shift = state.frames.back().stamp + TimeBetweenSequences(options.map) - frame.stamp;
-  aligner = GravityAligner(context.gravity, options.level);
+  first_stored_stamp = state.frames.back().stamp + TimeBetweenSequences(options.map);
+  first_stamp = frame.stamp;
+  aligner = GravityAligner(state.gravity(), options.level);
   ++sequence;
   return StepUncertainty{true};
 }
@@ -145,23 +150,27 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   std::optional<StepUncertainty> step = frame.step;
   const bool begins = std::exchange(m.starts_sequence, false) && !frames.empty();
   if (begins) step = m.BeginSequence(frame);
-  const Pose T_odom_cam = m.aligner.Align(frame.T_odom_cam);
+  if (frames.empty()) m.T_start_odom = StartOf(frame.T_odom_cam, m.context.gravity);
+  if (frames.empty()) m.first_stamp = frame.stamp;
+  FrameRecord record;
+  record.T_input_cam = m.T_start_odom * frame.T_odom_cam;
+  const Pose T_odom_cam = m.aligner.Align(record.T_input_cam);
   const Pose T_world_cam = frames.empty() ? T_odom_cam
                            : begins       ? PlaceBeside(m.state, T_odom_cam)
                                           : PredictPose(frames.back(), T_odom_cam, m.log_scale);
   report.keyframe = begins || m.window.IsKeyframe(frames, T_odom_cam);
-  FrameRecord record;
   record.sequence = m.sequence;
   record.input_stamp = frame.stamp;
-  record.stamp = frame.stamp + m.stamp_shift;
+  record.stamp = m.first_stored_stamp + WholeMicroseconds(frame.stamp - m.first_stamp);
   const bool lost = !frames.empty() && step && step->lost;
   std::vector<Detection> seen = lost ? std::vector<Detection>() : frame.detections;
   {
     const ScopedTimer timer(m.timing, "data association");
     report.filter = FilterDetections(seen, m.options.filter);
+    const std::vector<int> order = CanonicalOrder(seen);
+    seen = InOrder(seen, order);
     const double stamp = record.stamp;
     record.frame = frame.index;
-    record.T_input_cam = frame.T_odom_cam;
     record.T_odom_cam = T_odom_cam;
     record.T_world_cam = T_world_cam;
     record.detections = WithoutAppearance(seen);
@@ -169,6 +178,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     report.map = m.state.map.AddFrame(frame.index, stamp, T_world_cam, seen, m.camera(),
                                       frames.back().travelled);
     frames.SetMatched(frames.size() - 1, report.map.matched);
+    report.map.matched = BackInOrder(report.map.matched, order);
   }
   if (m.options.loop.enabled) m.loops.AddFrame(m.state, seen);
   if (report.keyframe) {
@@ -178,7 +188,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
     }
     if (m.options.loop.enabled) m.loops.AddKeyframe(m.state, m.scale(), m.timing);
   }
-  report.T_world_cam = frames.back().T_world_cam;
+  report.T_world_cam = m.ToHost(frames.back().T_world_cam);
   report.changes = TakeChanges();
   return report;
 }
@@ -189,6 +199,8 @@ MapChanges Mapper::TakeChanges() {
   Impl& m = *impl_;
   MapChanges changes = m.reporter.Take(m.state, m.loops.ledger());
   changes.scale = scale();
+  changes.T_world_odom = m.ToHost(changes.T_world_odom) * m.T_start_odom;
+  for (FramePose& pose : changes.poses) pose.T_world_cam = m.ToHost(pose.T_world_cam);
   return changes;
 }
 
@@ -207,7 +219,7 @@ LoopSearchSummary Mapper::SummariseLoopSearch() const {
   }
   std::vector<Pose> odometry;
   for (const FrameRecord& frame : m.state.frames) odometry.push_back(frame.T_input_cam);
-  summary.up_axis_is_plausible = MayBeUp(gravity().up, odometry);
+  summary.up_axis_is_plausible = MayBeUp(m.state.gravity().up, odometry);
   return summary;
 }
 
@@ -284,7 +296,7 @@ Trajectory Mapper::CameraTrajectory() const {
   Trajectory trajectory;
   for (const FrameRecord& record : impl_->state.frames) {
     trajectory.stamps.push_back(record.input_stamp);
-    trajectory.poses.push_back(record.T_world_cam);
+    trajectory.poses.push_back(impl_->ToHost(record.T_world_cam));
   }
   return trajectory;
 }
@@ -293,10 +305,10 @@ PoseGraph Mapper::Graph() const {
   PoseGraph graph;
   const FrameStore& frames = impl_->state.frames;
   for (int i = 0; i < frames.size(); ++i) {
-    graph.vertices.push_back({frames[i].frame, frames[i].T_world_cam, i == 0});
+    graph.vertices.push_back({frames[i].frame, impl_->ToHost(frames[i].T_world_cam), i == 0});
     if (i == 0) continue;
-    const OdometryEdge step =
-        OdometryBetween(frames, i - 1, i, {impl_->options.ba.odometry, {}}, gravity().up, scale());
+    const OdometryEdge step = OdometryBetween(frames, i - 1, i, {impl_->options.ba.odometry, {}},
+                                              impl_->state.gravity().up, scale());
     graph.edges.push_back(
         {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }
@@ -319,7 +331,7 @@ std::vector<MapObject> Mapper::Objects() const {
     object.id = landmark.id;
     object.label = landmark.label;
     object.state = landmark.state;
-    object.T_world_object = ToPose(landmark.pose, impl_->context.gravity);
+    object.T_world_object = impl_->ToHost(ToPose(landmark.pose, impl_->state.gravity()));
     object.dims = landmark.dims;
     for (const Sighting& sighting : landmark.sightings)
       object.observations.push_back({sighting.frame, sighting.detection_row});

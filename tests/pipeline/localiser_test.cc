@@ -101,6 +101,29 @@ TEST(Localiser, FindsTheCamera) {
   }
 }
 
+TEST(Localiser, FindsTheCameraInAMapOfOtherAxes) {
+  const Pose T_new_old(lie::SO3<double>::Exp(Vec3(1.2, -0.4, 0.7)), Vec3(5, -6, 7));
+  sim::World turned = BlockWorld(3);
+  turned.gravity = GravityFrame::FromUp(T_new_old.so3() * turned.gravity.up);
+  for (sim::WorldObject& object : turned.objects)
+    object.T_world_object.front() = T_new_old * object.T_world_object.front();
+  Localiser localiser(TrueMap(turned), {});
+  Drives drives = Stretch(BlockWorld(3), 20, 120);
+  for (Frame& frame : drives.frames) frame.T_odom_cam = T_new_old * frame.T_odom_cam;
+  const std::vector<Localisation> answers = AnswersOf(localiser, drives);
+  EXPECT_GE(CountFound(answers), 5);
+  for (const Localisation& answer : answers) {
+    if (answer.decision != LoopDecision::kAccepted) continue;
+    const auto at = static_cast<std::size_t>(answer.frame);
+    const Vec6 error =
+        ((T_new_old * drives.world.truth.poses[at]).inverse() * answer.T_map_cam).Log();
+    EXPECT_LT(error.head<3>().norm(), 1.5) << answer.frame;
+    EXPECT_LT(error.tail<3>().norm(), 0.06) << answer.frame;
+    const Pose& T_odom_cam = drives.frames[at].T_odom_cam;
+    EXPECT_LT((answer.T_map_cam.inverse() * answer.T_map_odom * T_odom_cam).Log().norm(), 1e-9);
+  }
+}
+
 TEST(Localiser, SaysWhyNot) {
   Localiser elsewhere(TrueMap(BlockWorld(3)), {});
   const std::vector<Localisation> answers = AnswersOf(elsewhere, Stretch(BlockWorld(4), 20, 200));
