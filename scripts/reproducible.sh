@@ -33,7 +33,7 @@ build() {  # FOLDER CCACHE_DISABLE <options>...
     cmake --preset package "$@" >/dev/null
     nice -n 5 cmake --build build/package -j "$jobs" | tail -1
     rm -rf out
-    cmake --install build/package --prefix "$source/out/installed" >/dev/null
+    DESTDIR=$source/out/installed cmake --install build/package >/dev/null
     (cd build/package && cpack -B "$source/out/packages" >/dev/null)
     rm -rf out/packages/_CPack_Packages
     (cd out && find . \( -type f -o -type l \) -print0 | sort -z | xargs -0 sha256sum) >"$source.sums"
