@@ -47,7 +47,7 @@ class Bench {
         folder_(arguments.out, SSLCD_COMMIT, Dump(baselines_)) {}
 
   // The requested tables, in the order of the paper.
-  void Run() {
+  BenchResults Run() {
     const std::vector<std::pair<std::string, void (Bench::*)()>> all = {
         {"table1", &Bench::Table1},
         {"table2", &Bench::Table2},
@@ -59,7 +59,7 @@ class Bench {
     CheckOptions();
     for (const auto& [name, run] : all)
       if (Asked(name)) (this->*run)();
-    writer_.WriteDocument();
+    return writer_.Finish();
   }
 
  private:
@@ -259,8 +259,8 @@ class Bench {
 
 }  // namespace
 
-void RunBenchTables(const BenchArguments& arguments, const Console& console) {
-  Bench(arguments, console).Run();
+BenchResults RunBenchTables(const BenchArguments& arguments, const Console& console) {
+  return Bench(arguments, console).Run();
 }
 
 }  // namespace sslcd::apps

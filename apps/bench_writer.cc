@@ -2,16 +2,42 @@
 #include "bench_writer.h"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "benchmark/results.h"
 #include "formats/atomic_file.h"
 #include "formats/file_set.h"
+#include "formats/json_text.h"
 #include "formats/text_rows.h"
+#include "report/report_page.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
 
 namespace sslcd::apps {
+namespace {
+
+// The data of src/report/web/bench.js. '<' is escaped: the text stands in a page.
+std::string BenchJson(const BenchResults& results) {
+  nlohmann::ordered_json root;
+  const auto add = [&root](const char* name, const std::vector<benchmark::Table>& tables) {
+    root[name] = nlohmann::ordered_json::array();
+    for (const benchmark::Table& table : tables)
+      root[name].push_back({{"key", table.key},
+                            {"title", table.title},
+                            {"header", table.header},
+                            {"rows", table.rows},
+                            {"note", table.note}});
+  };
+  add("tables", results.tables);
+  add("curves", results.curves);
+  std::string text;
+  for (const char c : JsonText(root, root["tables"]))
+    text += c == '<' ? "\\u003c" : std::string(1, c);
+  return text;
+}
+
+}  // namespace
 
 void TableWriter::Write(benchmark::Table table, const std::vector<int>& cases,
                         const std::vector<benchmark::Table>& curves) {
@@ -25,9 +51,11 @@ void TableWriter::Write(benchmark::Table table, const std::vector<int>& cases,
               {}};
   for (const benchmark::Table& curve : curves)
     set.files.emplace_back(path + curve.key + ".csv", ToCsv(curve));
+  for (const auto& file : set.files) results_.paths.push_back(file.first);
   WriteFileSet(std::move(set));
   console_.Say(ToMarkdown(table));
-  tables_.push_back(std::move(table));
+  results_.tables.push_back(std::move(table));
+  results_.curves.insert(results_.curves.end(), curves.begin(), curves.end());
 }
 
 std::string TableWriter::Provenance(const std::vector<int>& cases) const {
@@ -51,12 +79,21 @@ std::string TableWriter::Provenance(const std::vector<int>& cases) const {
 
 void TableWriter::CheckDocument() const {
   if (!arguments_.docs.empty()) ReadFileBytes(arguments_.docs);
+  if (!arguments_.report.empty()) RequireReportLibraries();
 }
 
-void TableWriter::WriteDocument() const {
-  if (arguments_.docs.empty()) return;
-  WriteFileAtomically(arguments_.docs, benchmark::ReplaceTables(ReadFileBytes(arguments_.docs),
-                                                                arguments_.docs, tables_));
+BenchResults TableWriter::Finish() {
+  const std::string &document = arguments_.docs, &page = arguments_.report;
+  if (!document.empty()) {
+    WriteFileAtomically(
+        document, benchmark::ReplaceTables(ReadFileBytes(document), document, results_.tables));
+    results_.paths.push_back(document);
+  }
+  if (!page.empty()) {
+    WriteFileAtomically(page, BenchPage(BenchJson(results_), "bench " + arguments_.name));
+    results_.paths.push_back(page);
+  }
+  return std::move(results_);
 }
 
 }  // namespace sslcd::apps

@@ -22,17 +22,18 @@ class TableWriter {
   void Write(benchmark::Table table, const std::vector<int>& cases,
              const std::vector<benchmark::Table>& curves = {});
 
-  /// Throws Error(kBadInput) if there is a document (--docs) that cannot be read.
+  /// Throws Error(kBadInput) if there is a document (--docs) that cannot be read, and
+  /// Error(kBadConfig) if there is to be a page (--report) without its libraries.
   void CheckDocument() const;
-  /// Puts all tables written so far into the document, if there is one.
-  void WriteDocument() const;
+  /// Puts all tables written so far into the document, and writes the page, if they are asked for.
+  BenchResults Finish();
 
  private:
   std::string Provenance(const std::vector<int>& cases) const;
 
   const BenchArguments& arguments_;
   const Console& console_;
-  std::vector<benchmark::Table> tables_;
+  BenchResults results_;
 };
 
 }  // namespace sslcd::apps

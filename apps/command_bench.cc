@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bench_tables.h"
 #include "commands.h"
 #include "examples.h"
 #include "threads.h"
+#include "written.h"
 
 namespace sslcd::apps {
 namespace {
@@ -17,7 +19,11 @@ int RunBench(BenchArguments& arguments, const Console& console) {
                         arguments.cases.end());
   CatchInterrupt();
   try {
-    RunBenchTables(arguments, console);
+    const BenchResults results = RunBenchTables(arguments, console);
+    nlohmann::ordered_json tables;
+    for (const benchmark::Table& table : results.tables)
+      tables[table.key] = nlohmann::ordered_json::parse(ToJson(table));
+    if (arguments.json) PrintWritten({{"tables", tables}}, results.paths);
   } catch (const BenchStopped&) {
     console.EndStatus();
     console.Say("interrupted: the same command goes on from here");
@@ -103,10 +109,15 @@ Command AddBenchCommand(CLI::App& app, Console& console) {
   AddInputOptions(*command, *a);
   AddThreads(*command, a->threads, 0,
              "runs at a time; the figures but times do not depend on it; 0: all cores");
+  command->add_option("--report", a->report,
+                      "page to write, with these tables and curves; any browser opens it offline");
+  command->add_flag("--json", a->json, "print the tables as JSON and nothing else");
   command->add_flag("-q,--quiet", console.quiet, "print errors only");
   command->footer(Examples({"bench table2 --seeds 2 --cases 1,2 --methods sslcd,paper",
+                            "bench pr --report pr.html",
                             "bench viewpoint --viewpoints 150-180 --out runs/viewpoint"}));
   return [a, &console] {
+    if (a->json) console.quiet = true;
     console.InstallLog();
     return RunBench(*a, console);
   };

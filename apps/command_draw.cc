@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "examples.h"
@@ -8,6 +10,7 @@
 #include "png_drawing.h"
 #include "report/draw_run.h"
 #include "sslcd/core/error.h"
+#include "written.h"
 
 namespace sslcd::apps {
 namespace {
@@ -15,15 +18,29 @@ namespace {
 struct DrawArguments {
   std::string run, out = "map.svg", groundtruth;
   DrawOptions options;
+  bool json = false;
 };
+
+int LoopsDrawn(const RunView& run, const DrawOptions& options) {
+  if (options.loop) return 1;
+  const int loops = static_cast<int>(AcceptedLoops(run).size());
+  return std::min(loops, options.max_loops.value_or(loops));
+}
 
 int Draw(const DrawArguments& a, const Console& console) {
   const std::string extension = std::filesystem::path(a.out).extension();
   if (extension != ".svg" && extension != ".png")
     throw Error(ErrorKind::kUsage, a.out + ": the name of a picture ends with .svg or .png");
-  const Drawing drawing = DrawRun(ReadRun(a.run, a.groundtruth), a.options);
+  const RunView run = ReadRun(a.run, a.groundtruth);
+  const Drawing drawing = DrawRun(run, a.options);
   WriteFileAtomically(a.out, extension == ".svg" ? SvgText(drawing) : PngBytes(drawing));
   console.Say("wrote " + a.out);
+  if (a.json)
+    PrintWritten({{"run", a.run},
+                  {"frames", run.trajectory.size()},
+                  {"objects", run.map.objects.size()},
+                  {"loops", LoopsDrawn(run, a.options)}},
+                 {a.out});
   return 0;
 }
 
@@ -51,10 +68,12 @@ Command AddDrawCommand(CLI::App& app, Console& console) {
       command->add_flag("--before-after", a->options.before_after,
                         "two maps: the loops on the odometry, and on the corrected trajectory");
   loop->excludes(loops)->excludes(both);
+  command->add_flag("--json", a->json, "print what was drawn as JSON and nothing else");
   command->footer(
       Examples({"draw runs/monday --out map.svg", "draw runs/monday --out map.png --before-after",
-                "draw runs/monday --loop 380 --out loop.svg"}));
+                "draw runs/monday --loop 380 --out loop.svg --json"}));
   return [a, &console] {
+    if (a->json) console.quiet = true;
     console.InstallLog();
     return Draw(*a, console);
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "datasets/run_folder.h"
@@ -14,6 +15,7 @@
 #include "run_export/run_kml.h"
 #include "run_export/run_ply.h"
 #include "sslcd/core/error.h"
+#include "written.h"
 
 namespace sslcd::apps {
 namespace {
@@ -21,6 +23,7 @@ namespace {
 struct ExportArguments {
   std::string run, out;
   GeoArguments geo;
+  bool json = false;
 };
 
 std::string PlyOf(const RunView& run, const GeoOrigin&) { return RunPly(SceneOf(run)); }
@@ -68,8 +71,15 @@ int Export(const ExportArguments& a, const Console& console) {
   if (!format.on_earth && origin)
     throw Error(ErrorKind::kUsage, a.out + ": --origin is for .kml and .geojson; leave it out");
   RefuseOverwriting(RunFolderPaths(a.run), {a.out});
-  WriteFileAtomically(a.out, format.content(ReadRun(a.run), origin.value_or(GeoOrigin())));
+  const RunView run = ReadRun(a.run);
+  WriteFileAtomically(a.out, format.content(run, origin.value_or(GeoOrigin())));
   console.Say("wrote " + a.out);
+  if (a.json)
+    PrintWritten({{"run", a.run},
+                  {"frames", run.trajectory.size()},
+                  {"objects", run.map.objects.size()},
+                  {"loops", AcceptedLoops(run).size()}},
+                 {a.out});
   return 0;
 }
 
@@ -87,10 +97,12 @@ Command AddExportCommand(CLI::App& app, Console& console) {
                    ".kml, .geojson (with --origin)")
       ->required();
   a->geo.AddTo(*command, "for .kml and .geojson");
+  command->add_flag("--json", a->json, "print what was written as JSON and nothing else");
   command->footer(
-      Examples({"export runs/monday --out monday.ply", "export runs/monday --out monday.glb",
+      Examples({"export runs/monday --out monday.ply", "export runs/monday --out monday.glb --json",
                 "export runs/monday --out monday.kml --origin 49.01,8.43 --heading 120"}));
   return [a, &console] {
+    if (a->json) console.quiet = true;
     console.InstallLog();
     return Export(*a, console);
   };

@@ -13,6 +13,7 @@
 #include "sslcd/core/error.h"
 #include "sslcd/store/map_session.h"
 #include "store/session_view.h"
+#include "written.h"
 
 namespace sslcd::apps {
 namespace {
@@ -119,8 +120,18 @@ int Verify(const MapCommandArguments& a, const Console& console) {
 int Export(const MapCommandArguments& a, const Console& console) {
   const std::optional<GeoOrigin> origin = a.geo.Origin();
   const MapStore store(a.file);
-  for (const std::string& path : ExportMap(store.Describe(), store.Results(), a.out, origin))
-    console.Say("wrote " + path);
+  const MapInfo info = store.Describe();
+  const MapResults results = store.Results();
+  const std::vector<std::string> paths = ExportMap(info, results, a.out, origin);
+  for (const std::string& path : paths)
+    if (!a.json) console.Say("wrote " + path);
+  const MapCounts counts = CountsOf(results);
+  if (a.json)
+    PrintWritten({{"map", a.file},
+                  {"sessions", info.sessions.size()},
+                  {"landmarks", counts.landmarks},
+                  {"loops_accepted", counts.loops}},
+                 paths);
   return 0;
 }
 
@@ -170,7 +181,7 @@ const MapSubcommand kMapSubcommands[] = {
     {"verify", "read all of a map and compare it with its checksums", Verify,
      Examples({"map verify site.db", "map verify site.db --json"})},
     {"export", "write the results as the files of a run folder", Export,
-     Examples({"map export site.db --out site",
+     Examples({"map export site.db --out site --json",
                "map export site.db --out site --origin 49.01,8.43 --heading 120"})},
     {"diff", "what has changed between two sessions", Diff,
      Examples(
@@ -209,7 +220,7 @@ Command AddMapCommand(CLI::App& app, Console& console) {
       one->add_flag("--json", diff.json, "print JSON");
     }
     if (row.run == Merge) arguments->merge.AddTo(*one);
-    if (row.run == PrintInfo || row.run == Verify)
+    if (row.run == PrintInfo || row.run == Verify || row.run == Export)
       one->add_flag("--json", arguments->json, "print JSON");
   }
   return [command, arguments, &console] {

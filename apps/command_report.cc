@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "examples.h"
@@ -11,6 +12,7 @@
 #include "report_file.h"
 #include "report_images.h"
 #include "sslcd/core/error.h"
+#include "written.h"
 
 namespace sslcd::apps {
 namespace {
@@ -18,7 +20,7 @@ namespace {
 struct ReportArguments {
   std::vector<std::string> runs;
   std::string out, groundtruth;
-  bool no_images = false;
+  bool no_images = false, json = false;
 };
 
 // The name of the sequence, and of the folder where several have the same.
@@ -33,10 +35,22 @@ std::vector<std::string> NamesOf(const std::vector<RunView>& runs) {
   return names;
 }
 
+nlohmann::ordered_json RunsJson(const std::vector<RunView>& runs) {
+  auto list = nlohmann::ordered_json::array();
+  for (const RunView& run : runs)
+    list.push_back({{"run", run.folder},
+                    {"frames", run.trajectory.size()},
+                    {"objects", run.map.objects.size()},
+                    {"attempts", run.loops.size()},
+                    {"loops", AcceptedLoops(run).size()}});
+  return {{"runs", list}};
+}
+
 }  // namespace
 
-void WriteReport(const std::vector<std::string>& runs, const std::string& groundtruth,
-                 const std::string& out, bool images, const std::string& metrics) {
+std::vector<RunView> WriteReport(const std::vector<std::string>& runs,
+                                 const std::string& groundtruth, const std::string& out,
+                                 bool images, const std::string& metrics) {
   RequireReportLibraries();
   std::vector<RunView> views;
   for (const std::string& run : runs) {
@@ -47,6 +61,7 @@ void WriteReport(const std::vector<std::string>& runs, const std::string& ground
   const std::vector<std::string> names = NamesOf(views);
   const std::string title = views.size() == 1 ? names[0] : std::to_string(views.size()) + " runs";
   WriteFileAtomically(out, ReportPage(ReportJson(views, names), title + " - sslcd"));
+  return views;
 }
 
 Command AddReportCommand(CLI::App& app, Console& console) {
@@ -60,13 +75,16 @@ Command AddReportCommand(CLI::App& app, Console& console) {
                       "true poses; default: those that the run was compared with");
   command->add_flag("--no-images", a->no_images,
                     "no crops of the run's images, e.g. in a page for others");
+  command->add_flag("--json", a->json, "print what was written as JSON and nothing else");
   command->footer(
-      Examples({"report runs/monday", "report runs/monday runs/tuesday --out both.html"}));
+      Examples({"report runs/monday", "report runs/monday runs/tuesday --out both.html --json"}));
   return [a, &console] {
+    if (a->json) console.quiet = true;
     console.InstallLog();
     const std::string out = a->out.empty() ? a->runs[0] + "/report.html" : a->out;
-    WriteReport(a->runs, a->groundtruth, out, !a->no_images);
+    const std::vector<RunView> runs = WriteReport(a->runs, a->groundtruth, out, !a->no_images);
     console.Say("wrote " + out);
+    if (a->json) PrintWritten(RunsJson(runs), {out});
     return 0;
   };
 }

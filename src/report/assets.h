@@ -18,5 +18,8 @@ std::vector<Asset> ReportScripts();
 std::string_view ReportTemplate();
 std::string_view ReportStyle();
 std::string_view ReportLicences();
+/// Of the page of a benchmark, which shares page.js and charts.js.
+std::string_view BenchTemplate();
+std::string_view BenchScript();
 
 }  // namespace sslcd

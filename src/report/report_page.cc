@@ -9,8 +9,9 @@ namespace sslcd {
 namespace {
 
 void Replace(std::string& text, const std::string& mark, const std::string& by) {
-  const std::size_t at = text.find(mark);
-  text.replace(at, mark.size(), by);
+  for (std::size_t at = text.find(mark); at != std::string::npos;
+       at = text.find(mark, at + by.size()))
+    text.replace(at, mark.size(), by);
 }
 
 // A script of a library must not end the element that holds it.
@@ -19,6 +20,18 @@ std::string Script(std::string text) {
        at = text.find("</script", at))
     text.replace(at, 2, "<\\/");
   return "<script>\n" + text + "\n</script>\n";
+}
+
+std::string Page(std::string_view form, const std::string& libraries, const std::string& own,
+                 const std::string& data, const std::string& title) {
+  std::string page(form);
+  Replace(page, "<!-- title -->", MarkupText(title));
+  Replace(page, "/* style */", std::string(ReportStyle()));
+  Replace(page, "<!-- licences -->", MarkupText(std::string(ReportLicences())));
+  Replace(page, "<!-- scripts -->",
+          libraries + Script("(() => {\n\"use strict\";\n" + own + "})();"));
+  Replace(page, "<!-- data -->", data);
+  return page;
 }
 
 }  // namespace
@@ -36,18 +49,19 @@ void RequireReportLibraries() {
 
 std::string ReportPage(const std::string& data, const std::string& title) {
   RequireReportLibraries();
-  std::string scripts;
-  for (const Asset& asset : ReportLibraries()) scripts += Script(std::string(asset.text));
-  std::string own;
+  std::string libraries, own;
+  for (const Asset& asset : ReportLibraries()) libraries += Script(std::string(asset.text));
   for (const Asset& asset : ReportScripts()) own += std::string(asset.text) + "\n";
-  std::string page(ReportTemplate());
-  Replace(page, "<!-- title -->", MarkupText(title));
-  Replace(page, "/* style */", std::string(ReportStyle()));
-  Replace(page, "<!-- licences -->", MarkupText(std::string(ReportLicences())));
-  Replace(page, "<!-- scripts -->",
-          scripts + Script("(() => {\n\"use strict\";\n" + own + "})();"));
-  Replace(page, "<!-- data -->", data);
-  return page;
+  return Page(ReportTemplate(), libraries, own, data, title);
+}
+
+std::string BenchPage(const std::string& data, const std::string& title) {
+  RequireReportLibraries();
+  std::string own;
+  for (const Asset& asset : ReportScripts())
+    if (asset.name == "page.js" || asset.name == "charts.js") own += std::string(asset.text) + "\n";
+  return Page(BenchTemplate(), Script(std::string(ReportLibraries().back().text)),
+              own + std::string(BenchScript()), data, title);
 }
 
 }  // namespace sslcd

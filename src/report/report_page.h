@@ -13,4 +13,9 @@ void RequireReportLibraries();
 /// RequireReportLibraries() does.
 std::string ReportPage(const std::string& data, const std::string& title);
 
+/// Returns a page of the tables and curves of a benchmark, without any other file. `data` is JSON
+/// without '<': lists `tables` and `curves` of objects with `key`, `title`, `header`, `rows` and
+/// `note`. Throws as RequireReportLibraries() does.
+std::string BenchPage(const std::string& data, const std::string& title);
+
 }  // namespace sslcd

@@ -17,20 +17,23 @@ function attemptsMesh(attempts, colourOf) {
   return mesh;
 }
 
-// Bars from camera to camera: lines of WebGL are never wider than a pixel. One mesh for each colour.
+// Bars from camera to camera: lines of WebGL are never wider than a pixel. One mesh for each colour, and one for the
+// rims in the colour of the background that set them off from the paths.
 const VIEWPOINT_BIN_DEG = 20;
 const barGeometry = new THREE.CylinderBufferGeometry(0.58, 0.58, 1, 3, 1, true).rotateX(Math.PI / 2); // 6 triangles
 
-function barMatrix(attempt) {
+function barMatrix(attempt, times) {
   const from = poseAt(rowOf(attempt.match)), to = poseAt(rowOf(attempt.query)), along = to.clone().sub(from);
-  const length = Math.max(0.01, along.length()), width = Math.max(0.08, world.extent / 700);
+  const length = Math.max(0.01, along.length()), width = times * Math.max(0.08, world.extent / 700);
   const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), along.divideScalar(length));
   return new THREE.Matrix4().compose(from.add(to).multiplyScalar(0.5), turn, new THREE.Vector3(width, width, length));
 }
 
-function barMesh(attempts, degrees) {
-  const mesh = new THREE.InstancedMesh(barGeometry.clone(), new THREE.MeshBasicMaterial({ color: viewpointColour(degrees) }), attempts.length);
-  attempts.forEach((attempt, i) => barMatrix(attempt).toArray(mesh.instanceMatrix.array, 16 * i));
+function barMesh(attempts, degrees, rim = false) {
+  const material = new THREE.MeshBasicMaterial({ color: rim ? world.scene.background : viewpointColour(degrees), depthWrite: !rim });
+  const mesh = new THREE.InstancedMesh(barGeometry.clone(), material, attempts.length);
+  mesh.renderOrder = rim ? 2 : 3; // after the paths
+  attempts.forEach((attempt, i) => barMatrix(attempt, rim ? 2 : 1).toArray(mesh.instanceMatrix.array, 16 * i));
   mesh.frustumCulled = false;
   mesh.userData.rows = attempts.map((attempt) => rowOf(attempt.query));
   return mesh;
@@ -44,6 +47,7 @@ function makeLoops() {
     const within = (attempt) => attempt.angle >= low && (attempt.angle < low + VIEWPOINT_BIN_DEG || low + VIEWPOINT_BIN_DEG >= 180);
     const accepted = ordered.filter((attempt) => attempt.decision === "accepted" && within(attempt));
     if (accepted.length) loopGroup.add(barMesh(accepted, low + VIEWPOINT_BIN_DEG / 2));
+    if (accepted.length) loopGroup.add(barMesh(accepted, 0, true));
   }
   const refused = ordered.filter((attempt) => attempt.decision !== "accepted");
   refusedGroup.add(attemptsMesh(refused, (attempt) => DECISION_COLOURS[attempt.decision]));

@@ -32,6 +32,7 @@ function paintScene() {
   world.scene.background = new THREE.Color(style.getPropertyValue("--stage").trim());
   world.grid.material.vertexColors = THREE.NoColors || false;
   world.grid.material.color.set(isDark() ? "#3c434d" : "#d3d8de");
+  paintObjects();
   makeMoving();
 }
 

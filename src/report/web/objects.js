@@ -14,6 +14,22 @@ function objectMatrix(object) {
 const boxGeometry = new THREE.BoxBufferGeometry(1, 1, 1);
 const roundGeometry = new THREE.CylinderBufferGeometry(0.5, 0.5, 1, 10);
 
+// Points in the middles: what is smaller than a few pixels, like a tree in a park, is seen from afar, too.
+function objectPoints(objects, colour) {
+  const geometry = new THREE.BufferGeometry(), positions = new Float32Array(3 * objects.length);
+  objects.forEach((object, i) => objectPoint(object).toArray(positions, 3 * i));
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  const points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 5, sizeAttenuation: false }));
+  points.frustumCulled = false;
+  points.userData = { colour, first: objects.map((object) => object[OBJECT.first]) };
+  return points;
+}
+
+function paintObjects() {
+  for (const { isPoints, material, userData } of objectGroup.children)
+    if (isPoints) material.color.set(userData.colour).multiplyScalar(isDark() ? 1 : 0.72);
+}
+
 function makeObjects() {
   for (const child of [...objectGroup.children]) objectGroup.remove(child);
   objectById = new Map(run.objects.map((object) => [object[OBJECT.id], object]));
@@ -24,7 +40,7 @@ function makeObjects() {
     objects.forEach((object, i) => objectMatrix(object).toArray(mesh.instanceMatrix.array, 16 * i));
     mesh.frustumCulled = false;
     mesh.userData.first = objects.map((object) => object[OBJECT.first]);
-    objectGroup.add(mesh);
+    objectGroup.add(mesh, objectPoints(objects, label.colour));
   });
 }
 
@@ -36,7 +52,8 @@ function showObjectsUntil(frame) {
       if (mesh.userData.first[middle] <= frame) low = middle + 1;
       else high = middle;
     }
-    mesh.count = low;
+    if (mesh.isPoints) mesh.geometry.setDrawRange(0, low);
+    else mesh.count = low;
     mesh.visible = low > 0;
   }
 }

@@ -1,7 +1,7 @@
 // What all parts share: the data, the chosen run, and small helpers.
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
-let run = data.runs[0];
+let run = data.runs && data.runs[0]; // none: a benchmark
 let row = 0; // of the trajectory that is shown: the time of the replay
 
 function element(tag, properties, ...children) {
@@ -19,11 +19,12 @@ const ink = () => getComputedStyle(document.documentElement).getPropertyValue("-
 // The ends of the palette that are hard to see on the background are left out.
 function viewpointColour(degrees) {
   const last = data.viewpoint_colours.length - 1, share = Math.min(1, Math.abs(degrees) / 180);
-  return data.viewpoint_colours[Math.round(last * (isDark() ? 0.3 + 0.7 * share : 0.88 * share))];
+  return data.viewpoint_colours[Math.round(last * (isDark() ? 0.45 + 0.55 * share : 0.88 * share))];
 }
 
 const odometryColour = () => (isDark() ? "#ff8a3d" : data.colours.odometry);
-const correctedColour = () => (isDark() ? "#58b4f0" : data.colours.corrected);
+// Lighter than in pictures: loops between the same viewpoints are dark blue.
+const correctedColour = () => (isDark() ? "#58b4f0" : "#2196e8");
 
 // Names and values of a flat JSON object, each as it is printed there.
 function printedValues(text) {

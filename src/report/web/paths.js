@@ -42,6 +42,8 @@ function pathMesh(flat, colour) {
   segments.forEach(([from, to], i) => (at[from].toArray(positions, 6 * i), at[to].toArray(positions, 6 * i + 3)));
   const mesh = segmentsMesh(positions, colour);
   mesh.userData = { at, segments, cut: -1 };
+  mesh.renderOrder = 1;
+  mesh.material.depthWrite = false; // the rims of loops cover it
   return mesh;
 }
 
