@@ -83,10 +83,10 @@ class Browser:
                     raise RuntimeError(f'{method}: {message["error"]}')
                 return message['result']
 
-    def open(self, path, width, height):
+    def open(self, path, width, height, ready="window.report && window.report.world.first_frame_ms"):
         self.call('Emulation.setDeviceMetricsOverride', width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
         self.call('Page.navigate', url='file://' + os.path.abspath(path))
-        self.wait('window.report && window.report.world.first_frame_ms', 60)
+        self.wait(ready, 60)
 
     def run(self, script):
         """The value of a JavaScript expression; a promise is awaited."""

@@ -35,6 +35,31 @@ class BenchTest(CliCase):
         self.assertIn(read(f'{self.out}/table2.md'), result.stdout)
         self.assertIn('Commit ', read(f'{self.out}/table2.md'))
 
+    def test_json_and_page(self):
+        page = self.out + '.html'
+        result = self.bench('pr', *ONE, '--methods', 'sslcd,one_look', '--report', page, '--json')
+        if 'libjs-three' in result.stderr:
+            self.skipTest('skipped: built without three.js and Chart.js')
+        shown = json.loads(result.stdout)
+        self.assertEqual(shown['tables'], {'pr': json.loads(read(self.out + '/pr.json'))})
+        self.assertEqual([each['path'] for each in shown['written']],
+                         [f'{self.out}/pr.{end}' for end in ('md', 'json', 'csv')] + [self.out + '/pr_curves.csv', page])
+        for each in shown['written']:
+            self.assertEqual(each['bytes'], os.path.getsize(each['path']))
+        text = read(page)
+        self.assertNotIn('src=', text)
+        data = json.loads(text.split('id="data">')[1].split('</script>')[0])
+        self.assertIn('Commit ', data['tables'][0]['note'])
+        cells = [list(row.values()) for row in self.read_csv('pr')]
+        self.assertEqual((data['tables'][0]['rows'], data['tables'][0]['header']), (cells, list(self.read_csv('pr')[0])))
+        self.assertEqual(data['curves'][0]['rows'], [list(row.values()) for row in self.read_csv('pr_curves')])
+
+        # names of methods are text
+        evil = '</script><b>=' + self.data
+        result = self.bench('table2', *ONE, '--methods', 'no_loops', '--trajectories', evil, '--report', page)
+        self.refused(result, 3)
+        self.assertEqual(read(page), text, 'what was there stays')
+
     def test_what_is_there_is_not_measured_again(self):
         self.assertEqual(self.bench('table2', *SMALL).returncode, 0)
         trials = self.out + '/trials/'

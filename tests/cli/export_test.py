@@ -143,6 +143,12 @@ class FormatsTest(ExportCase):
         self.assertGreater(features[1]['geometry']['coordinates'][-1][1], 49, 'to the north, where no heading is given')
         self.assertEqual({each['properties']['landmark'] for each in features[3:-1]}, {each['id'] for each in self.objects()})
 
+    def test_json(self):
+        path = self.file + '.ply'
+        shown = json.loads(call('export', self.out, '--out', path, '--json').stdout)
+        self.assertEqual(shown, {'run': self.out, 'frames': 40, 'objects': len(self.objects()), 'loops': 1,
+                                 'written': [{'path': path, 'bytes': os.path.getsize(path)}]})
+
     def test_g2o(self):
         graph = self.export('.g2o')
         self.assertEqual(read(graph), read(self.out + '/graph.g2o'))

@@ -55,6 +55,9 @@ class MapTest(MapCase):
             self.assertEqual(read(f'{self.out}/{name}'), read(f'{self.out}_export/{name}'), name)
         for name in ('trajectory_tum.txt', 'trajectory_kitti.txt', 'odometry_tum.txt', 'odometry_kitti.txt'):
             self.assertEqual(read(f'{self.out}/{name}'), read(f'{self.out}_export/data/{name}'), name)
+        shown = json.loads(call('map', 'export', self.map, '--out', self.out + '_export', '--json').stdout)
+        self.assertEqual([each['path'] for each in shown['written']], [line[len('wrote '):] for line in exported.stdout.splitlines()])
+        self.assertTrue(all(each['bytes'] == os.path.getsize(each['path']) for each in shown['written']))
         geo = call('map', 'export', self.map, '--out', self.out + '_geo', '--origin', '49,8.4', '--heading', '90')
         self.assertEqual(geo.returncode, 0, geo.stderr)
         lines = json.loads(read(self.out + '_geo/map.geojson'))['features']

@@ -28,6 +28,13 @@ class DrawTest(CliCase):
             header = file.read(24)
         self.assertEqual((header[:4], int.from_bytes(header[16:20], 'big')), (b'\x89PNG', 600))
 
+    def test_json(self):
+        shown = json.loads(call('draw', self.out, '--out', self.picture, '--loops', 0, '--json').stdout)
+        objects = sum(each['state'] == 'confirmed' for each in json.loads(read(self.out + '/map.json'))['objects'])
+        self.assertEqual(shown, {'run': self.out, 'frames': 40, 'objects': objects, 'loops': 0,
+                                 'written': [{'path': self.picture, 'bytes': os.path.getsize(self.picture)}]})
+        self.assertEqual(call('draw', self.data, '--out', self.picture, '--json').stdout, '', 'nothing was drawn')
+
     def test_what_cannot_be_drawn(self):
         draw = ('draw', self.out, '--out', self.picture)
         self.not_drawn(call('draw', self.data, '--out', self.picture), 3, 'holds no map.json')
@@ -89,6 +96,14 @@ class ReportTest(CliCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn('ate_se3_rmse_m', result.stdout)
         self.assertIn(json.dumps(result.stdout).replace('<', '\\u003c'), read(judged))
+
+    def test_json(self):
+        self.run_data()
+        page = self.data + '/page.html'
+        shown = json.loads(self.report(self.out, self.out, '--out', page, '--json').stdout)
+        self.assertEqual([(run['run'], run['frames']) for run in shown['runs']], [(self.out, 40)] * 2)
+        self.assertEqual(shown['runs'][0]['attempts'], len(read(self.out + '/loops.csv').splitlines()) - 1)
+        self.assertEqual(shown['written'], [{'path': page, 'bytes': os.path.getsize(page)}])
 
     def test_what_has_no_page(self):
         self.run_data()

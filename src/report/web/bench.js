@@ -12,7 +12,7 @@ function compareCells(a, b) {
 }
 
 function benchCell(text) {
-  const plain = text.replaceAll("**", ""), made = element("td", { className: numberIn(plain) === null ? "text" : "" });
+  const plain = text.replaceAll("**", ""), made = element("td", { className: plain && numberIn(plain) === null ? "text" : "" });
   made.append(plain === text ? plain || "-" : element("strong", { textContent: plain }));
   return made;
 }
@@ -26,7 +26,7 @@ function benchTable({ title, header, rows, note }) {
     const sorted = column < 0 ? rows : [...rows].sort(({ [column]: a }, { [column]: b }) => (a && b ? sign : 1) * compareCells(a, b));
     made.tHead.replaceChildren(element("tr", {}, ...header.map((name, i) => {
       const arrow = i !== column ? "" : down ? " ▼" : " ▲";
-      const button = element("button", { type: "button", textContent: name + arrow });
+      const button = element("button", { type: "button", textContent: name.replaceAll("**", "") + arrow });
       button.onclick = () => ((down = i === column && !down), (column = i), fill(), made.tHead.rows[0].cells[i].firstChild.focus());
       const cell = element("th", { scope: "col", className: numberIn((rows[0] || [])[i] || "1") === null ? "text" : "" }, button);
       cell.setAttribute("aria-sort", arrow ? (down ? "descending" : "ascending") : "none");
@@ -51,7 +51,7 @@ function byMethod({ header, rows }, wanted = () => true) {
 }
 
 const methodLines = (methods, pointOf) => [...methods].map(([name, rows], i) => line(name, rows.map(pointOf), METHOD_COLOURS[i % 6],
-  { borderDash: METHOD_DASHES[Math.floor(i / 6) % 3], pointStyle: METHOD_POINTS[i % 4], pointRadius: rows.length < 40 ? 4 : 0 }));
+  { borderDash: METHOD_DASHES[Math.floor(i / 6) % 3], pointStyle: METHOD_POINTS[i % 4], pointRadius: rows.length < 40 ? 4 : 0, clip: false }));
 
 function benchCharts() {
   for (const old of charts) old.destroy();
@@ -60,16 +60,17 @@ function benchCharts() {
   const pr = data.curves.find(({ key }) => key === "pr_curves"), seen = data.curves.find(({ key }) => key.startsWith("viewpoint"));
   $("pr_panel").hidden = !pr;
   $("viewpoint_panel").hidden = !seen;
+  const legend = { plugins: { legend: { labels: { usePointStyle: true } } } };
   const share = (text) => axis(text, { type: "linear", min: 0, max: 1 });
   if (pr) {
     const methods = byMethod(pr, (row) => row.viewpoint_deg === $("pr_bin").value);
     chart("pr_chart", "line", { datasets: methodLines(methods, (row) => ({ x: Number(row.recall), y: Number(row.precision) })) },
-      { x: share("recall"), y: share("precision") });
+      { x: share("recall"), y: share("precision") }, legend);
   }
   if (seen) {
     const labels = [...new Set(seen.rows.map((cells) => cells[1]))];
     chart("viewpoint_chart", "line", { labels, datasets: methodLines(byMethod(seen), (row) => ({ x: row.viewpoint_deg, y: Number(row.recall) })) },
-      { x: axis("viewpoint change [degrees]"), y: share("recall") });
+      { x: axis("viewpoint change [degrees]"), y: share("recall") }, legend);
   }
 }
 
@@ -79,7 +80,7 @@ function setBenchTheme(theme) {
 }
 
 const bins = data.curves.filter(({ key }) => key === "pr_curves").flatMap(({ rows }) => rows.map((cells) => cells[1]));
-$("pr_bin").append(...[...new Set(bins)].reverse().map((bin) => element("option", { value: bin, textContent: bin })));
+$("pr_bin").append(...[...new Set(["all", ...bins])].filter((bin) => bins.includes(bin)).map((bin) => element("option", { value: bin, textContent: bin })));
 $("pr_bin").onchange = benchCharts;
 $("theme").onclick = () => setBenchTheme(isDark() ? "light" : "dark");
 window.addEventListener("beforeprint", () => isDark() && setBenchTheme("light"));

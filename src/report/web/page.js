@@ -25,6 +25,7 @@ function viewpointColour(degrees) {
 const odometryColour = () => (isDark() ? "#ff8a3d" : data.colours.odometry);
 // Lighter than in pictures: loops between the same viewpoints are dark blue.
 const correctedColour = () => (isDark() ? "#58b4f0" : "#2196e8");
+const truthColour = () => (isDark() ? ink() : "#868e98");
 
 // Names and values of a flat JSON object, each as it is printed there.
 function printedValues(text) {

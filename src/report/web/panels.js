@@ -63,7 +63,7 @@ function fillLegend() {
   };
   const ramp = [0, 45, 90, 135, 180].map(viewpointColour).join(", ");
   $("legend").replaceChildren(item(odometryColour(), "odometry"), item(correctedColour(), "corrected"),
-    ...(run.truth ? [item(ink(), "ground truth")] : []), ...run.labels.map((label) => item(label.colour, label.name)),
+    ...(run.truth ? [item(truthColour(), "ground truth")] : []), ...run.labels.map((label) => item(label.colour, label.name)),
     item(`linear-gradient(to right, ${ramp})`, "loops, viewpoint change 0 to 180°", "ramp"));
 }
 

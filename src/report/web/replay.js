@@ -8,7 +8,7 @@ function makePaths() {
   clearGroup(pathGroup);
   paths.odometry = pathMesh(run.odometry, odometryColour());
   paths.corrected = pathMesh(run.corrected, correctedColour());
-  paths.truth = run.truth ? pathMesh(run.truth, ink()) : null;
+  paths.truth = run.truth ? pathMesh(run.truth, truthColour()) : null;
   for (const mesh of Object.values(paths)) if (mesh) pathGroup.add(mesh);
   cursor = new THREE.Mesh(new THREE.ConeBufferGeometry(0.9, 3, 16).rotateX(-Math.PI / 2), new THREE.MeshBasicMaterial({ color: odometryColour() }));
   pathGroup.add(cursor);
