@@ -172,6 +172,22 @@ class ReportPage(unittest.TestCase):
         shown = self.page.run('Chart.getChart("recall_chart").data.datasets[0].data')
         self.assertEqual(shown, [found / places if places else None for places, found, _, _ in bins])
 
+    def test_page_of_a_benchmark(self):
+        page = self.folder.name + '/bench.html'
+        call(RUN, 'bench', 'pr', '--seeds', 1, '--cases', 4, '--methods', 'sslcd,one_look', '--out', self.folder.name + '/bench', '--report', page)
+        for size in SIZES:
+            self.page.open(page, *size, ready='document.querySelector("#tables table")')
+            self.assertLessEqual(self.page.run('document.documentElement.scrollWidth'), size[0], 'nothing sticks out')
+            self.page.screenshot(f'{SHOTS}/bench_{size[0]}x{size[1]}.png')
+        lines = self.page.run('Chart.getChart("pr_chart").data.datasets.map((each) => [each.label, each.data.length])')
+        self.assertEqual([name for name, _ in lines], ['sslcd', 'one_look'])
+        self.assertGreater(min(count for _, count in lines), 1)
+        column = '[...document.querySelectorAll("#tables tbody tr")].map((row) => Number(row.cells[3].textContent))'
+        self.page.run('document.querySelectorAll("#tables thead button")[3].click()')
+        self.assertEqual(self.page.run(column), [0.5, 1])
+        self.page.run('document.querySelectorAll("#tables thead button")[3].click()')
+        self.assertEqual(self.page.run(column), [1, 0.5])
+
     def test_views(self):
         self.open()
         for view in ('above', 'driver'):
