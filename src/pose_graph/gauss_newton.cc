@@ -17,9 +17,10 @@ using Block = BlockCholesky::Block;
 constexpr double kLeastGradient = 1e-10, kLeastStep = 1e-8;
 
 // The normal equations at `poses`. `unknown` is the position of a vertex in them, -1 if anchored.
-void Linearise(const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
-               const std::vector<int>& unknown, const std::vector<Pose>& poses,
-               BlockCholesky& normal, BlockCholesky::Vector<1>& gradient) {
+void Linearise(const PoseGraphProblem& problem, const std::vector<int>& unknown,
+               const std::vector<Pose>& poses, BlockCholesky& normal,
+               BlockCholesky::Vector<1>& gradient) {
+  const auto& [graph, ends, weights, anchored] = problem;
   normal.SetZero();
   std::fill(gradient.begin(), gradient.end(), Vec6::Zero());
   for (std::size_t e = 0; e < ends.size(); ++e) {
@@ -51,9 +52,9 @@ double LargestEntry(const BlockCholesky::Vector<1>& vector) {
 
 }  // namespace
 
-GaussNewtonEnd GaussNewton(const PoseGraph& graph, const Ends& ends,
-                           const std::vector<double>& weights, const std::vector<bool>& anchored,
-                           const PoseGraphOptions& options, std::vector<Pose>& poses, int& steps) {
+GaussNewtonSummary GaussNewton(const PoseGraphProblem& problem, const PoseGraphOptions& options,
+                               std::vector<Pose>& poses) {
+  const auto& [graph, ends, weights, anchored] = problem;
   std::vector<int> unknown(poses.size(), -1);
   int unknowns = 0;
   for (std::size_t v = 0; v < poses.size(); ++v)
@@ -65,10 +66,12 @@ GaussNewtonEnd GaussNewton(const PoseGraph& graph, const Ends& ends,
   BlockCholesky normal(unknowns, pairs);
   BlockCholesky::Vector<1> gradient(unknowns);
   double chi2 = Chi2Of(graph, ends, weights, poses);
-  for (int step = 0; step < options.max_iterations; ++step) {
-    Linearise(graph, ends, weights, unknown, poses, normal, gradient);
-    if (LargestEntry(gradient) <= kLeastGradient) return GaussNewtonEnd::kConverged;
-    if (!normal.Factorise()) return GaussNewtonEnd::kStuck;
+  GaussNewtonSummary summary;
+  while (summary.steps < options.max_iterations) {
+    Linearise(problem, unknown, poses, normal, gradient);
+    if (LargestEntry(gradient) <= kLeastGradient)
+      return {GaussNewtonEnd::kConverged, summary.steps};
+    if (!normal.Factorise()) return {GaussNewtonEnd::kStuck, summary.steps};
     const BlockCholesky::Vector<1> d = normal.Solve(gradient);
     std::vector<Pose> moved = poses;
     for (std::size_t v = 0; v < poses.size(); ++v) {
@@ -77,15 +80,16 @@ GaussNewtonEnd GaussNewton(const PoseGraph& graph, const Ends& ends,
       moved[v].normalise();
     }
     const double moved_chi2 = Chi2Of(graph, ends, weights, moved);
-    if (!(moved_chi2 <= (1 + options.tolerance) * chi2)) return GaussNewtonEnd::kStuck;
-    ++steps;
+    if (!(moved_chi2 <= (1 + options.tolerance) * chi2))
+      return {GaussNewtonEnd::kStuck, summary.steps};
+    ++summary.steps;
     const bool converged =
         chi2 - moved_chi2 <= options.tolerance * chi2 || LargestEntry(d) <= kLeastStep;
     if (moved_chi2 < chi2) poses = std::move(moved);
-    if (converged) return GaussNewtonEnd::kConverged;
+    if (converged) return {GaussNewtonEnd::kConverged, summary.steps};
     chi2 = moved_chi2;
   }
-  return GaussNewtonEnd::kTooManySteps;
+  return summary;
 }
 
 }  // namespace sslcd

@@ -74,12 +74,11 @@ std::vector<Pose> StartPoses(const PoseGraph& graph, const Ends& ends,
   return summary.chordal ? *chordal : poses;
 }
 
-// argmin over `poses` of chi2 with fixed anchored poses, by Levenberg-Marquardt.
-ceres::Solver::Summary MinimiseWithCeres(const PoseGraph& graph, const Ends& ends,
-                                         const std::vector<double>& weights,
-                                         const std::vector<bool>& anchored,
+// argmin over `poses` of chi2, by Levenberg-Marquardt.
+ceres::Solver::Summary MinimiseWithCeres(const PoseGraphProblem& minimised,
                                          const PoseGraphOptions& options,
                                          std::vector<Pose>& poses) {
+  const auto& [graph, ends, weights, anchored] = minimised;
   PoseManifold full;
   UprightManifold upright(options.gravity, options.freedom == PoseFreedom::kPlanar);
   ceres::Manifold* manifold = &full;
@@ -115,21 +114,19 @@ std::string MessageOf(const ceres::Solver::Summary& result) {
 
 // Moves `poses` to the minimum of chi2. Most graphs start near it, where Gauss-Newton gets there in
 // a fraction of the time; damped steps go on where it does not.
-void Minimise(const PoseGraph& graph, const Ends& ends, const std::vector<double>& weights,
-              const std::vector<bool>& anchored, const PoseGraphOptions& options,
+void Minimise(const PoseGraphProblem& problem, const PoseGraphOptions& options,
               std::vector<Pose>& poses, PoseGraphSummary& summary) {
   if (options.freedom == PoseFreedom::kFull) {
-    const GaussNewtonEnd end =
-        GaussNewton(graph, ends, weights, anchored, options, poses, summary.iterations);
-    if (end != GaussNewtonEnd::kStuck) {
+    const GaussNewtonSummary direct = GaussNewton(problem, options, poses);
+    summary.iterations = direct.steps;
+    if (direct.end != GaussNewtonEnd::kStuck) {
       summary.usable = true;
-      summary.converged = end == GaussNewtonEnd::kConverged;
+      summary.converged = direct.end == GaussNewtonEnd::kConverged;
       summary.message = summary.converged ? "Gauss-Newton has converged" : "too many iterations";
       return;
     }
   }
-  const ceres::Solver::Summary result =
-      MinimiseWithCeres(graph, ends, weights, anchored, options, poses);
+  const ceres::Solver::Summary result = MinimiseWithCeres(problem, options, poses);
   summary.usable = result.IsSolutionUsable();
   summary.converged = result.termination_type == ceres::CONVERGENCE ||
                       result.termination_type == ceres::USER_SUCCESS;
@@ -179,7 +176,7 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   summary.components = 1 + *std::max_element(component.begin(), component.end());
   const std::vector<bool> anchored = Anchors(graph, component);
   std::vector<Pose> poses = StartPoses(graph, index.ends, weights, anchored, options, summary);
-  Minimise(graph, index.ends, weights, anchored, options, poses, summary);
+  Minimise({graph, index.ends, weights, anchored}, options, poses, summary);
   if (!summary.usable) return summary;
   for (std::size_t v = 0; v < poses.size(); ++v) graph.vertices[v].T_world_vertex = poses[v];
   summary.final_chi2 = Chi2Of(graph, index.ends, weights, poses);

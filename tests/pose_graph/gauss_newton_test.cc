@@ -29,7 +29,10 @@ struct Problem {
     options.tolerance = 1e-12;
   }
   GaussNewtonEnd Solve() {
-    return GaussNewton(graph, ends, weights, anchored, options, poses, steps);
+    const GaussNewtonSummary summary =
+        GaussNewton({graph, ends, weights, anchored}, options, poses);
+    steps = summary.steps;
+    return summary.end;
   }
   double Chi2() const { return Chi2Of(graph, ends, weights, poses); }
 };
