@@ -28,9 +28,10 @@ void AddOptions(CLI::App& command, CheckArguments& a) {
   command.add_option("DATASET", a.request.path, "dataset folder");
   AddTo(command, a.request);
   command.add_option("--groundtruth", a.request.groundtruth, "poses, likewise");
-  command.add_option("--fix", a.fix,
-                     "folder to write: the sequence with all mistakes corrected; refused if one "
-                     "cannot be corrected");
+  command.add_option(
+      "--fix", a.fix,
+      "folder to write: the sequence with the mistakes corrected that were found; refused if one "
+      "cannot be corrected");
   command.add_flag("--json", a.json, "print JSON");
   command.add_flag("--mistakes", a.mistakes, "print what is tested as a Markdown table, and end");
   command.footer("Exit code 6: a mistake was found.\n\n" +

@@ -14,6 +14,7 @@ if [[ -z $work ]]; then
   work=$(mktemp -d -t sslcd_reproducible_XXXXXX)
   trap 'rm -rf "$work"' EXIT
 fi
+work=$(realpath -m "$work")
 SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 if [[ -n $(git status --porcelain --untracked-files=no) ]]; then

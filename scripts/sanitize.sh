@@ -62,6 +62,7 @@ for part in $parts; do
   n=$(grep -c '^ *[0-9]*/[0-9]* Test .*#' "$log" || true)
   s=$(grep -c '\*\*\*Skipped' "$log" || true)
   f=$(grep -cE '\*\*\*(Failed|Exception|Timeout|Not Run)|Subprocess (aborted|killed)' "$log" || true)
+  ((n)) || { echo "$part: no test ran, see $log" >&2; exit 1; }
   r=$(grep -cE 'ERROR: (Address|Leak)Sanitizer|WARNING: ThreadSanitizer|: runtime error: ' "$log" || true)
   row "$part" "$n" $((n - s - f)) "$s" "$f" "$r" $(($(date +%s) - start))
   all=$((all + n)) passed=$((passed + n - s - f)) skipped=$((skipped + s)) failed=$((failed + f))

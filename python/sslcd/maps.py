@@ -134,8 +134,6 @@ class Map:
             drive: of load_dataset(); its images are not used.
             name: of the session; empty: that of the drive.
             options: as of start_session.
-            refine_once: one refinement after the last session instead of one for each: quicker, for
-                many maps. The map is no longer that of drives recorded in it one after another.
             progress: called with the numbers of frames done and of all.
         """
         checked("drive", drive, Dataset)
@@ -223,6 +221,8 @@ class Map:
             others: one or several maps; they are only read.
             out: a new file for the merged map; empty: this map itself.
             rename: a session whose name is taken becomes NAME-2; otherwise it is refused.
+            refine_once: one refinement after the last session instead of one for each: quicker, for
+                many maps. The map is no longer that of drives recorded in it one after another.
             progress: called with the numbers of frames done and of all. ctrl-C and its exceptions
                 end the merge, and the map stays as it was.
 

@@ -81,7 +81,8 @@ def fleet_stages(sets):
                          number(one['bytes'] / 1e6, 1)])
     header = ['build', 'stage', 'tasks', 'not necessary', 'processor time [s]', 'a task [s]',
               'the longest task [s]', 'outputs [MB]']
-    return table(header, rows) + note([sets['fleet/sites']], COMMAND)
+    measured = [sets[name] for name in ('fleet/sites', 'fleet/many') if name in sets]
+    return table(header, rows) + note(measured, COMMAND)
 
 
 def fleet_merge(sets):

@@ -50,7 +50,9 @@ class Properties:
                  '--gtest_filter=WorldProperties.*'], check=False, stdout=subprocess.PIPE, text=True,
                 env={**os.environ, 'SSLCD_PROPERTY_ROWS': rows,
                      'SSLCD_PROPERTY_SEEDS': '1' if self.folder else str(SEEDS), **seeds})
-            if done.returncode:
+            if done.returncode not in (0, 1):
+                raise SystemExit(f'{self.name}: the test has crashed:\n{done.stdout}')
+            if done.returncode:  # a property that does not hold is a figure, too
                 print(done.stdout)
             return figures_of(rows)
 

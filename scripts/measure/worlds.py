@@ -122,12 +122,15 @@ class Worlds:
     def measure(self, program):
         os.nice(10)
         os.makedirs('runs/worlds', exist_ok=True)
-        path = f'runs/worlds/{last_code_commit(program.built)}.jsonl'
+        path = f'runs/worlds/{last_code_commit(program.built)}-{self.fingerprint()}.jsonl'
         known = {}
         if os.path.exists(path):
             with open(path, encoding='utf-8') as file:
-                known = {r['world']: r for r in map(json.loads, file)}
-        with open(path, 'a', encoding='utf-8') as file:
+                lines = [line for line in file if line.endswith('\n')]  # the last may be cut
+            known = {r['world']: r for r in map(json.loads, lines)}
+        with open(path, 'w', encoding='utf-8') as file:
+            file.writelines(json.dumps(result) + '\n' for result in known.values())
+            file.flush()
             for number in range(WORLDS):
                 if number in known:
                     continue

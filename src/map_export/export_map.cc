@@ -7,6 +7,7 @@
 #include "formats/atomic_file.h"
 #include "formats/file_lock.h"
 #include "formats/file_set.h"
+#include "formats/files.h"
 #include "formats/g2o.h"
 #include "formats/loops_csv.h"
 #include "formats/map_json.h"
@@ -51,7 +52,7 @@ std::vector<std::string> ExportMap(const MapInfo& info, const MapResults& result
   std::vector<std::string> removed;
   if (origin)
     files.emplace_back(root / "map.geojson", MapGeoJson(info, results, *origin));
-  else
+  else if (!IfFile((root / "map.json").string()).empty())  // that of an earlier export
     removed.push_back((root / "map.geojson").string());
   std::vector<std::string> paths;
   for (const auto& [path, text] : files) paths.push_back(path);
