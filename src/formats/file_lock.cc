@@ -66,7 +66,7 @@ void WriteHolder(int file, const std::string& holder) {
 
 FileLock::FileLock(const std::string& path, const std::string& what, const std::string& way_out,
                    WithoutLocks without)
-    : path_(path) {
+    : path_(path), holder_(getpid()) {
   const std::string holder = Holder();  // may throw, which it must not do while the file is open
   while (true) {
     file_ = Open(path_);
@@ -91,11 +91,13 @@ FileLock::FileLock(const std::string& path, const std::string& what, const std::
 }
 
 FileLock::FileLock(FileLock&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      holder_(other.holder_) {}
 
 FileLock::~FileLock() {
   if (file_ < 0) return;
-  unlink(path_.c_str());  // while it is held
+  if (getpid() == holder_) unlink(path_.c_str());  // while it is held
   close(file_);
 }
 

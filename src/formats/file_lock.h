@@ -11,8 +11,9 @@ namespace sslcd {
 enum class WithoutLocks { kFail, kGoOn };
 
 /// The right to write, which one process at a time has: it holds a lock (flock) on a file that
-/// names it. The system frees the lock when the process ends, however that ends, and the next one
-/// takes its file over. The file is removed when the right is given back. Readers need none.
+/// names it. The system frees the lock when the process and the children it has forked end,
+/// however that happens, and the next one takes its file over. The file is removed when the right
+/// is given back. Readers need none.
 class SSLCD_EXPORT FileLock {
  public:
   /// `path` is the file to lock, `what` it protects. Throws Error(kOutput): "WHAT: is being written
@@ -26,6 +27,7 @@ class SSLCD_EXPORT FileLock {
  private:
   std::string path_;
   int file_ = -1;
+  int holder_ = 0;  // the process: a child that it forks gives nothing back
 };
 
 /// The file that a process holds while it writes into a folder.

@@ -38,8 +38,8 @@ void RefuseUnfinished(const std::string& folder) {
     if (name.rfind(kMark, 0) == 0)
       throw Error(ErrorKind::kBadInput,
                   folder +
-                      ": its files may be of two calls, because sslcd was stopped while it "
-                      "replaced them; repeat the command that wrote them, or delete " +
+                      ": its files may be of two calls, because sslcd is replacing them, or was "
+                      "stopped while it did; repeat the command that wrote them, or delete " +
                       (fs::path(folder) / name).string() + " to use them as they are");
 }
 

@@ -11,7 +11,7 @@ namespace sslcd {
 struct FileSet {
   std::string folder;  ///< which is there
   std::string name;    ///< of the set; a folder may have several
-  std::vector<std::pair<std::string, std::string>> files;  ///< path in the folder, content
+  std::vector<std::pair<std::string, std::string>> files;  ///< path, content
   /// paths of files that an earlier call may have written and that would not belong to these
   std::vector<std::string> removed;
 };

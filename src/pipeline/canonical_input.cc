@@ -30,7 +30,9 @@ std::vector<int> CanonicalOrder(const std::vector<Detection>& detections) {
   const auto key = [&](int i) {
     const Detection& one = detections[i];
     const Vec3& place = one.T_cam_object.translation();
-    return std::make_tuple(-one.score, place.x(), place.y(), place.z(), one.T_cam_object.Log()[4]);
+    const Vec6 pose = one.T_cam_object.Log();
+    return std::make_tuple(-one.score, place.x(), place.y(), place.z(), pose[3], pose[4], pose[5],
+                           one.dims.x(), one.dims.y(), one.dims.z());
   };
   std::vector<int> order(detections.size());
   std::iota(order.begin(), order.end(), 0);

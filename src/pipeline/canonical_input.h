@@ -19,10 +19,12 @@ namespace sslcd {
 Pose StartOf(const Pose& T_odom_cam, const GravityFrame& gravity);
 
 /// A time in whole microseconds, which is about what a stamp of seconds since 1970 resolves; times
-/// of more than 30 years as they are. [s]
+/// of more than 30 years as they are. Frames closer than that may get one time, which nothing
+/// divides by. [s]
 double WholeMicroseconds(double time_s);
 
-/// The indices of detections with finite values by score, the highest first, then by place.
+/// The indices of detections with finite values by score, the highest first, then by place,
+/// rotation, size and label. Of detections that are equal in all of these the order is the input's.
 std::vector<int> CanonicalOrder(const std::vector<Detection>& detections);
 
 /// The detections in that order.

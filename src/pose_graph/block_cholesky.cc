@@ -5,6 +5,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <cassert>
 
 namespace sslcd {
 namespace {
@@ -48,7 +49,9 @@ void BlockCholesky::SetZero() { std::fill(blocks_.begin(), blocks_.end(), Block:
 std::size_t BlockCholesky::Position(int row, int column) const {
   if (row == column) return first_[column];
   const std::vector<int>& rows = rows_[column];
-  return first_[column] + 1 + (std::lower_bound(rows.begin(), rows.end(), row) - rows.begin());
+  const auto found = std::lower_bound(rows.begin(), rows.end(), row);
+  assert(found != rows.end() && *found == row);
+  return first_[column] + 1 + (found - rows.begin());
 }
 
 void BlockCholesky::Add(int row, int column, const Block& block) {
@@ -64,7 +67,7 @@ bool BlockCholesky::Factorise() {
     Block* const column = &blocks_[first_[j]];
     const std::vector<int>& rows = rows_[j];
     const Eigen::LLT<Block> diagonal(column[0]);
-    if (diagonal.info() != Eigen::Success) return false;
+    if (diagonal.info() != Eigen::Success || !column[0].allFinite()) return false;
     column[0] = diagonal.matrixL().solve(Block::Identity());
     const Block inverse_transposed = column[0].transpose();
     for (std::size_t i = 1; i <= rows.size(); ++i)

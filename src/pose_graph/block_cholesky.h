@@ -30,7 +30,7 @@ class BlockCholesky {
   void Add(int row, int column, const Block& block);
   /// Replaces A by its factor; afterwards only Solve() and SetZero() are allowed. False: A is not
   /// positive definite.
-  bool Factorise();
+  [[nodiscard]] bool Factorise();
   /// A^-1 b. Columns is 1 or 6.
   template <int Columns>
   Vector<Columns> Solve(const Vector<Columns>& b) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pose_graph/block_cholesky.h"
 #include "pose_graph/cost.h"
@@ -24,7 +25,7 @@ void Linearise(const PoseGraphProblem& problem, const std::vector<int>& unknown,
   normal.SetZero();
   std::fill(gradient.begin(), gradient.end(), Vec6::Zero());
   for (std::size_t e = 0; e < ends.size(); ++e) {
-    if (weights[e] == 0) continue;
+    if (!(weights[e] > 0)) continue;
     const auto [from, to] = ends[e];
     const EdgeLinearisation edge =
         LineariseEdge(graph.edges[e].T_from_to.inverse(), poses[from], poses[to]);
@@ -44,9 +45,13 @@ void Linearise(const PoseGraphProblem& problem, const std::vector<int>& unknown,
   }
 }
 
+// Infinite if an entry is no number.
 double LargestEntry(const BlockCholesky::Vector<1>& vector) {
   double largest = 0;
-  for (const auto& each : vector) largest = std::max(largest, each.cwiseAbs().maxCoeff());
+  for (const auto& each : vector) {
+    if (!each.allFinite()) return std::numeric_limits<double>::infinity();
+    largest = std::max(largest, each.cwiseAbs().maxCoeff());
+  }
   return largest;
 }
 
@@ -67,6 +72,7 @@ GaussNewtonSummary GaussNewton(const PoseGraphProblem& problem, const PoseGraphO
   BlockCholesky::Vector<1> gradient(unknowns);
   double chi2 = Chi2Of(graph, ends, weights, poses);
   GaussNewtonSummary summary;
+  if (!std::isfinite(chi2)) return {GaussNewtonEnd::kStuck, 0};
   while (summary.steps < options.max_iterations) {
     Linearise(problem, unknown, poses, normal, gradient);
     if (LargestEntry(gradient) <= kLeastGradient)

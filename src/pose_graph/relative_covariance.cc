@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 
+#include "sslcd/core/error.h"
+
 namespace sslcd {
 namespace {
 
@@ -25,7 +27,10 @@ RelativeCovariances::RelativeCovariances(int unknowns,
     if (each.to > 0) information_.Add(each.to - 1, each.to - 1, information);
     if (each.from > 0 && each.to > 0) information_.Add(each.from - 1, each.to - 1, -information);
   }
-  information_.Factorise();
+  if (!information_.Factorise())
+    throw Error(ErrorKind::kNoSolution,
+                "relative covariances: a covariance is not positive "
+                "definite, or an unknown is not connected");
 }
 
 RelativeCovariances::Mat6 RelativeCovariances::Between(int a, int b) const {

@@ -25,7 +25,8 @@ class RelativeCovariances {
  public:
   using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-  /// The measurements must connect all `unknowns`. O(unknowns) along a chain with few loops.
+  /// The measurements must connect all `unknowns`, else throws Error(kNoSolution). O(unknowns)
+  /// along a chain with few loops.
   RelativeCovariances(int unknowns, const std::vector<DifferenceMeasurement>& measurements);
 
   /// Covariance of x_b - x_a.

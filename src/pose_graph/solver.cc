@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -169,6 +170,11 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   }
   std::vector<double> weights = given_weights;
   weights.resize(graph.edges.size(), 1.);
+  if (!std::all_of(weights.begin(), weights.end(),
+                   [](double weight) { return weight >= 0 && std::isfinite(weight); })) {
+    summary.message = "not optimised: a weight is negative or no number";
+    return summary;
+  }
   std::vector<bool> use;
   for (const double weight : weights) use.push_back(weight > 0);
   const std::vector<int> component =
@@ -176,6 +182,10 @@ PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& option
   summary.components = 1 + *std::max_element(component.begin(), component.end());
   const std::vector<bool> anchored = Anchors(graph, component);
   std::vector<Pose> poses = StartPoses(graph, index.ends, weights, anchored, options, summary);
+  if (!std::isfinite(summary.initial_chi2)) {
+    summary.message = "not optimised: poses or measurements are too far apart, chi2 overflows";
+    return summary;
+  }
   Minimise({graph, index.ends, weights, anchored}, options, poses, summary);
   if (!summary.usable) return summary;
   for (std::size_t v = 0; v < poses.size(); ++v) graph.vertices[v].T_world_vertex = poses[v];

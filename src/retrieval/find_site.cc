@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -185,6 +185,20 @@ std::vector<SitePoint> AmidOf(std::vector<SitePoint> points) {
   return points;
 }
 
+}  // namespace
+
+std::vector<std::size_t> HighestScores(const std::vector<float>& scores, std::size_t most) {
+  std::vector<std::size_t> best(scores.size());
+  std::iota(best.begin(), best.end(), std::size_t{0});
+  std::stable_sort(best.begin(), best.end(),
+                   [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
+  best.resize(std::min(best.size(), most));
+  std::sort(best.begin(), best.end());
+  return best;
+}
+
+namespace {
+
 // The poses that fit best to the objects amid the stretch, in the order of their votes.
 std::vector<PoseVote> BestAmid(const SiteFile& file, const std::vector<SitePoint>& points,
                                const std::vector<PoseVote>& poses) {
@@ -193,11 +207,8 @@ std::vector<PoseVote> BestAmid(const SiteFile& file, const std::vector<SitePoint
   std::vector<float> scores;
   for (const PoseVote& vote : poses)
     scores.push_back(FitSite(amid, file.points(vote.site), vote.pose).score);
-  std::vector<float> sorted = scores;
-  std::nth_element(sorted.begin(), sorted.begin() + kMostFits, sorted.end(), std::greater<>());
   std::vector<PoseVote> best;
-  for (std::size_t i = 0; i < poses.size() && best.size() < kMostFits; ++i)
-    if (scores[i] >= sorted[kMostFits]) best.push_back(poses[i]);
+  for (const std::size_t i : HighestScores(scores, kMostFits)) best.push_back(poses[i]);
   return best;
 }
 

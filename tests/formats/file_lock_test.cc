@@ -46,6 +46,20 @@ class Holder {
   pid_t process_ = 0;
 };
 
+TEST(FileLock, AChildThatIsForkedGivesNothingBack) {
+  const TempFolder folder;
+  const std::string path = folder.In("run");
+  FileLock lock = LockFolder(path);
+  const pid_t child = fork();
+  if (child == 0) {
+    { const FileLock inherited = std::move(lock); }
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_TRUE(fs::exists(folder.In("run/.sslcd-lock")));
+  ExpectError([&] { const FileLock second = LockFolder(path); }, {path + ": is being written by"});
+}
+
 TEST(FileLock, ASecondProcessIsToldWhoWritesAndADeadOneIsFollowed) {
   const TempFolder folder;
   const std::string path = folder.In("run"), lock_path = folder.In("run/.sslcd-lock");

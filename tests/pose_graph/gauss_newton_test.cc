@@ -111,6 +111,14 @@ TEST(GaussNewton, IsStuckWhereAPoseIsNotMeasured) {
   EXPECT_EQ(problem.Chi2(), before);
 }
 
+TEST(GaussNewton, IsStuckWhereNumbersOverflow) {
+  for (const double far_m : {1e160, 1e308}) {
+    Problem problem = Drifted();
+    problem.poses[1] = Pose::Trans(far_m, 0, 0);
+    EXPECT_EQ(problem.Solve(), GaussNewtonEnd::kStuck);
+  }
+}
+
 TEST(GaussNewton, NeverRaisesChi2) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Problem problem = Drifted();

@@ -252,5 +252,21 @@ TEST(PoseGraphSolver, BadGraphsAreLeftAlone) {
   expect_unusable(bad, "back to its own vertex");
 }
 
+TEST(SolvePoseGraph, WeightsAndPosesThatAreNoNumbersAreRefused) {
+  for (const double weight : {-1., kNaN, std::numeric_limits<double>::infinity()}) {
+    Ring ring(5);
+    const PoseGraphSummary summary = SolvePoseGraph(ring.graph, {}, {1, weight});
+    EXPECT_FALSE(summary.usable);
+    EXPECT_NE(summary.message.find("weight"), std::string::npos);
+  }
+  Ring ring(5);
+  ring.graph.vertices[1].T_world_vertex = Pose::Trans(1e160, 0, 0);
+  PoseGraphOptions options;
+  options.start = PoseGraphStart::kGiven;
+  const PoseGraphSummary summary = SolvePoseGraph(ring.graph, options);
+  EXPECT_FALSE(summary.usable);
+  EXPECT_NE(summary.message.find("overflow"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -13,8 +13,10 @@
 namespace SSLCD_EXPORT sslcd {
 
 /// The query of an attempt to close a loop: find the recently seen objects (`local`) among those of
-/// older passes (`global`). Both lists are in gravity-aligned axes of the current world frame, so
-/// they differ by the drift. Heights are relative to the camera.
+/// older passes (`global`). Both lists are in the same gravity-aligned axes, so they differ by the
+/// drift. These axes are the mapper's own: only what is relative between objects has a meaning
+/// outside, and Mapper::Objects() has their poses in the host's world. Heights are relative to the
+/// camera.
 struct PlaceQuery {
   const std::vector<LayoutObject>&local, &global;
   int frame = 0;      ///< number of the newest frame

@@ -80,9 +80,10 @@ Vec6 EdgeError(const PoseGraph::Edge& edge, const Pose& T_world_from, const Pose
 double Chi2(const PoseGraph& graph, const std::vector<double>& weights = {});
 
 /// Moves the vertices to the minimum of Chi2(graph, weights). `fixed` vertices stay; a connected
-/// component without one keeps its first vertex. Levenberg-Marquardt with sparse Cholesky
-/// factorisation on one thread, deterministic to the byte. Never throws: for a malformed graph the
-/// summary is not usable and has the reason.
+/// component without one keeps its first vertex. Gauss-Newton, and Levenberg-Marquardt where that
+/// does not lead down or the freedom is not full; sparse Cholesky factorisation on one thread,
+/// deterministic to the byte. For a malformed graph or weight, and where numbers overflow, the
+/// summary is not usable and has the reason. Throws std::bad_alloc alone.
 PoseGraphSummary SolvePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
                                 const std::vector<double>& weights = {});
 
