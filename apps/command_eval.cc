@@ -17,12 +17,17 @@ namespace {
 
 struct EvalArguments {
   std::string run, groundtruth, labels, detections, report;
-  bool json = false;
+  bool no_images = false, json = false;
 };
 
 int Eval(const EvalArguments& a, const Console& console) {
   CheckRunFolder(a.run);
-  if (!a.report.empty()) RequireReportLibraries();
+  PageRequest page{
+      {a.run}, a.groundtruth, a.report, "--report", {a.labels, a.detections}, !a.no_images, ""};
+  if (!a.report.empty()) {
+    RequireReportLibraries();
+    RefusePage(page);  // before the comparison, not after it
+  }
   EvaluationInput input;
   input.estimate = ReadTrajectory(a.run + "/trajectory_tum.txt");
   input.odometry = ReadTrajectory(a.run + "/odometry_tum.txt");
@@ -46,15 +51,17 @@ int Eval(const EvalArguments& a, const Console& console) {
     input.labels_path = a.labels;
   }
   const Metrics metrics = Evaluate(input);
-  if (!a.report.empty()) WriteReport({a.run}, a.groundtruth, a.report, true, MetricsJson(metrics));
+  page.metrics = MetricsJson(metrics);
+  if (!a.report.empty()) WriteReport(page);
   if (a.json) {
-    std::fputs(MetricsJson(metrics).c_str(), stdout);
+    std::fputs(page.metrics.c_str(), stdout);
     return 0;
   }
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, value] : metrics)
     rows.push_back({name, value ? Number("%.4f", *value) : "-"});
   console.Say(AlignedTable(rows));
+  if (!a.report.empty()) console.Say("wrote " + a.report);
   return 0;
 }
 
@@ -74,8 +81,10 @@ Command AddEvalCommand(CLI::App& app, Console& console) {
                                                 "the detections that the run was made from");
   labels->needs(detections);
   detections->needs(labels);
-  command->add_option("--report", arguments->report,
-                      "and a page with this comparison, see 'sslcd_run report'");
+  CLI::Option* report = command->add_option(
+      "--report", arguments->report, "and a page with this comparison, see 'sslcd_run report'");
+  command->add_flag("--no-images", arguments->no_images, "no crops of the run's images in the page")
+      ->needs(report);
   command->add_flag("--json", arguments->json, "print JSON");
   command->footer(Examples({"eval runs/monday --groundtruth my_sequence/groundtruth.txt",
                             "eval runs/monday --groundtruth my_sequence/groundtruth.txt --json",

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "datasets/run_folder.h"
 #include "examples.h"
 #include "formats/atomic_file.h"
 #include "formats/files.h"
+#include "overwriting.h"
 #include "report/report_data.h"
 #include "report/report_page.h"
 #include "report_file.h"
@@ -48,19 +51,34 @@ nlohmann::ordered_json RunsJson(const std::vector<RunView>& runs) {
 
 }  // namespace
 
-std::vector<RunView> WriteReport(const std::vector<std::string>& runs,
-                                 const std::string& groundtruth, const std::string& out,
-                                 bool images, const std::string& metrics) {
+std::string PagePath(const std::string& run) {
+  return (std::filesystem::path(run) / "report.html").string();
+}
+
+void RefusePage(const PageRequest& page) {
+  std::vector<std::string> read = page.read;
+  read.push_back(page.groundtruth);
+  for (const std::string& run : page.runs) {
+    for (const std::string& path : RunFolderPaths(run)) read.push_back(path);
+    if (!IsFile(run + "/run.json")) continue;
+    for (const FileRecord& input : ReadRunJson(run + "/run.json").inputs)
+      read.push_back(input.name);
+  }
+  RefuseOverwriting(read, {page.out}, page.option);
+}
+
+std::vector<RunView> WriteReport(const PageRequest& page) {
   RequireReportLibraries();
+  RefusePage(page);
   std::vector<RunView> views;
-  for (const std::string& run : runs) {
-    views.push_back(ReadRun(run, groundtruth));
-    if (images) AddLoopImages(views.back());
-    if (!metrics.empty()) views.back().metrics_json = metrics;
+  for (const std::string& run : page.runs) {
+    views.push_back(ReadRun(run, page.groundtruth));
+    if (page.images) AddLoopImages(views.back());
+    if (!page.metrics.empty()) views.back().metrics_json = page.metrics;
   }
   const std::vector<std::string> names = NamesOf(views);
   const std::string title = views.size() == 1 ? names[0] : std::to_string(views.size()) + " runs";
-  WriteFileAtomically(out, ReportPage(ReportJson(views, names), title + " - sslcd"));
+  WriteFileAtomically(page.out, ReportPage(ReportJson(views, names), title + " - sslcd"));
   return views;
 }
 
@@ -81,8 +99,9 @@ Command AddReportCommand(CLI::App& app, Console& console) {
   return [a, &console] {
     if (a->json) console.quiet = true;
     console.InstallLog();
-    const std::string out = a->out.empty() ? a->runs[0] + "/report.html" : a->out;
-    const std::vector<RunView> runs = WriteReport(a->runs, a->groundtruth, out, !a->no_images);
+    const std::string out = a->out.empty() ? PagePath(a->runs[0]) : a->out;
+    const std::vector<RunView> runs =
+        WriteReport({a->runs, a->groundtruth, out, "--out", {}, !a->no_images, ""});
     console.Say("wrote " + out);
     if (a->json) PrintWritten(RunsJson(runs), {out});
     return 0;

@@ -42,7 +42,7 @@ struct RunArguments {
   ConfigArguments config;
   ImageArguments images;
   MapArguments map;
-  bool no_check = false, json = false, force = false, report = false;
+  bool no_check = false, json = false, force = false, report = false, no_images = false;
   int threads = HardwareThreads();
 };
 
@@ -65,7 +65,10 @@ void AddOptions(CLI::App& command, RunArguments& a) {
   command.add_option("--out", a.out, "folder to write; default runs/latest, with --map none")
       ->default_str(kLatest);
   command.add_flag("--force", a.force, "write into a folder that holds another run");
-  command.add_flag("--report", a.report, "and OUT/report.html, see 'sslcd_run report'");
+  CLI::Option* report =
+      command.add_flag("--report", a.report, "and OUT/report.html, see 'sslcd_run report'");
+  command.add_flag("--no-images", a.no_images, "no crops of the images in OUT/report.html")
+      ->needs(report);
   command.add_option("--max-frames", a.request.max_frames, "stop after so many frames")
       ->check(CLI::PositiveNumber);
   command.add_flag("--no-check", a.no_check,
@@ -290,9 +293,11 @@ int Run(RunArguments& a, const Console& console) {
   }
   Input input = Load(a, console);
   Dataset& dataset = input.dataset;
+  std::vector<std::string> written = RunFolderPaths(a.out);
+  if (a.report) written.push_back(PagePath(a.out));
   RefuseOverwriting({dataset.odometry_path, dataset.detections_path, dataset.groundtruth_path,
                      a.images.boxes, a.config.file, a.map.file},
-                    RunFolderPaths(a.out));
+                    written);
   std::vector<int> identities = IdentitiesOf(IdentitiesPath(a, dataset), dataset);
   const ImageRequest request = a.images.RequestFor(dataset, a.images.detects(), given);
   Configuration configuration = AdaptToImages(a.config, given, request, dataset, console);
@@ -307,8 +312,8 @@ int Run(RunArguments& a, const Console& console) {
   std::vector<std::string> paths;
   if (!a.out.empty()) paths = WriteRunFolder(a.out, outputs);
   if (a.report && !a.out.empty()) {
-    paths.push_back((std::filesystem::path(a.out) / "report.html").string());
-    WriteReport({a.out}, "", paths.back());
+    paths.push_back(PagePath(a.out));
+    WriteReport({{a.out}, "", paths.back(), "--out", {}, !a.no_images, ""});
   }
 
   if (a.json) std::fputs(MetricsJson(outputs.metrics).c_str(), stdout);

@@ -8,13 +8,14 @@
 namespace sslcd::apps {
 
 void RefuseOverwriting(const std::vector<std::string>& read,
-                       const std::vector<std::string>& written) {
+                       const std::vector<std::string>& written, const std::string& option) {
   std::error_code none;
   for (const std::string& input : read)
     for (const std::string& output : written)
       if (std::filesystem::equivalent(input, output, none))
-        throw Error(ErrorKind::kUsage,
-                    input + ": is read, and would be overwritten; name another place with --out");
+        throw Error(
+            ErrorKind::kUsage,
+            input + ": is read, and would be overwritten; name another place with " + option);
 }
 
 void RefuseFolder(const std::string& read, const std::string& written) {

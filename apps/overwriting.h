@@ -7,9 +7,10 @@
 namespace sslcd::apps {
 
 /// Throws Error(kUsage) if an input file is also an output file, under the same or another name.
-/// Ignores empty names and missing files.
+/// `option` is the one that names the output. Ignores empty names and missing files.
 void RefuseOverwriting(const std::vector<std::string>& read,
-                       const std::vector<std::string>& written);
+                       const std::vector<std::string>& written,
+                       const std::string& option = "--out");
 
 /// Throws Error(kUsage) if the folder to write is the folder that is read.
 void RefuseFolder(const std::string& read, const std::string& written);

@@ -56,9 +56,10 @@ std::string CropJpeg(const cv::Mat& image, const Box2d& box) {
   return {bytes.begin(), bytes.end()};
 }
 
-using Crops = std::map<std::pair<int, double>, std::string>;  // by frame and left edge of the box
+using Key = std::pair<int, int>;  // frame and object
+using Crops = std::map<Key, std::string>;
 
-std::pair<int, double> KeyOf(const Sight& sight) { return {sight.frame, sight.box.left}; }
+Key KeyOf(const Sight& sight) { return {sight.frame, sight.object}; }
 
 Crops CropsOf(const std::vector<SeenPair>& pairs, const std::string& folder, const RunView& run) {
   const ImageFolder images = ListImages(folder);
@@ -96,12 +97,14 @@ void AddLoopImages(RunView& run) {
   const std::vector<SeenPair> pairs = SeenPairs(run, *run.record->camera);
   const Crops crops = CropsOf(pairs, images->name, run);
   std::set<std::size_t> loops;
+  std::set<Key> shown;  // a page holds each image once, however many pairs it is in
   std::size_t bytes = 0;
   for (const SeenPair& pair : pairs) {
     const auto query = crops.find(KeyOf(pair.query)), match = crops.find(KeyOf(pair.match));
     if (query == crops.end() || match == crops.end()) continue;
     if (query->second.empty() || match->second.empty()) continue;
-    bytes += query->second.size() + match->second.size();
+    for (const auto& crop : {query, match})
+      if (shown.insert(crop->first).second) bytes += crop->second.size();
     if (bytes > kMostBytes) break;
     run.crops.push_back({pair.loop, pair.pair, query->second, match->second});
     loops.insert(pair.loop);

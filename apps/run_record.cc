@@ -37,8 +37,9 @@ bool AreImages(const std::string& role) { return role.find("images") != std::str
 
 // The words that make the result.
 std::vector<std::string> Relevant(std::vector<std::string> words) {
-  static const std::set<std::string> kIrrelevant = {"--force", "--json",    "-q",       "--quiet",
-                                                    "-v",      "--verbose", "--resume", "--report"};
+  static const std::set<std::string> kIrrelevant = {"--force",  "--json",   "-q",
+                                                    "--quiet",  "-v",       "--verbose",
+                                                    "--resume", "--report", "--no-images"};
   if (!words.empty()) words.erase(words.begin());
   words.erase(std::remove_if(words.begin(), words.end(),
                              [](const std::string& word) { return kIrrelevant.count(word) > 0; }),
@@ -68,6 +69,8 @@ RunRecord RecordRun(const Dataset& dataset,
     if (path.empty()) continue;
     record.inputs.push_back(RecordFile(path, !AreImages(role)));
     record.inputs.back().role = role;
+    if (AreImages(role))  // reports read them, from whatever folder
+      record.inputs.back().name = std::filesystem::absolute(path).lexically_normal().string();
   }
   record.warnings = console.Warnings();
   record.cpu_s = CpuSeconds();

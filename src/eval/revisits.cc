@@ -13,6 +13,30 @@
 #include "sslcd/core/error.h"
 
 namespace sslcd {
+namespace {
+
+constexpr double kRoundingM = 1e-3;  // of path lengths
+
+// The nearest camera before path position `end_m`, if any is nearer than revisit.distance_m. A
+// camera cannot come nearer by more than the path it covers, so those that stay too far are left
+// out.
+void FindOldCamera(const std::vector<Pose>& reference, const std::vector<double>& path_m,
+                   double end_m, Revisit& revisit) {
+  const Vec3 at = reference[revisit.frame].translation();
+  for (int old = 0; old < revisit.frame && path_m[old] < end_m;) {
+    const Vec3 apart = reference[old].translation() - at;
+    const double horizontal = std::hypot(apart.x(), apart.z());
+    if (horizontal < revisit.distance_m) {
+      revisit.distance_m = horizontal;
+      revisit.old_frame = old;
+    }
+    const double reach_m = path_m[old] + (horizontal - revisit.distance_m) - kRoundingM;
+    const auto next = std::lower_bound(path_m.begin() + old + 1, path_m.end(), reach_m);
+    old = static_cast<int>(next - path_m.begin());
+  }
+}
+
+}  // namespace
 
 std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
                                   const std::vector<Frame>& frames,
@@ -38,14 +62,7 @@ std::vector<Revisit> FindRevisits(const std::vector<Pose>& reference,
     revisit.at_m = distance[f];
     revisit.distance_m = options.radius_m;
     revisit.old_frame = -1;
-    for (int old = 0; old < f && distance[old] < distance[f] - options.old_m; ++old) {
-      const Vec3 apart = reference[old].translation() - reference[f].translation();
-      const double horizontal = std::hypot(apart.x(), apart.z());
-      if (horizontal < revisit.distance_m) {
-        revisit.distance_m = horizontal;
-        revisit.old_frame = old;
-      }
-    }
+    FindOldCamera(reference, distance, distance[f] - options.old_m, revisit);
     if (revisit.old_frame < 0) continue;
     for (const auto& [identity, places] : seen) {
       const bool now = std::any_of(places.begin(), places.end(), [&](double m) {

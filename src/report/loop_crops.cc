@@ -22,6 +22,7 @@ using Views = std::map<int, std::map<int, Box2d>>;  // boxes of objects, by fram
 
 struct Candidate {
   std::size_t pair = 0;
+  int object = 0;  // id
   Box2d box;
 };
 
@@ -83,7 +84,7 @@ std::map<int, std::vector<Candidate>> CandidatesOf(const Views& views, const Obj
           query ? ObjectOf(objects, local, global) : ObjectOf(objects, global, local);
       if (object == nullptr) continue;
       if (const auto box = view->second.find(object->id.value); box != view->second.end())
-        by_frame[view->first].push_back({i, box->second});
+        by_frame[view->first].push_back({i, box->first, box->second});
     }
   }
   return by_frame;
@@ -115,7 +116,7 @@ Sights SightsOf(const std::map<int, std::vector<Candidate>>& by_frame,
     if (best == nullptr) break;
     for (const Candidate& candidate : best->second)
       if (pairs.count(candidate.pair) > 0)
-        sights.emplace(candidate.pair, Sight{best->first, candidate.box});
+        sights.emplace(candidate.pair, Sight{best->first, candidate.object, candidate.box});
   }
   return sights;
 }

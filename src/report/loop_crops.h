@@ -12,7 +12,8 @@ namespace sslcd {
 /// An object as a frame of the run has seen it.
 struct Sight {
   int frame = 0;
-  Box2d box;  ///< of the map's cuboid [px]
+  int object = 0;  ///< id in the map
+  Box2d box;       ///< of the map's cuboid [px]
 };
 
 /// Two landmarks that an accepted loop has matched, as seen near its two cameras.

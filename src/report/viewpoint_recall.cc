@@ -39,6 +39,15 @@ TruePath TruePathOf(const RunView& run, const std::vector<int>& true_rows) {
   return path;
 }
 
+const Pose& TruePoseOf(const TruePath& path, int frame) {
+  return path.poses[std::size_t(path.of_frame[std::size_t(frame)])];
+}
+
+double TrueChange(const TruePath& path, const LoopClosure& loop) {
+  return WrapAngle(HeadingOf(TruePoseOf(path, loop.query_frame)) -
+                   HeadingOf(TruePoseOf(path, loop.match_frame)));
+}
+
 }  // namespace
 
 std::vector<ViewpointCounts> ViewpointRecall(const RunView& run,
@@ -52,7 +61,7 @@ std::vector<ViewpointCounts> ViewpointRecall(const RunView& run,
   for (const LoopClosure& loop : AcceptedLoops(run)) {
     const auto error = LoopError(run, true_rows, loop);
     if (!error) continue;
-    ViewpointCounts& bin = bins[BinOf(loop.viewpoint_change_rad)];
+    ViewpointCounts& bin = bins[BinOf(TrueChange(path, loop))];
     ++bin.loops;
     if (!(*error < kRightLoopM)) continue;
     ++bin.right;

@@ -11,7 +11,7 @@ namespace sslcd {
 struct ViewpointCounts {
   int revisits = 0;    ///< keyframes at a place where the camera has been
   int recognised = 0;  ///< those with a right loop nearby
-  int loops = 0;       ///< accepted loops of that change of viewpoint
+  int loops = 0;       ///< accepted loops whose cameras truly differ so
   int right = 0;       ///< those that are off by less than kRightLoopM
 };
 

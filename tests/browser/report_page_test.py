@@ -20,8 +20,8 @@ EVIL = '</script><script>window.evil = 1</script><img src=x onerror="window.evil
 SIZES = ((1920, 1080), (390, 844))
 
 
-def call(*arguments):
-    subprocess.run([*map(str, arguments)], check=True, capture_output=True, timeout=60)
+def call(*arguments, cwd=None):
+    subprocess.run([*map(str, arguments)], check=True, capture_output=True, timeout=60, cwd=cwd)
 
 
 def write_png(path, width, height):
@@ -54,7 +54,7 @@ class ReportPage(unittest.TestCase):
         for frame in range(max(int(row[0]) for row in rows) + 1):
             os.link(root + '/image.png', f'{cls.images}/{frame:06}.png')
         cls.run_folder = root + '/' + 'run'
-        call(RUN, 'run', root + '/halv', '--groundtruth', 'groundtruth.txt', '--out', cls.run_folder, '--report')
+        call(RUN, 'run', 'halv', '--groundtruth', 'groundtruth.txt', '--out', cls.run_folder, '--report', cwd=root)
         cls.browser = Browser(find_chromium())
 
     @classmethod
@@ -142,6 +142,9 @@ class ReportPage(unittest.TestCase):
         call(RUN, 'report', self.run_folder, '--out', other, '--no-images')
         with open(other) as file:
             self.assertIn('"images":[]', file.read())
+        call(RUN, 'report', self.run_folder, '--out', other, cwd='/')  # images were named from another folder
+        with open(other) as file:
+            self.assertNotIn('"images":[]', file.read())
         os.rename(self.images, hidden)
         os.mkdir(self.images)
         try:  # another folder in its place

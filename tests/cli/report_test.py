@@ -97,6 +97,21 @@ class ReportTest(CliCase):
         self.assertIn('ate_se3_rmse_m', result.stdout)
         self.assertIn(json.dumps(result.stdout).replace('<', '\\u003c'), read(judged))
 
+    def test_inputs_are_not_overwritten(self):
+        self.run_data()
+        truth, loops, detections = self.data + '/groundtruth.txt', self.out + '/loops.csv', self.data + '/detections.txt'
+        before = [read(path) for path in (truth, loops, detections)]
+        evaluate = ('eval', self.out, '--groundtruth', truth, '--report')
+        self.report(self.out, '--out', self.data + '/page.html')
+        for args in ((*evaluate, truth), (*evaluate, loops), (*evaluate, detections), ('report', self.out, '--out', loops),
+                     ('report', self.out, '--groundtruth', truth, '--out', truth), ('report', self.out, '--out', detections)):
+            result = call(*args)
+            self.assertEqual((result.returncode, result.stdout), (2, ''), args)
+            self.assertIn('name another place with ' + ('--report' if args[0] == 'eval' else '--out'), result.stderr)
+        self.assertEqual([read(path) for path in (truth, loops, detections)], before)
+        page = self.data + '/eval.html'
+        self.assertIn(f'wrote {page}\n', call(*evaluate, page, '--no-images').stdout)
+
     def test_json(self):
         self.run_data()
         page = self.data + '/page.html'

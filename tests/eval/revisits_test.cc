@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <utility>
 
+#include "eval/path.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -70,6 +73,39 @@ TEST(Revisits, WhereTheCameraHasBeenAndKnowsEnough) {
   more.common = 20;
   EXPECT_TRUE(FindRevisits(drive.reference, drive.frames, drive.identities, more).empty());
   EXPECT_TRUE(FindRevisits({}, {}, {}).empty());
+}
+
+TEST(Revisits, TheNearestOldCameraIsThatOfASearchThroughAll) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> turn(-.2, .2), step(0, 2);
+  std::vector<Pose> reference{Pose()};
+  for (double heading = 0; reference.size() < 3000; heading += .03 + turn(random))
+    reference.push_back(Pose(lie::SO3<double>::RotY(heading),
+                             reference.back().translation() +
+                                 step(random) * Vec3(std::sin(heading), .1, std::cos(heading))));
+  RevisitOptions options;
+  options.common = 0;
+  const std::vector<Revisit> revisits = FindRevisits(reference, {}, {}, options);
+  EXPECT_GT(revisits.size(), 20u);
+  const std::vector<double> path_m = DistanceAlong(reference);
+  double next_m = 0;
+  std::size_t found = 0;
+  for (int f = 0; f < 3000; ++f) {
+    if (path_m[f] < next_m) continue;
+    next_m = path_m[f] + options.spacing_m;
+    std::pair<double, int> nearest{options.radius_m, -1};
+    for (int old = 0; old < f && path_m[old] < path_m[f] - options.old_m; ++old) {
+      const Vec3 apart = reference[old].translation() - reference[f].translation();
+      const double m = std::hypot(apart.x(), apart.z());
+      if (m < nearest.first) nearest = {m, old};
+    }
+    if (nearest.second < 0) continue;
+    ASSERT_LT(found, revisits.size());
+    EXPECT_EQ(revisits[found].frame, f);
+    EXPECT_EQ(revisits[found].old_frame, nearest.second);
+    EXPECT_EQ(revisits[found++].distance_m, nearest.first);
+  }
+  EXPECT_EQ(found, revisits.size());
 }
 
 TEST(Revisits, FalseAlarmsAreNobody) {

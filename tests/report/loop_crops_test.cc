@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace sslcd {
 namespace {
 
@@ -46,6 +48,19 @@ TEST(SeenPairs, ShowsWhatBothSidesHaveSeen) {
     EXPECT_GT(pair.query.box.right, x);
     EXPECT_NEAR(pair.query.box.left, pair.match.box.left, 1e-9);
   }
+}
+
+TEST(SeenPairs, TellsObjectsApartThatTheBorderOfTheImageCuts) {
+  RunView run = TwoPasses();
+  for (int id = 0; id < 2; ++id)  // above each other
+    run.map.objects[std::size_t(id)].T_world_object.translation() = Vec3(-7.8, 2. * id, 12);
+  std::set<std::pair<int, int>> objects;
+  for (const SeenPair& pair : SeenPairs(run, kCamera)) {
+    EXPECT_EQ(pair.query.object, int(pair.pair));
+    EXPECT_EQ(pair.match.object, int(pair.pair));
+    if (pair.query.box.left == 0) objects.insert({pair.query.frame, pair.query.object});
+  }
+  EXPECT_EQ(objects.size(), 2u);
 }
 
 TEST(SeenPairs, KeepsItsLimits) {

@@ -58,6 +58,14 @@ TEST(ViewpointRecall, CountsPlacesAndLoopsOfTheWayBack) {
   EXPECT_EQ(RecallOf(run)[11].recognised, 0) << "refused";
 }
 
+TEST(ViewpointRecall, BinsLoopsByTheirTrueCamerasOnly) {
+  RunView run = OutAndBack();
+  run.loops = {Loop(run, 300, 99, 0)};
+  run.loops[0].viewpoint_change_rad = 0;  // its own, wrong estimate
+  EXPECT_EQ(RecallOf(run)[11].right, 1);
+  EXPECT_EQ(RecallOf(run)[0].loops, 0);
+}
+
 TEST(ViewpointRecall, IsTheSameForEachUpAxis) {
   const RunView level = OutAndBack();
   const Pose T_world_level(Pose::Exp((Vec6() << 0, 0, 0, -M_PI / 2, 0, 0).finished()).so3(),
