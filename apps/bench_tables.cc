@@ -70,7 +70,7 @@ class Bench {
 
   // Reports mistakes at once, not after hours of runs.
   void CheckOptions() {
-    writer_.CheckDocument();
+    writer_.CheckPlaces();
     if (Asked("viewpoint")) AddViewpoints();
     if (!Asked("table2") && !Asked("pr") && !Asked("viewpoint")) return;
     for (const Method& method : Chosen())

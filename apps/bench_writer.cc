@@ -10,6 +10,7 @@
 #include "formats/file_set.h"
 #include "formats/json_text.h"
 #include "formats/text_rows.h"
+#include "overwriting.h"
 #include "report/report_page.h"
 #include "sslcd/core/error.h"
 #include "sslcd_commit.h"
@@ -77,9 +78,13 @@ std::string TableWriter::Provenance(const std::vector<int>& cases) const {
   return note + "`.";
 }
 
-void TableWriter::CheckDocument() const {
+void TableWriter::CheckPlaces() const {
   if (!arguments_.docs.empty()) ReadFileBytes(arguments_.docs);
-  if (!arguments_.report.empty()) RequireReportLibraries();
+  if (arguments_.report.empty()) return;
+  RequireReportLibraries();
+  RequirePlaceOf(arguments_.report);
+  RefuseOverwriting({arguments_.layout, arguments_.baselines, arguments_.docs}, {arguments_.report},
+                    "--report");
 }
 
 BenchResults TableWriter::Finish() {

@@ -22,9 +22,9 @@ class TableWriter {
   void Write(benchmark::Table table, const std::vector<int>& cases,
              const std::vector<benchmark::Table>& curves = {});
 
-  /// Throws Error(kBadInput) if there is a document (--docs) that cannot be read, and
-  /// Error(kBadConfig) if there is to be a page (--report) without its libraries.
-  void CheckDocument() const;
+  /// Throws Error if there is a document (--docs) that cannot be read, or a page (--report) without
+  /// its libraries, that cannot be written, or that would overwrite an input.
+  void CheckPlaces() const;
   /// Puts all tables written so far into the document, and writes the page, if they are asked for.
   BenchResults Finish();
 

@@ -102,6 +102,14 @@ struct Temporaries {
 
 }  // namespace
 
+void RequirePlaceOf(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) Fail(path, EISDIR, "name a file");
+  const fs::path folder = fs::path(path).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    Fail(path, ENOENT, "choose another folder");
+}
+
 void WriteFileAtomically(const std::string& path, const std::string& content,
                          Durability durability) {
   WriteFilesAtomically({{path, content}}, durability);

@@ -24,6 +24,10 @@ void WriteFileAtomically(const std::string& path, const std::string& content,
 void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files,
                           Durability durability = Durability::kSynced);
 
+/// Throws Error(kOutput) if no file can have this path, because a folder has it or its own folder
+/// is not there: before long work whose result it takes, not after it.
+void RequirePlaceOf(const std::string& path);
+
 /// Creates the folder and its parents, on the disk, and checks that a file can be written there.
 /// Throws Error(kOutput).
 void MakeWritableFolder(const std::string& path);

@@ -35,6 +35,18 @@ class BenchTest(CliCase):
         self.assertIn(read(f'{self.out}/table2.md'), result.stdout)
         self.assertIn('Commit ', read(f'{self.out}/table2.md'))
 
+    def test_pages_that_cannot_be_are_refused_before_the_runs(self):
+        baselines = self.out + '.yaml'
+        write(baselines, '{}')
+        for page, code in ((os.path.dirname(self.out), 1), (self.out + '_no/page.html', 1), (baselines, 2)):
+            result = self.bench('pr', *ONE, '--baselines', baselines, '--report', page)
+            if 'libjs-three' in result.stderr:
+                self.skipTest('skipped: built without three.js and Chart.js')
+            self.assertEqual(result.returncode, code, result.stderr)
+            self.assertIn(page, result.stderr)
+            self.assertFalse(os.path.exists(self.out + '/pr.csv'))
+        self.assertEqual(read(baselines), '{}')
+
     def test_json_and_page(self):
         page = self.out + '.html'
         result = self.bench('pr', *ONE, '--methods', 'sslcd,one_look', '--report', page, '--json')

@@ -123,6 +123,15 @@ TEST(AtomicFile, ADiskThatFailsKeepsTheOldFiles) {
       {folder.path() + ": cannot be written: "});
 }
 
+TEST(AtomicFile, PlacesWhereNoFileCanBe) {
+  const TempFolder folder;
+  RequirePlaceOf(folder.In("new"));
+  RequirePlaceOf("new");  // in the current folder
+  EXPECT_FALSE(fs::exists(folder.In("new")));
+  ExpectError([&] { RequirePlaceOf(folder.path()); }, {folder.path(), "name a file"});
+  ExpectError([&] { RequirePlaceOf(folder.In("no/new")); }, {"no/new", "choose another folder"});
+}
+
 TEST(AtomicFile, FoldersThatCannotBe) {
   const TempFolder folder;
   WriteFileAtomically(folder.In("file"), "x");
