@@ -10,49 +10,21 @@
 // with Mapper::StartSequence, and memory is that with the map, at the end of the round. Prints a
 // CSV row for each round: CPU times of AddFrame in ms, memory in MiB, and whether poses and loops
 // are those of the first round.
-#include <malloc.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <vector>
 
+#include "process_usage.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/pipeline/mapper.h"
 #include "sslcd/pipeline/options.h"
 
 namespace sslcd {
 namespace {
-
-// Other programs do not count.
-double CpuMs() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double ResidentMiB() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-// Allocated and not freed.
-double UsedMiB() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / (1 << 20);
-}
-
-double Quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 struct Round {
   std::vector<double> ms;       // of each call

@@ -8,22 +8,20 @@
 // With more laps, the sequence is driven again and again, each lap a new sequence from an unknown
 // pose. Prints a CSV row for each lap, and one with the results after the last frame and after a
 // last refinement.
-#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "process_usage.h"
 #include "sslcd/datasets/dataset.h"
 #include "sslcd/eval/trajectory_error.h"
 #include "sslcd/pipeline/async_mapper.h"
@@ -47,24 +45,6 @@ void UseCore(int core) {
   CPU_ZERO(&cores);
   CPU_SET(core, &cores);
   pthread_setaffinity_np(pthread_self(), sizeof cores, &cores);
-}
-
-double ResidentMiB() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return static_cast<double>(resident * sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-// Allocated and not freed.
-double UsedMiB() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / (1 << 20);
-}
-
-double Quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 // What a host keeps of the reports.

@@ -5,8 +5,8 @@
 #   scripts/same_bytes.sh [COMMIT]     default: where this branch left main (git merge-base HEAD main)
 # SSLCD_BUILD_DIR: build folder of sslcd_run (default build/release). SSLCD_DATA_DIR: real data
 # (default ../shared/data). Sequences that are not there are named and skipped, but there must be
-# one at least. SSLCD_SAME_BYTES_CMAKE: options of CMake for the reference, for another compiler or
-# another optimisation of the same code:
+# one at least. SSLCD_SAME_BYTES_CMAKE: options of CMake (no blanks in one) for the reference, for
+# another compiler or another optimisation of the same code:
 #   SSLCD_SAME_BYTES_CMAKE='-DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_CXX_FLAGS_RELEASE=-O1' \
 #     scripts/same_bytes.sh HEAD
 # SSLCD_SAME_BYTES_DIR: the reference is built and run once per commit and kept there

@@ -223,22 +223,19 @@ class Map:
             rename: a session whose name is taken becomes NAME-2; otherwise it is refused.
             refine_once: one refinement after the last session instead of one for each: quicker, for
                 many maps. The map is no longer that of drives recorded in it one after another.
-            progress: called with the numbers of frames done and of all. ctrl-C and its exceptions
-                end the merge, and the map stays as it was.
+            progress: as of add(). ctrl-C and its exceptions end the merge, and the map stays.
 
         Raises:
             UsageError, BadInputError: as start_session; a session that is there already.
         """
-        single = isinstance(others, (Map, str, os.PathLike))
-        listed: Any = [others] if single else others
+        listed: Any = [others] if isinstance(others, (Map, str, os.PathLike)) else others
         paths = [each.path if isinstance(each, Map) else os.fspath(each) for each in listed]
         return _core.merge_maps(
             self.path, paths, os.fspath(out), bool(rename), bool(refine_once), progress
         )
 
     def export(self, folder: Path) -> List[str]:
-        """Writes the files of `sslcd_run map export`; the same results give the same bytes. Returns
-        the paths."""
+        """As `sslcd_run map export`. The same results give the same bytes. Returns the paths."""
         return _core.export_map(self.path, os.fspath(folder))
 
     def compact(self) -> None:
@@ -250,8 +247,8 @@ class MapSession(FrameTaker[FrameReport]):
     """A drive that is added to a map in a file: Map.start_session() or Map.resume_session().
 
     As a context manager it refines (unless the map's options say `refine.enabled: false`) and ends
-    the session where its block ends; if the block raises,
-    what there is is stored and the session stays open, for Map.resume_session().
+    the session where its block ends. If the block raises, what there is is stored and the session
+    stays open, for Map.resume_session().
 
     Frames are stored in batches: what `stored_frames` counts survives a killed process and a loss
     of power.

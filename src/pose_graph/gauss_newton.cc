@@ -14,7 +14,7 @@ namespace {
 using Ends = std::vector<std::pair<int, int>>;
 using Block = BlockCholesky::Block;
 
-// Below that, rounding is larger; as in Ceres. [of the gradient's entries, of d against the poses]
+// The largest entries of gradient and step below which rounding is larger, as in Ceres.
 constexpr double kLeastGradient = 1e-10, kLeastStep = 1e-8;
 
 // The normal equations at `poses`. `unknown` is the position of a vertex in them, -1 if anchored.
