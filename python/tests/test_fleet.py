@@ -27,10 +27,10 @@ def built(folder, client, tmp_path_factory):
 
 
 def files(out):
-    """Path and inode of all outputs but the two reports, which are written again each time."""
+    """Path and time of change of all outputs but the two reports, written again each time."""
     found = [path for path in Path(out).rglob("*") if path.is_file()]
     assert not [path for path in found if ".tmp-" in path.name or ".probe" in path.name]
-    return {path.relative_to(out): path.stat().st_ino for path in found if path.parent != out}
+    return {path.relative_to(out): path.stat().st_mtime_ns for path in found if path.parent != out}
 
 
 def test_drives_of_a_site_are_merged(built):
