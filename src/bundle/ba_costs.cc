@@ -28,7 +28,7 @@ ObjectCost::ObjectCost(const ObjectResidual& residual)
       yaw_period_(residual.yaw_period) {
   const DetectionSigmas& sigmas = residual.sigmas;
   const Vec3 weight(1 / sigmas.radial, 1 / sigmas.lateral, 1 / sigmas.vertical);
-  whiten_ = weight.asDiagonal() * RayFrame(residual.T_cam_object.translation());
+  whiten_ = weight.asDiagonal() * RayFrame(residual.expected);
   measured_ = whiten_ * residual.T_cam_object.translation();
   heading_cam_ = residual.T_cam_object.so3() * Vec3(Vec3::UnitX());
   yaw_weight_ = yaw_period_ > 0 ? 1 / sigmas.yaw : 0.;

@@ -77,12 +77,11 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
                               object);
       continue;
     }
-    // Takes the sigmas at the estimated range. With the measured range, detections that are too
+    // Takes ray and sigmas at the estimated place. With the measured range, detections that are too
     // near would have more weight than those that are too far, and the map would shrink.
     const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
-    const double range =
-        (T_world_cam.inverse() * problem.objects[sighting.object].pose.position).norm();
-    DetectionSigmas sigmas = SigmasAt(range, problem.noise, problem.noise_scale);
+    const Vec3 expected = T_world_cam.inverse() * problem.objects[sighting.object].pose.position;
+    DetectionSigmas sigmas = SigmasAt(expected.norm(), problem.noise, problem.noise_scale);
     sigmas.radial *= options.correlation;
     sigmas.lateral *= options.correlation;
     sigmas.vertical *= options.correlation;
@@ -90,7 +89,7 @@ void BaTerms::AddSightings(const BaProblem& problem, const BaOptions& options) {
     // Detectors sometimes confuse front and back, so even a car's heading counts only modulo half a
     // turn.
     const double period = problem.objects[sighting.object].symmetry == Symmetry::kFull ? 0. : M_PI;
-    const ObjectResidual residual{sighting.T_cam_object, sigmas, period, problem.gravity};
+    const ObjectResidual residual{sighting.T_cam_object, expected, sigmas, period, problem.gravity};
     ceres_.AddResidualBlock(new ObjectCost(residual), options.loss_scale > 0 ? &loss_ : nullptr,
                             camera, object);
   }

@@ -16,10 +16,14 @@
 namespace sslcd {
 
 /// Robust form of Eq. 8: the whitened difference of a measured and an estimated upright object.
-/// Residual [radial, lateral, vertical, yaw]: position error in the measured ray's frame, and
-/// heading error in the world, wrapped to one yaw period.
+/// Residual [radial, lateral, vertical, yaw]: position error along and across the ray to `expected`,
+/// and heading error in the world, wrapped to one yaw period.
 struct ObjectResidual {
   Pose T_cam_object;  ///< measured
+  /// Where the object is taken to be in the camera frame, for the ray and the sigmas only [m]. Along
+  /// the measured ray, which a detection's own error turns, an object that is nearer has smaller
+  /// errors across it: the estimate would shrink by the relative variance of the range.
+  Vec3 expected;
   DetectionSigmas sigmas;
   double yaw_period = 0;  ///< [rad]; 0: no yaw, the fourth component is zero
   GravityFrame gravity;
@@ -31,7 +35,7 @@ struct ObjectResidual {
     const lie::SE3<T> T_world_cam = lie::SE3Map<const T>(camera);
     const Vector3 in_camera = T_world_cam.inverse() * Vector3(object[0], object[1], object[2]);
     const Vec3& measured = T_cam_object.translation();
-    const Eigen::Matrix3d rows = RayFrame(measured);
+    const Eigen::Matrix3d rows = RayFrame(expected);
     const Vector3 error = rows.cast<T>() * (measured.cast<T>() - in_camera);
     residual[0] = error[0] / sigmas.radial;
     residual[1] = error[1] / sigmas.lateral;

@@ -98,15 +98,16 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
   std::vector<double> errors[4];
   for (const BaSighting& sighting : problem.sightings) {
     const BaObject& object = problem.objects[sighting.object];
-    const double range = sighting.T_cam_object.translation().norm();
+    const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
+    const Vec3 expected = T_world_cam.inverse() * object.pose.position;
     const double period = object.symmetry == Symmetry::kFull ? 0. : M_PI;
-    const ObjectResidual residual{sighting.T_cam_object,
-                                  SigmasAt(range, problem.noise, NoiseScale::Uniform(1.)), period,
-                                  problem.gravity};
+    const ObjectResidual residual{
+        sighting.T_cam_object, expected,
+        SigmasAt(expected.norm(), problem.noise, NoiseScale::Uniform(1.)), period, problem.gravity};
     const Vec3& p = object.pose.position;
     const double state[4] = {p.x(), p.y(), p.z(), object.pose.yaw};
     double r[4];
-    residual(problem.cameras[sighting.camera].T_world_cam.data(), state, r);
+    residual(T_world_cam.data(), state, r);
     for (int i = 0; i < (period > 0 ? 4 : 3); ++i) errors[i].push_back(std::abs(r[i]));
   }
   NoiseScale scale = problem.noise_scale;
