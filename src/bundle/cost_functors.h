@@ -16,13 +16,13 @@
 namespace sslcd {
 
 /// Robust form of Eq. 8: the whitened difference of a measured and an estimated upright object.
-/// Residual [radial, lateral, vertical, yaw]: position error along and across the ray to `expected`,
-/// and heading error in the world, wrapped to one yaw period.
+/// Residual [radial, lateral, vertical, yaw]: position error along and across the ray to
+/// `expected`, and heading error in the world, wrapped to one yaw period.
 struct ObjectResidual {
   Pose T_cam_object;  ///< measured
-  /// Where the object is taken to be in the camera frame, for the ray and the sigmas only [m]. Along
-  /// the measured ray, which a detection's own error turns, an object that is nearer has smaller
-  /// errors across it: the estimate would shrink by the relative variance of the range.
+  /// Where the object is taken to be in the camera frame, for the ray and the sigmas only [m].
+  /// Along the measured ray, which a detection's own error turns, an object that is nearer has
+  /// smaller errors across it: the estimate would shrink by the relative variance of the range.
   Vec3 expected;
   DetectionSigmas sigmas;
   double yaw_period = 0;  ///< [rad]; 0: no yaw, the fourth component is zero

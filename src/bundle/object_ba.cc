@@ -101,9 +101,9 @@ NoiseScale EstimateNoiseScale(const BaProblem& problem) {
     const Pose& T_world_cam = problem.cameras[sighting.camera].T_world_cam;
     const Vec3 expected = T_world_cam.inverse() * object.pose.position;
     const double period = object.symmetry == Symmetry::kFull ? 0. : M_PI;
-    const ObjectResidual residual{
-        sighting.T_cam_object, expected,
-        SigmasAt(expected.norm(), problem.noise, NoiseScale::Uniform(1.)), period, problem.gravity};
+    const ObjectResidual residual{sighting.T_cam_object, expected,
+                                  SigmasAt(expected.norm(), problem.noise, NoiseScale::Uniform(1.)),
+                                  period, problem.gravity};
     const Vec3& p = object.pose.position;
     const double state[4] = {p.x(), p.y(), p.z(), object.pose.yaw};
     double r[4];

@@ -59,11 +59,12 @@ class Functors : public ::testing::TestWithParam<int> {
   UprightPose object{camera * Vec3(1, 0.5, 12), 0.7};
   double state[4] = {object.position.x(), object.position.y(), object.position.z(), object.yaw};
   double log_scale = 0.03;
+  const Vec3 expected{0.5, 0.3, 14};
 };
 
 TEST_P(Functors, ObjectResidualGradient) {
   const ObjectResidual residual{
-      Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, M_PI, gravity};
+      Seen(camera, object, gravity), expected, {0.3, 0.1, 0.05, 0.02}, M_PI, gravity};
   const ceres::AutoDiffCostFunction<ObjectResidual, 4, 7, 4> cost(new ObjectResidual(residual));
   Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
 }
@@ -81,7 +82,7 @@ void ExpectSame(const ceres::CostFunction& ours, const ceres::CostFunction& auto
 TEST_P(Functors, ObjectCostIsObjectResidual) {
   for (const double yaw_period : {0., M_PI, 2 * M_PI}) {
     const ObjectResidual residual{
-        Seen(camera, object, gravity), {0.3, 0.1, 0.05, 0.02}, yaw_period, gravity};
+        Seen(camera, object, gravity), expected, {0.3, 0.1, 0.05, 0.02}, yaw_period, gravity};
     const ObjectCost cost(residual);
     Check(cost, {camera.data(), state}, {&pose_manifold, nullptr});
     ExpectSame(cost,
@@ -150,12 +151,16 @@ TEST(ObjectResidual, VanishesAtTheTruthAndKnowsHalfTurns) {
   const UprightPose object{Vec3(4, 1, 15), 0.4};
   const double flipped[4] = {4, 1, 15, 0.4 + M_PI};
   const Pose T_cam_object = camera.inverse() * ToPose(object, gravity);
+  const Vec3 expected = T_cam_object.translation();
   double r[4];
-  ObjectResidual{T_cam_object, {0.1, 0.1, 0.1, 0.1}, M_PI, gravity}(camera.data(), flipped, r);
+  ObjectResidual{T_cam_object, expected, {0.1, 0.1, 0.1, 0.1}, M_PI, gravity}(camera.data(),
+                                                                              flipped, r);
   for (const double component : r) EXPECT_NEAR(component, 0., 1e-9);
-  ObjectResidual{T_cam_object, {0.1, 0.1, 0.1, 0.1}, 2 * M_PI, gravity}(camera.data(), flipped, r);
+  ObjectResidual{T_cam_object, expected, {0.1, 0.1, 0.1, 0.1}, 2 * M_PI, gravity}(camera.data(),
+                                                                                  flipped, r);
   EXPECT_NEAR(std::abs(r[3]), M_PI / 0.1, 1e-6);
-  ObjectResidual{T_cam_object, {0.1, 0.1, 0.1, 0.1}, 0, gravity}(camera.data(), flipped, r);
+  ObjectResidual{T_cam_object, expected, {0.1, 0.1, 0.1, 0.1}, 0, gravity}(camera.data(), flipped,
+                                                                           r);
   EXPECT_EQ(r[3], 0.);
 }
 
@@ -167,7 +172,8 @@ TEST(ObjectResidual, ComponentsAreRadialLateralVertical) {
   double r[4];
   const auto off = [&](double x, double y, double z) {
     const double state[4] = {x, y, 10 + z, 0};
-    ObjectResidual{ToPose(object, gravity), sigmas, M_PI, gravity}(camera.data(), state, r);
+    ObjectResidual{ToPose(object, gravity), object.position, sigmas, M_PI, gravity}(camera.data(),
+                                                                                    state, r);
   };
   off(0, 0, 1);
   EXPECT_NEAR(std::abs(r[0]), 2, 1e-9);
@@ -176,6 +182,15 @@ TEST(ObjectResidual, ComponentsAreRadialLateralVertical) {
   EXPECT_NEAR(std::abs(r[1]), 4, 1e-9);
   off(0, 1, 0);
   EXPECT_NEAR(std::abs(r[2]), 8, 1e-9);
+}
+
+TEST(ObjectResidual, RayIsThatOfTheExpectedPlaceNotOfTheMeasurement) {
+  const Pose camera, measured = Pose::Trans(3, 0, 10);
+  const double state[4] = {0, 0, 10, 0};
+  double r[4];
+  ObjectResidual{measured, Vec3(0, 0, 20), {1, 1, 1, 1}, 0, {}}(camera.data(), state, r);
+  EXPECT_NEAR(r[0], 0, 1e-12);
+  EXPECT_NEAR(std::abs(r[1]), 3, 1e-12);
 }
 
 TEST(SlopeResidual, IsTheSlopeInSigmasWhicheverWayTheCameraLooks) {

@@ -86,6 +86,19 @@ TEST(SolveBa, NoiseThatGrowsWithRangeDoesNotPullAnObjectNearer) {
   EXPECT_NEAR(problem.objects[0].pose.position.z(), 20, 0.01);
 }
 
+TEST(SolveBa, ErrorsAlongAndAcrossTheRayDoNotPullAnObjectNearer) {
+  BaProblem problem;
+  problem.cameras.push_back({0, Pose()});
+  problem.objects.push_back({1, Symmetry::kFull, {Vec3(0, 0, 20), 0}});
+  for (const double across : {-1., 1.})
+    for (const double along : {-3., 3.})
+      problem.sightings.push_back({0, 0, Pose::Trans(across, 0, 20 + along)});
+  BaOptions options;
+  options.loss_scale = 0;
+  ASSERT_TRUE(SolveBa(problem, options).usable);
+  EXPECT_NEAR(problem.objects[0].pose.position.z(), 20, 0.01);
+}
+
 TEST(SolveBa, WithoutNoiseEverySolverReachesTheTruth) {
   for (const auto residual : {BaOptions::Residual::kRobust, BaOptions::Residual::kPaper}) {
     for (const auto solver :

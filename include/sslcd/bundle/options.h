@@ -16,8 +16,9 @@ struct BaOptions {
   Residual residual = Residual::kRobust;
   Solver solver = Solver::kLevenbergMarquardt;
   int max_iterations = 30;
-  /// robust: scale of the Cauchy loss on each sighting's whitened residual; 0: none
-  double loss_scale = 3.;
+  /// robust: scale of the Cauchy loss on each sighting's whitened residual; 0: none. Small, since
+  /// some noisy detections join a neighbour, which makes the map smaller.
+  double loss_scale = 1.;
   /// robust: factor on detection sigmas, because errors of successive frames correlate
   double correlation = 2.;
   OdometryNoise odometry;
