@@ -28,12 +28,14 @@ double HorizontalPosterior(const std::vector<Resighting>& all,
                            const std::array<double, 3>& log_factors) {
   const auto [detector, position, heading] = log_factors;
   const double mean = 0.5 * (position + heading), ratio = (position - heading) / kRatioSigma;
+  const double of_detector = std::exp(2 * detector), of_position = std::exp(2 * position),
+               of_heading = std::exp(2 * heading);
   double sum = -0.5 * (detector * detector + mean * mean + ratio * ratio);
   for (const Resighting& each : all) {
-    const Eigen::Matrix2d covariance =
-        std::exp(2 * detector) * each.detection.topLeftCorner<2, 2>() +
-        std::exp(2 * position) * each.translation.topLeftCorner<2, 2>() +
-        std::exp(2 * heading) * each.rotation.topLeftCorner<2, 2>() + each.fixed;
+    const Eigen::Matrix2d covariance = of_detector * each.detection.topLeftCorner<2, 2>() +
+                                       of_position * each.translation.topLeftCorner<2, 2>() +
+                                       of_heading * each.rotation.topLeftCorner<2, 2>() +
+                                       each.fixed;
     sum += LogStudent<2>(each.moved.head<2>(), covariance);
   }
   return sum;
@@ -43,10 +45,11 @@ double HorizontalPosterior(const std::vector<Resighting>& all,
 double VerticalPosterior(const std::vector<Resighting>& all,
                          const std::array<double, 2>& log_factors) {
   const auto [detector, odometry] = log_factors;
+  const double of_detector = std::exp(2 * detector), of_odometry = std::exp(2 * odometry);
   double sum = -0.5 * (detector * detector + odometry * odometry);
   for (const Resighting& each : all) {
-    const double variance = std::exp(2 * detector) * each.detection(2, 2) +
-                            std::exp(2 * odometry) * each.odometry()(2, 2);
+    const double variance =
+        of_detector * each.detection(2, 2) + of_odometry * each.odometry()(2, 2);
     sum += LogStudent<1>(each.moved.tail<1>(), Eigen::Matrix<double, 1, 1>(variance));
   }
   return sum;
