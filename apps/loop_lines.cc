@@ -24,13 +24,14 @@ std::string LoopText(const LoopClosure& loop, const std::function<std::string(in
 }
 
 void LoopLines::Begin(const std::vector<LoopClosure>& known, std::function<std::string(int)> name) {
-  for (const LoopClosure& loop : known) known_[loop.id] = loop.decision;
+  for (const LoopClosure& loop : WithoutEarly(known)) known_[loop.id] = loop.decision;
   frame_name_ = std::move(name);
 }
 
 void LoopLines::Report(const std::vector<LoopClosure>& changed) {
   std::vector<const LoopClosure*> accepted, withdrawn, refused;
   for (const LoopClosure& loop : changed) {
+    if (loop.early) continue;  // the camera's own attempt follows
     const auto [at, is_new] = known_.try_emplace(loop.id, loop.decision);
     const bool was = !is_new && at->second == LoopDecision::kAccepted;
     const bool is = loop.decision == LoopDecision::kAccepted;

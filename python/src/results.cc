@@ -38,7 +38,7 @@ py::object ToPython(const LoopClosure& loop) {
               "score"_a = loop.score, "second_score"_a = loop.second_score,
               "probability"_a = loop.probability, "T_match_query"_a = ToArray(loop.T_match_query),
               "covariance"_a = ToArray(loop.covariance), "by_views"_a = loop.by_views,
-              "viewpoint_change"_a = loop.viewpoint_change_rad,
+              "early"_a = loop.early, "viewpoint_change"_a = loop.viewpoint_change_rad,
               "pairs"_a = Pairs(loop.pairs, [](const auto& pair) {
                 return std::pair(pair.first.value, pair.second.value);
               }));

@@ -54,6 +54,7 @@ class LoopClosure(_Compact):
     #: [6, 6] of the right perturbation T_match_query Exp(d), d = [translation, rotation] [m, rad]
     covariance: np.ndarray
     by_views: bool  #: measured by aligned images instead of objects
+    early: bool  #: of a camera near the newest one; withdrawn when its own attempt is made
     viewpoint_change: float  #: angle between the two headings, in [0, pi] [rad]
     pairs: np.ndarray  #: [M, 2] matched landmark ids: of the local and of the global map
 

@@ -39,7 +39,10 @@ def test_changes_keep_a_copy_of_the_trajectory_and_the_loops_right(drive):
 
     def take(changes):
         poses.update(zip(changes.poses.frames, changes.poses.poses))
-        loops.update((loop.id, loop.decision) for loop in changes.loops)
+        for loop in changes.loops:
+            loops[loop.id] = loop.decision
+            if loop.early and not loop.accepted:
+                del loops[loop.id]  # has ended
 
     for frame in drive:
         report = mapper.add(frame)

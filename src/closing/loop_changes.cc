@@ -14,7 +14,19 @@ LoopClosure WithoutPairs(LoopClosure row) {
 }
 
 bool IsSame(const LoopClosure& a, const LoopClosure& b) {
-  return a.decision == b.decision && a.T_match_query.matrix() == b.T_match_query.matrix();
+  return a.decision == b.decision && a.early == b.early &&
+         a.T_match_query.matrix() == b.T_match_query.matrix();
+}
+
+void SortById(std::vector<LoopClosure>& rows) {
+  std::sort(rows.begin(), rows.end(),
+            [](const LoopClosure& a, const LoopClosure& b) { return a.id < b.id; });
+}
+
+std::set<int> IdsOf(const std::vector<LoopClosure>& rows) {
+  std::set<int> ids;
+  for (const LoopClosure& row : rows) ids.insert(row.id);
+  return ids;
 }
 
 }  // namespace
@@ -23,23 +35,39 @@ std::vector<LoopClosure> LoopChanges::Take(const LoopLedger& ledger) {
   std::vector<LoopClosure> changed = std::exchange(lost_, {});
   if (ledger.revision() == revision_) return changed;
   revision_ = ledger.revision();
-  for (const LoopAttempt& attempt : ledger.attempts()) {
-    if (!attempt.counts()) continue;
-    const LoopClosure now = attempt.Measured();
+  const std::vector<LoopClosure> rows = ledger.Rows();
+  for (const LoopClosure& now : rows) {
     const auto [known, is_new] = known_.try_emplace(now.id, WithoutPairs(now));
     if (!is_new && IsSame(known->second, now)) continue;
     known->second = WithoutPairs(now);
     changed.push_back(now);
   }
+  for (LoopClosure& ended : TakeEnded(IdsOf(rows))) changed.push_back(std::move(ended));
   return changed;
+}
+
+// The early loops that are not `there` any more, as refused.
+std::vector<LoopClosure> LoopChanges::TakeEnded(const std::set<int>& there) {
+  std::vector<LoopClosure> ended;
+  for (auto known = known_.begin(); known != known_.end();) {
+    LoopClosure& row = known->second;
+    if (!row.early || there.count(row.id) > 0) {
+      ++known;
+      continue;
+    }
+    row.decision = LoopDecision::kNone;
+    row.reason = "the camera's own attempt decides";
+    ended.push_back(std::move(row));
+    known = known_.erase(known);
+  }
+  SortById(ended);
+  return ended;
 }
 
 void LoopChanges::TakeOver(const LoopChanges& other, const LoopLedger& ledger, int first_new) {
   *this = other;
   revision_ = -1;
-  std::set<int> there;
-  for (const LoopAttempt& attempt : ledger.attempts())
-    if (attempt.counts()) there.insert(attempt.row().id);
+  const std::set<int> there = IdsOf(ledger.Rows());
   for (auto known = known_.begin(); known != known_.end();) {
     LoopClosure& row = known->second;
     const bool is_lost = there.count(row.id) == 0;
@@ -54,8 +82,7 @@ void LoopChanges::TakeOver(const LoopChanges& other, const LoopLedger& ledger, i
     }
     known = known_.erase(known);
   }
-  std::sort(lost_.begin(), lost_.end(),
-            [](const LoopClosure& a, const LoopClosure& b) { return a.id < b.id; });
+  SortById(lost_);
 }
 
 }  // namespace sslcd

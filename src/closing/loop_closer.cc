@@ -2,6 +2,7 @@
 #include "closing/loop_closer.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "closing/loop_corrector.h"
@@ -60,6 +61,7 @@ void LoopCloser::AddKeyframe(MapState& state, double scale, TimingTable& timing)
   last_attempt_m_ = end_m;
   SearchNow(state, scale, timing);
   LookBack(state, scale, timing);
+  ledger_.DropEarly(state.frames, end_m - options_.lag_m + 0.5 * options_.layout.every_m);
 }
 
 void LoopCloser::SearchNow(MapState& state, double scale, TimingTable& timing) {
@@ -72,6 +74,7 @@ void LoopCloser::SearchAtEnd(MapState& state, double scale, TimingTable& timing)
   if (state.frames.empty()) return;
   const LoopLayoutOptions& o = options_.layout;
   const double end_m = state.frames.back().travelled;
+  ledger_.DropEarly(state.frames, std::numeric_limits<double>::infinity());
   for (double lag_m = options_.lag_m - o.every_m; lag_m > 0; lag_m -= o.every_m)
     if (!ledger_.AcceptedNear(state.frames, end_m - lag_m, 0.5 * o.every_m))
       SearchAndCorrect(state, {end_m, lag_m, o.local_m, options_.lag_m}, scale, timing);
@@ -196,16 +199,44 @@ void LoopCloser::LearnOdometry(const MapState& state, double scale) {
 // Returns true if a loop was accepted.
 bool LoopCloser::Search(const MapState& state, const SearchWindow& window) {
   const std::vector<LoopEdge> loops = ledger_.AcceptedEdges();
-  const std::optional<FoundLoop> found =
-      (window.second ? second_ : first_)
-          .finder->Find({state, passes_, loops, odometry_factors_, window});
+  std::optional<FoundLoop> found = (window.second ? second_ : first_)
+                                       .finder->Find({state, passes_, loops, odometry_factors_,
+                                                      window, EarlyPlaces(state.frames, window)});
   without_candidate_ += !found;
-  if (!found || !ledger_.Add(*found, window, state.frames.back().frame)) return false;
+  if (!found) return false;
+  const std::vector<FoundLoop> early = std::exchange(found->early, {});
+  if (!ledger_.Add(*found, window, state.frames.back().frame)) return false;
   ledger_.attempts().back().pairs = SightingsOf(state.frames, passes_, found->loop);
   if (found->loop.row.decision != LoopDecision::kAccepted) return false;
   ledger_.AcceptNewest();
+  AddEarly(state.frames, window, early);
   LookBackNear(state.frames, state.frames[found->loop.query].travelled);
   return true;
+}
+
+// Path lengths of later cameras that have no loop yet. None for a search that is no camera's first.
+std::vector<double> LoopCloser::EarlyPlaces(const FrameStore& frames,
+                                            const SearchWindow& window) const {
+  std::vector<double> places;
+  if (window.second || window.lag_m < options_.lag_m) return places;
+  const double every_m = options_.layout.every_m;
+  for (double lag_m = options_.lag_m - every_m; lag_m > 0; lag_m -= every_m) {
+    const double path_m = window.end_m - lag_m;
+    if (!ledger_.AnyLoopNear(frames, path_m, 0.5 * every_m)) places.push_back(path_m);
+  }
+  return places;
+}
+
+// Where the heading was uncertain, another camera than the wanted one was measured.
+void LoopCloser::AddEarly(const FrameStore& frames, const SearchWindow& window,
+                          const std::vector<FoundLoop>& found) {
+  const double near_m = 0.5 * options_.layout.every_m;
+  for (const FoundLoop& early : found) {
+    const double path_m = frames[early.loop.query].travelled;
+    if (path_m > window.end_m - window.lag_m + near_m &&
+        !ledger_.AnyLoopNear(frames, path_m, near_m))
+      ledger_.AddEarly(early, frames.back().frame);
+  }
 }
 
 bool LoopCloser::Review(MapState& state) {
@@ -214,6 +245,7 @@ bool LoopCloser::Review(MapState& state) {
   first_.finder->Reset();
   second_.finder->Reset();
   ReviewLoops(state, passes_, ledger_, options_, odometry_factors_);
+  ledger_.DropEarly(state.frames, 0);
   if (!ledger_.FusedByRefused()) return false;
   FuseMatchedObjects(state, passes_, ledger_, options_.fuse_m, whole_map_);
   return true;

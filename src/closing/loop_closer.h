@@ -63,6 +63,9 @@ class LoopCloser {
                         TimingTable& timing);
   bool PlaceJoined(MapState& state) const;
   void LearnOdometry(const MapState& state, double scale);
+  std::vector<double> EarlyPlaces(const FrameStore& frames, const SearchWindow& window) const;
+  void AddEarly(const FrameStore& frames, const SearchWindow& window,
+                const std::vector<FoundLoop>& found);
   bool Search(const MapState& state, const SearchWindow& window);
   bool SearchesTwice() const;
   void LookBack(MapState& state, double scale, TimingTable& timing);

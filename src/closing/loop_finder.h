@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "closing/loop_graph.h"
 #include "closing/loop_meter.h"
@@ -32,6 +33,8 @@ struct FinderInput {
   const std::vector<LoopEdge>& loops;  ///< the accepted ones
   const OdometryFactors& odometry;     ///< on LoopOptions::odometry
   SearchWindow window;
+  /// path lengths at later cameras whose loops are wanted, too (FoundLoop::early)
+  std::vector<double> early_m = {};
 };
 
 /// A measured loop with the finder's decision in its row.
@@ -41,6 +44,8 @@ struct FoundLoop {
   double sigma_m = 0;
   int track = -1;          ///< number of the track of poses; -1: none
   bool confirmed = false;  ///< a good measurement, which is accepted together with its track
+  /// accepted loops of later cameras, by the same place of the local map; only with an accepted one
+  std::vector<FoundLoop> early = {};
 };
 
 /// Searches the local map in the global one. May keep state between calls.

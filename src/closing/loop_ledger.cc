@@ -38,22 +38,55 @@ bool LoopLedger::Add(const FoundLoop& found, const SearchWindow& window, int new
   if (known) return false;
   LoopAttempt& attempt = attempts_.emplace_back();
   attempt.found = found;
-  const auto reserved = reserved_.find(key);
-  attempt.row().id = reserved != reserved_.end() ? reserved->second : next_id_++;
+  attempt.row().id = IdOf(key);
   attempt.row().newest_frame = newest_frame;
   ++revision_;
   attempt.window = window;
   return true;
 }
 
+// The id that another ledger has given, or a new one.
+int LoopLedger::IdOf(const Key& key) {
+  const auto reserved = reserved_.find(key);
+  return reserved != reserved_.end() ? reserved->second : next_id_++;
+}
+
+void LoopLedger::AddEarly(const FoundLoop& found, int newest_frame) {
+  ++revision_;
+  LoopAttempt& attempt = early_.emplace_back();
+  attempt.found = found;
+  attempt.row().id = IdOf(KeyOf(found.loop, newest_frame));
+  attempt.row().newest_frame = newest_frame;
+  attempt.row().early = true;
+}
+
+void LoopLedger::DropEarly(const FrameStore& frames, double path_m) {
+  if (early_.empty()) return;
+  ++revision_;
+  std::set<int> accepted;  // newest frames of the attempts with early loops
+  for (const LoopAttempt& attempt : attempts_)
+    if (attempt.accepted() && !attempt.window.second) accepted.insert(attempt.row().newest_frame);
+  const auto ends = [&](const LoopAttempt& early) {
+    return frames[early.found.loop.query].travelled < path_m ||
+           accepted.count(early.row().newest_frame) == 0;
+  };
+  early_.erase(std::remove_if(early_.begin(), early_.end(), ends), early_.end());
+}
+
 void LoopLedger::ReserveIds(const LoopLedger& other) {
   std::set<int> used;
-  for (const LoopAttempt& attempt : other.attempts_) {
-    reserved_[KeyOf(attempt.found.loop, attempt.row().newest_frame)] = attempt.row().id;
-    used.insert(attempt.row().id);
-  }
+  for (const std::vector<LoopAttempt>* all : {&other.attempts_, &other.early_})
+    for (const LoopAttempt& attempt : *all) {
+      reserved_[KeyOf(attempt.found.loop, attempt.row().newest_frame)] = attempt.row().id;
+      used.insert(attempt.row().id);
+    }
   next_id_ = std::max(next_id_, other.next_id_);
-  for (LoopAttempt& attempt : attempts_) {
+  AvoidIds(used, attempts_);
+  AvoidIds(used, early_);
+}
+
+void LoopLedger::AvoidIds(const std::set<int>& used, std::vector<LoopAttempt>& attempts) {
+  for (LoopAttempt& attempt : attempts) {
     const auto reserved = reserved_.find(KeyOf(attempt.found.loop, attempt.row().newest_frame));
     if (reserved != reserved_.end())
       attempt.row().id = reserved->second;
@@ -116,6 +149,13 @@ bool LoopLedger::AcceptedNear(const FrameStore& frames, double path_m, double wi
   });
 }
 
+bool LoopLedger::AnyLoopNear(const FrameStore& frames, double path_m, double within_m) const {
+  return AcceptedNear(frames, path_m, within_m) ||
+         std::any_of(early_.begin(), early_.end(), [&](const LoopAttempt& early) {
+           return std::abs(frames[early.found.loop.query].travelled - path_m) < within_m;
+         });
+}
+
 std::vector<LoopEdge> LoopLedger::AcceptedEdges() const {
   std::vector<LoopEdge> edges;
   for (const LoopAttempt& attempt : attempts_)
@@ -135,6 +175,7 @@ std::vector<LoopClosure> LoopLedger::Rows() const {
   std::vector<LoopClosure> rows;
   for (const LoopAttempt& attempt : attempts_)
     if (attempt.counts()) rows.push_back(attempt.Measured());
+  for (const LoopAttempt& early : early_) rows.push_back(early.row());
   return rows;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +56,14 @@ class LoopLedger {
   /// confirmed attempts of its track.
   void AcceptNewest();
 
+  /// Adds a loop of a camera whose own attempt is still to come (LoopClosure::early). It is a row,
+  /// but no attempt, so no correction and no search knows it.
+  void AddEarly(const FoundLoop& found, int newest_frame);
+  /// Removes the early loops with a query camera before `path_m`, and those that were found with an
+  /// attempt that is no longer accepted.
+  void DropEarly(const FrameStore& frames, double path_m);
+  const std::vector<LoopAttempt>& early() const { return early_; }
+
   /// Of a ledger that this one was a copy of: attempts that `other` has made, too, get its ids,
   /// also later ones, and attempts that it has not made get others than it has used.
   void ReserveIds(const LoopLedger& other);
@@ -84,12 +93,14 @@ class LoopLedger {
   bool AnyAccepted() const;
   /// Whether there is an accepted loop with a query camera within `within_m` of this path length.
   bool AcceptedNear(const FrameStore& frames, double path_m, double within_m) const;
+  /// The same, or an early loop.
+  bool AnyLoopNear(const FrameStore& frames, double path_m, double within_m) const;
   /// Edges of the accepted loops.
   std::vector<LoopEdge> AcceptedEdges() const;
   /// The path with the accepted loops as shortcuts.
   PathGraph AcceptedPath(const FrameStore& frames) const;
   /// LoopAttempt::Measured of all attempts in order, but for those of a second search that were
-  /// never accepted.
+  /// never accepted; then the early loops.
   std::vector<LoopClosure> Rows() const;
 
  private:
@@ -98,7 +109,10 @@ class LoopLedger {
     return {newest_frame, loop.query, loop.match};
   }
 
-  std::vector<LoopAttempt> attempts_;
+  int IdOf(const Key& key);
+  void AvoidIds(const std::set<int>& used, std::vector<LoopAttempt>& attempts);
+
+  std::vector<LoopAttempt> attempts_, early_;
   std::map<Key, int> reserved_;  // ids
   int next_id_ = 0, revision_ = 0;
 };

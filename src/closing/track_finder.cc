@@ -48,8 +48,19 @@ class TrackFinder : public LoopFinder {
     const LoopMeter meter(input.state, input.passes, options_, input.odometry);
     auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
-    return Decide(std::move(*loop), best, AppearanceOf(best.fit, local, index), prior,
-                  index.pose_volume());
+    const auto decide = [&, appearance =
+                                AppearanceOf(best.fit, local, index)](LoopMeasurement measured) {
+      return Decide(std::move(measured), best, appearance, prior, index.pose_volume());
+    };
+    FoundLoop found = decide(std::move(*loop));
+    if (found.loop.row.decision != LoopDecision::kAccepted) return found;
+    for (const double camera_m : input.early_m) {
+      auto later = meter.Measure(common, camera_m, options_.lag_m);
+      if (!later) continue;
+      FoundLoop early = decide(std::move(*later));
+      if (early.loop.row.decision == LoopDecision::kAccepted) found.early.push_back(early);
+    }
+    return found;
   }
 
   void MoveLocalMap(const YawShift& change) override { tracks_.Move(change); }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sslcd/core/loop_closure.h"
 
+#include <algorithm>
+
 namespace sslcd {
 
 const char* ToString(LoopDecision decision) {
@@ -10,6 +12,13 @@ const char* ToString(LoopDecision decision) {
     case LoopDecision::kAccepted: return "accepted";
   }
   return "none";
+}
+
+std::vector<LoopClosure> WithoutEarly(std::vector<LoopClosure> loops) {
+  loops.erase(std::remove_if(loops.begin(), loops.end(),
+                             [](const LoopClosure& loop) { return loop.early; }),
+              loops.end());
+  return loops;
 }
 
 }  // namespace sslcd

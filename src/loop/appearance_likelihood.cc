@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "loop/appearance_likelihood.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 namespace sslcd {
 namespace {
 
+// Of vectors of one size.
 double Dot(const std::vector<float>& a, const std::vector<float>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
-  return sum;
+  const auto size = static_cast<Eigen::Index>(a.size());
+  const Eigen::Map<const Eigen::VectorXf> first(a.data(), size), second(b.data(), size);
+  return static_cast<double>(first.dot(second));
 }
 
 // Log ratio of two normal densities of equal width.

@@ -64,7 +64,7 @@ std::vector<PoseHypothesis> RefineAll(const std::vector<YawShift>& starts,
     hypothesis.pose = start;
     hypothesis.fit = likelihood.Refine(hypothesis.pose, kRefineRounds);
     if (static_cast<int>(hypothesis.fit.matches.size()) >= options.min_matches)
-      found.push_back(hypothesis);
+      found.push_back(std::move(hypothesis));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const PoseHypothesis& a, const PoseHypothesis& b) {

@@ -312,7 +312,7 @@ PoseGraph Mapper::Graph() const {
     graph.edges.push_back(
         {frames[i - 1].frame, frames[i].frame, step.T_from_to, step.information, false});
   }
-  for (const LoopClosure& loop : LoopClosures()) {
+  for (const LoopClosure& loop : WithoutEarly(LoopClosures())) {
     // otherwise the tie would count twice
     if (loop.decision != LoopDecision::kAccepted || loop.by_views) continue;
     graph.edges.push_back({loop.match_frame, loop.query_frame, loop.T_match_query,

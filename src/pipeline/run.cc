@@ -42,7 +42,7 @@ RunResult RunSequence(const FrameSource& next, int total, const MapperContext& c
     hooks.loops(changes.loops);
   result.trajectory = mapper.CameraTrajectory();
   result.graph = mapper.Graph();
-  result.loops = mapper.LoopClosures();
+  result.loops = WithoutEarly(mapper.LoopClosures());
   result.loop_search = mapper.SummariseLoopSearch();
   result.objects = mapper.Objects();
   result.views_tied = static_cast<int>(mapper.view_ties().size());

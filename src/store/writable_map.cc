@@ -71,7 +71,7 @@ MapResults ResultsOf(const Mapper& mapper, const std::vector<SessionInfo>& sessi
   }
   results.parts = mapper.Parts();
   results.objects = mapper.Objects();
-  results.loops = mapper.LoopClosures();
+  results.loops = WithoutEarly(mapper.LoopClosures());
   results.scale = mapper.scale();
   results.noise_scale = mapper.noise_scale();
   return results;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "closing/loop_closer.h"
 
+#include <algorithm>
+
 #include "loop_closer_drive.h"
 
 namespace sslcd {
@@ -133,6 +135,25 @@ TEST_F(LoopCloserTest, ACopyContinuesOnItsOwn) {
     EXPECT_EQ(
         Apart(attempts()[i].row().T_match_query, copy.ledger().attempts()[i].row().T_match_query),
         0);
+}
+
+TEST_F(LoopCloserTest, TheLatestCamerasHaveEarlyLoopsUntilTheirOwnAttempts) {
+  Start(SmallDrift(), WithoutAdjustment(), {});
+  std::size_t most = 0;
+  while (state_.frames.size() < world_.state.frames.size()) {
+    DriveFrame(*closer_, state_);
+    const std::vector<LoopAttempt>& early = closer_->ledger().early();
+    most = std::max(most, early.size());
+    for (const LoopAttempt& attempt : early) {
+      const LoopMeasurement& loop = attempt.found.loop;
+      EXPECT_LT(Apart(loop.row.T_match_query, world_.TrueLoop(loop.match, loop.query)), 0.2);
+      EXPECT_LT(state_.frames.back().travelled - state_.frames[loop.query].travelled,
+                LoopOptions().lag_m + kEvery);
+    }
+  }
+  EXPECT_EQ(most, 4u) << "20, 15, 10 and 5 m behind the newest camera";
+  Finish();
+  EXPECT_TRUE(closer_->ledger().early().empty());
 }
 
 TEST_F(LoopCloserTest, FinishWithoutFramesDoesNothing) {

@@ -49,6 +49,31 @@ TEST(TrackFinder, TheQueryCameraStandsBackByTheLag) {
   }
 }
 
+TEST(TrackFinder, LaterCamerasHaveLoopsByTheSamePlace) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  const double end_m = world.end_m();
+  const std::vector<double> wanted{end_m - 20, end_m - 5};
+  LoopOptions options;
+  const auto find = [&] {
+    return MakeTrackFinder(options)->Find(
+        {world.state, world.passes, {}, kPoor, {end_m, 25, 75, 0}, wanted});
+  };
+  const auto found = find();
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->early.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const LoopMeasurement& loop = found->early[i].loop;
+    EXPECT_EQ(loop.row.decision, LoopDecision::kAccepted);
+    EXPECT_NEAR(world.state.frames[loop.query].travelled, wanted[i], 1);
+    EXPECT_LT(Apart(loop.row.T_match_query, world.TrueLoop(loop.match, loop.query)), 0.05);
+  }
+  options.acceptance.max_risk = 0;
+  const auto refused = find();
+  ASSERT_TRUE(refused);
+  ASSERT_NE(refused->loop.row.decision, LoopDecision::kAccepted);
+  EXPECT_TRUE(refused->early.empty());
+}
+
 TEST(TrackFinder, WithoutARivalTheSecondScoreIsTheOddsAgainstTheOnlyTrack) {
   const TwoPasses world(Pose::Trans(5, 0, -3));
   LoopOptions options;

@@ -81,6 +81,49 @@ TEST(LoopLedger, AnAttemptThatAnotherLedgerHasMadeToo) {
   EXPECT_TRUE(changes.Take(copy).empty());
 }
 
+TEST(LoopLedger, AnEarlyLoopEndsWhenItsCameraIsFarEnoughBackOrItsAttemptIsRefused) {
+  const FrameStore frames = Line(80);
+  LoopLedger ledger;
+  LoopChanges changes;
+  ledger.Add(Loop(1, 35, kAccepted), {}, 60);
+  ledger.AcceptNewest();
+  ledger.AddEarly(Loop(6, 40, kAccepted), 60);
+  ledger.AddEarly(Loop(11, 45, kAccepted), 60);
+  ledger.DropEarly(frames, 40);
+  EXPECT_EQ(IdsOf(changes.Take(ledger)), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(ledger.AcceptedEdges().size(), 1u);
+  EXPECT_FALSE(ledger.AcceptedNear(frames, 40, 2));
+  EXPECT_TRUE(ledger.AnyLoopNear(frames, 40, 2));
+  EXPECT_FALSE(ledger.AnyLoopNear(frames, 42.5, 2));
+
+  ledger.DropEarly(frames, 41);
+  std::vector<LoopClosure> rows = changes.Take(ledger);
+  ASSERT_EQ(IdsOf(rows), (std::vector<int>{1}));
+  EXPECT_EQ(rows[0].decision, LoopDecision::kNone);
+  EXPECT_EQ(rows[0].query_frame, 40);
+  EXPECT_EQ(IdsOf(WithoutEarly(ledger.Rows())), (std::vector<int>{0}));
+
+  ledger.attempts()[0].row().decision = kOpen;
+  ledger.DropEarly(frames, 41);
+  rows = changes.Take(ledger);
+  ASSERT_EQ(IdsOf(rows), (std::vector<int>{0, 2}));
+  EXPECT_TRUE(rows[1].early);
+  EXPECT_EQ(rows[1].decision, LoopDecision::kNone);
+  EXPECT_TRUE(changes.Take(ledger).empty());
+}
+
+TEST(LoopLedger, AnEarlyLoopOfAnotherLedgerKeepsItsId) {
+  LoopLedger copy, ledger;
+  ledger.Add(Loop(1, 35, kAccepted), {}, 60);
+  ledger.AcceptNewest();
+  ledger.AddEarly(Loop(6, 40, kAccepted), 60);
+  copy.AddEarly(Loop(9, 50, kAccepted), 60);  // 0 is another one's
+  copy.ReserveIds(ledger);
+  copy.AddEarly(Loop(6, 40, kAccepted), 60);
+  copy.Add(Loop(1, 35, kAccepted), {}, 60);
+  EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{0, 2, 1})) << "attempts first";
+}
+
 TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {
   LoopLedger ledger;
   ledger.Add(Loop(1, 50, kOpen, 7, true), {}, 50);

@@ -46,7 +46,10 @@ TEST(AsyncMapper, IsAMapper) {
     const AsyncReport report = async.TakeReport();
     EXPECT_EQ(report.dropped + report.refused, 0);
     for (const FramePose& pose : report.changes.poses) poses[pose.frame] = pose.T_world_cam;
-    for (const LoopClosure& loop : report.changes.loops) loops[loop.id] = loop.decision;
+    for (const LoopClosure& loop : report.changes.loops) {
+      loops[loop.id] = loop.decision;
+      if (loop.early && loop.decision != LoopDecision::kAccepted) loops.erase(loop.id);
+    }
     return report.frames;
   };
   int frames = 0;

@@ -19,7 +19,10 @@ struct HostCopy {
 
   void Apply(const MapChanges& changes) {
     for (const FramePose& pose : changes.poses) poses[pose.frame] = pose;
-    for (const LoopClosure& loop : changes.loops) loops[loop.id] = loop;
+    for (const LoopClosure& loop : changes.loops) {
+      loops[loop.id] = loop;
+      if (loop.early && loop.decision != LoopDecision::kAccepted) loops.erase(loop.id);
+    }
     if (!changes.parts.empty()) parts = changes.parts;
   }
 

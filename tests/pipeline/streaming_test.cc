@@ -35,10 +35,13 @@ TEST(Streaming, ChangesAloneKeepAHostsCopyUpToDate) {
   EXPECT_GT(Accepted(copy.loops), 0);
   EXPECT_LT(told, drives.frames.size() * drives.frames.size() / 10) << "only what has changed";
   EXPECT_TRUE(mapper.TakeChanges().loops.empty()) << "told already";
+  const int loops = Accepted(copy.loops);
 
   mapper.Refine();
   copy.Apply(mapper.TakeChanges());
   copy.ExpectIsOf(mapper);
+  EXPECT_GE(loops, 0.95 * Accepted(copy.loops)) << "a host has them before, too";
+  for (const auto& [id, loop] : copy.loops) EXPECT_FALSE(loop.early) << id;
   Frame next = drives.frames.back();
   next.index += 1;
   next.stamp += 1;

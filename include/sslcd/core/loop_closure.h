@@ -44,10 +44,16 @@ struct LoopClosure {
   /// covariance of the right perturbation T_match_query Exp(d), d = [translation, rotation]
   Eigen::Matrix<double, 6, 6, Eigen::DontAlign> covariance =
       Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
-  bool by_views = false;            ///< measured by aligned images instead of objects
+  bool by_views = false;  ///< measured by aligned images instead of objects
+  /// Of a camera less than `loop.lag_m` behind the newest one, whose own attempt is still to come:
+  /// withdrawn when that is made, which may find the loop again. Never moves the trajectory.
+  bool early = false;
   double viewpoint_change_rad = 0;  ///< angle between the two headings, in [0, pi]
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global
 };
+
+/// The loops that are not early.
+std::vector<LoopClosure> WithoutEarly(std::vector<LoopClosure> loops);
 
 /// A measured relative pose of two frames, given by index.
 struct ViewTie {

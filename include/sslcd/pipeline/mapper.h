@@ -72,8 +72,8 @@ struct MapChanges {
   /// the first frame whose pose has changed, and all frames after it
   std::vector<FramePose> poses;
   /// the attempts that are new, or whose decision or measurement has changed, by
-  /// LoopClosure::id: a loop that is taken back is among them with its new decision. Landmarks have
-  /// their current ids; later, see Mapper::Current.
+  /// LoopClosure::id: a loop that is taken back, or an early one that has ended, is among them with
+  /// its new decision. Landmarks have their current ids; later, see Mapper::Current.
   std::vector<LoopClosure> loops;
   /// all parts, if one is new or joined with others than before; otherwise empty
   std::vector<MapPart> parts;
@@ -173,7 +173,7 @@ class Mapper {
   /// The landmark that an id names now: itself, or the one that it was fused into. None if it was
   /// removed.
   std::optional<LandmarkId> Current(LandmarkId id) const;
-  /// all attempts to close a loop, including refused ones
+  /// all attempts to close a loop, including refused ones, and the early loops
   std::vector<LoopClosure> LoopClosures() const;
   LoopSearchSummary SummariseLoopSearch() const;  ///< O(frames)
   const std::vector<ViewTie>& view_ties() const;  ///< ties of the last Refine()
