@@ -205,6 +205,14 @@ bool Statement::IsNull(int column) const {
 std::int64_t Statement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
+int Statement::Int(int column) const {
+  const std::int64_t value = Integer(column);
+  if (value != static_cast<int>(value))
+    throw Error(ErrorKind::kBadInput,
+                database_.path() + ": has the number " + std::to_string(value) +
+                    " where a smaller one belongs: " + WayOut(SQLITE_CORRUPT));
+  return static_cast<int>(value);
+}
 double Statement::Real(int column) const {
   return IsNull(column) ? std::numeric_limits<double>::quiet_NaN()
                         : sqlite3_column_double(statement_.get(), column);

@@ -63,7 +63,7 @@ class Statement {
   int columns() const;
   bool IsNull(int column) const;
   std::int64_t Integer(int column) const;
-  int Int(int column) const { return static_cast<int>(Integer(column)); }
+  int Int(int column) const;      ///< throws Error(kBadInput) beyond 32 bits
   double Real(int column) const;  ///< NaN for NULL
   std::string Text(int column) const;
   std::string Blob(int column) const;

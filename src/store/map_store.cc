@@ -27,7 +27,7 @@ OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& s
     if (input.kind != InputKind::kFrame) return;
     const Frame frame = FrameOf(input.content);
     for (const SessionInfo& session : sessions)
-      if (session.id == input.session) poses[frame.index + session.frame_offset] = frame.T_odom_cam;
+      if (session.id == input.session) poses[NumberInMap(frame.index, session)] = frame.T_odom_cam;
   });
   return poses;
 }
@@ -68,7 +68,13 @@ MapResults MapStore::Results() const {
   const OdometryPoses odometry = ReadOdometry(database, ReadInfo(database).sessions);
   for (SessionPath& path : results.paths) {
     path.odometry.stamps = path.trajectory.stamps;
-    for (const int frame : path.frames) path.odometry.poses.push_back(odometry.at(frame));
+    for (const int frame : path.frames) {
+      const auto pose = odometry.find(frame);
+      if (pose == odometry.end())
+        RefuseDamage(database.path(),
+                     {"frame " + std::to_string(frame) + " has a pose and no input"});
+      path.odometry.poses.push_back(pose->second);
+    }
   }
   return results;
 }

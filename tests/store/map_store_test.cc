@@ -85,6 +85,28 @@ TEST(MapStore, AFlippedBitIsNoticed) {
   EXPECT_GT(noticed, kTries / 3) << "the rest is unused space";
 }
 
+// What does not fit together, with checksums that do: no answer, or an Error.
+TEST(MapStore, RowsThatDoNotFitTogetherAreRefused) {
+  const TempFolder folder;
+  const std::string path = MakeMap(folder, ShortStreet(30));
+  const std::string copy = folder.In("copy.db");
+  for (const char* change :
+       {"UPDATE input SET content = x'ffffff7f' || substr(content, 5) WHERE kind = 'frame'",
+        "UPDATE input SET content = x'ffffffff' || substr(content, 5) WHERE kind = 'frame'",
+        "DELETE FROM input WHERE id = 9", "UPDATE session SET frame_offset = 2147483647",
+        "UPDATE session SET frame_offset = 4294967297",
+        "UPDATE pose SET frame = 4294967296 + frame WHERE frame = 29"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    {
+      Database map(copy, Database::Access::kWrite);
+      map.Execute(std::string("PRAGMA foreign_keys = OFF;") + change);
+      for (const auto* tables : {&kSiteTables, &kResultTables}) UpdateChecksums(map, *tables);
+    }
+    EXPECT_THROW(MapStore(copy).Results(), Error) << change;
+    EXPECT_NE(FirstProblem(copy), "") << change;
+  }
+}
+
 TEST(MapStore, AReaderSeesOneStateBesideAWriter) {
   const TempFolder folder;
   const StoreDrive drive = ShortStreet();
