@@ -14,7 +14,7 @@
 namespace sslcd::fuzz {
 namespace {
 
-constexpr int kMostFrames = 60, kMostRefinements = 3;
+constexpr int kMostFrames = 40, kMostRefinements = 2;
 constexpr double kSight = 20;  // [m]
 
 Pose UprightAt(double x, double z, double heading) {  // y points down
@@ -165,7 +165,7 @@ class Calls {
 
   Frame NextFrame() {
     ++frames_;
-    const double step = 1 + script_.Share(), turn = 0.3 * script_.Share();
+    const double step = 2 + 2 * script_.Share(), turn = 0.3 * script_.Share();
     return vehicle_.Next(step, turn, script_);
   }
 
@@ -182,7 +182,7 @@ class Calls {
 
   // A few frames of the same step and turn.
   void Drive(Mapper& mapper) {
-    const double step = 1 + script_.Share(), turn = 0.3 * script_.Share();
+    const double step = 2 + 2 * script_.Share(), turn = 0.3 * script_.Share();
     const unsigned count = script_.Choice(24);
     for (unsigned i = 0; i < count && frames_ < kMostFrames; ++i)
       Try(mapper, vehicle_.Next(step, turn, script_));
@@ -213,7 +213,10 @@ class Calls {
 };
 
 Options OptionsOf(const std::string& bytes) {
-  return DefaultOptions(bytes.empty() || bytes[0] % 8 != 0 ? Mode::kRobust : Mode::kPaper);
+  Options options =
+      DefaultOptions(bytes.empty() || bytes[0] % 8 != 0 ? Mode::kRobust : Mode::kPaper);
+  options.window.keyframes = 4;  // half of the time of a frame
+  return options;
 }
 
 }  // namespace
