@@ -194,11 +194,13 @@ TEST(MapSession, NoSessionFollowsTheLargestFrameNumber) {
   const TempFolder folder;
   const StoreDrive drive = ShortStreet(2);
   const std::string path = folder.In("site.db");
-  MapSession session = BeginSession(path, "one", drive);
-  Frame last = drive.frames[0];
-  last.index = std::numeric_limits<int>::max();
-  session.AddFrame(last);
-  session.End();
+  {
+    MapSession session = BeginSession(path, "one", drive);
+    Frame last = drive.frames[0];
+    last.index = std::numeric_limits<int>::max();
+    session.AddFrame(last);
+    session.End();
+  }
   ExpectError([&] { BeginSession(path, "two", drive); }, {path, "'one'", "largest number"});
 }
 

@@ -91,8 +91,8 @@ TEST(MapStore, RowsThatDoNotFitTogetherAreRefused) {
   const std::string path = MakeMap(folder, ShortStreet(30));
   const std::string copy = folder.In("copy.db");
   for (const char* change :
-       {"UPDATE input SET content = x'ffffff7f' || substr(content, 5) WHERE kind = 'frame'",
-        "UPDATE input SET content = x'ffffffff' || substr(content, 5) WHERE kind = 'frame'",
+       {"UPDATE input SET content = CAST(x'ffffff7f' || substr(content, 5) AS BLOB) WHERE id = 9",
+        "UPDATE input SET content = CAST(x'ffffffff' || substr(content, 5) AS BLOB) WHERE id = 9",
         "DELETE FROM input WHERE id = 9", "UPDATE session SET frame_offset = 2147483647",
         "UPDATE session SET frame_offset = 4294967297",
         "UPDATE pose SET frame = 4294967296 + frame WHERE frame = 29"}) {
