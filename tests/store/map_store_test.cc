@@ -95,7 +95,9 @@ TEST(MapStore, RowsThatDoNotFitTogetherAreRefused) {
         "UPDATE input SET content = CAST(x'ffffffff' || substr(content, 5) AS BLOB) WHERE id = 9",
         "DELETE FROM input WHERE id = 9", "UPDATE session SET frame_offset = 2147483647",
         "UPDATE session SET frame_offset = 4294967297",
-        "UPDATE pose SET frame = 4294967296 + frame WHERE frame = 29"}) {
+        "UPDATE pose SET frame = 4294967296 + frame WHERE frame = 29",
+        "UPDATE pose SET x = 9e999 WHERE frame = 3", "UPDATE pose SET qw = 5 WHERE frame = 3",
+        "UPDATE landmark SET length = -9e999", "UPDATE result SET scale = 9e999"}) {
     fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
     {
       Database map(copy, Database::Access::kWrite);
