@@ -215,10 +215,13 @@ class Calls {
 Options OptionsOf(const std::string& bytes) {
   const unsigned char first = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
   Options options = DefaultOptions(bytes.empty() || first % 8 != 0 ? Mode::kRobust : Mode::kPaper);
-  // Adjustments take most of the time of a drive: not in all of them.
+  // Adjusting and learning take most of the time: not in all drives.
   options.window.enabled = (first & 8) != 0;
   options.window.keyframes = 4;
-  if ((first & 16) == 0) options.loop.adjust_keyframes = 0;
+  if ((first & 16) == 0) {
+    options.loop.adjust_keyframes = 0;
+    options.loop.learn_odometry = false;
+  }
   return options;
 }
 
