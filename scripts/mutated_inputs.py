@@ -148,7 +148,7 @@ class Bench:
             return 'too slow', [f'takes more than {self.seconds} s'], name, data, ''
         after, violations = content(self.folder), []
         code, said = done.returncode, done.stderr + (done.stdout if self.command.words.startswith(('check', 'map verify')) else '')
-        if code < 0 or code > 5:
+        if code < 0 or code > 6:
             violations.append(f'ends with {code}')
         changed = [n for n in before if after.get(n) != before[n] and n != self.command.writes]
         violations += [f'changes {n}' for n in changed]

@@ -14,6 +14,7 @@
 #include "sim/random.h"
 #include "store/bytes.h"
 #include "store/checksums.h"
+#include "store/frame_bytes.h"
 #include "store/schema.h"
 #include "store/writable_map.h"
 #include "store_drive.h"
@@ -212,7 +213,10 @@ TEST(MapStore, AFullDiskLosesNothing) {
   const std::int64_t pages = map.database.Integer("PRAGMA page_count");
   map.database.Execute("PRAGMA max_page_count = " + std::to_string(pages + 1));
   SessionInfo session = map.info.sessions.back();
-  const StoredInput input{session.id, InputKind::kFrame, std::string(100000, 'x')};
+  Frame frame;
+  frame.index = 30;
+  frame.detections.resize(1000);
+  const StoredInput input{session.id, InputKind::kFrame, FrameBytes(frame)};
   const std::vector<StoredInput> inputs{input};
   session.checksum = NextChecksum(session.checksum, input.kind, input.content);
   ++session.inputs;
