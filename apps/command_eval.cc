@@ -33,6 +33,8 @@ int Eval(const EvalArguments& a, const Console& console) {
   input.odometry = ReadTrajectory(a.run + "/odometry_tum.txt");
   if (!a.groundtruth.empty()) {
     const PoseFile truth = ReadPoseFile(a.groundtruth);
+    if (truth.trajectory.poses.empty())
+      throw Error(ErrorKind::kBadInput, {a.groundtruth}, "has no poses: name the true trajectory");
     input.groundtruth = truth.trajectory;
     input.groundtruth_has_stamps = truth.format != PoseFormat::kKitti;
   }

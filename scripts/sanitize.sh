@@ -11,21 +11,23 @@
 # Not run: tests/consumer (compiles outside projects against plain installs; its installs are those
 # of the release build), tests/docs, tests/include_graph, tests/mutate (they run no C++), the Python
 # package (the interpreter is not linked with sanitizers), cli.faults and house.hardening (they
-# judge plain binaries).
+# judge plain binaries), KeyEffects (a drive for each key of the options, minutes a shard).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kind=${1:-}
-only=()  # which tests: those of whole drives on one thread say nothing of races
+only=()  # which tests
 jobs=${SSLCD_JOBS:-2}
 case "$kind" in
   asan)
     sanitizers=address,undefined,float-cast-overflow
+    only=(-E 'KeyEffects')
     parts="lie core formats datasets config perception association map odometry pose_graph bundle
       loop refine closing change retrieval eval store map_export check report run_export inference
       detectors stereo ground visual_odometry lifting frontend sim render baselines fuzz cli
       vins_fusion ros_bridge ros1 examples benchmark pipeline browser" ;;
   tsan)
     sanitizers=thread
+    # whole drives on one thread say nothing of races
     only=(-R '\.(unit|property)$|AsyncMapper|StalledMapper|CatchUp|Streaming|BridgeDrive')
     parts="core pipeline frontend loop retrieval benchmark ros_bridge" ;;
   *) sed -n '3,15s/^# \?//p' "$0" >&2; exit 2 ;;

@@ -15,7 +15,7 @@ int Gallery::BinOf(double viewpoint_rad) const {
 }
 
 void Gallery::Add(const std::vector<float>& vector, double viewpoint_rad) {
-  if (vector.empty()) return;
+  if (vector.empty() || std::isnan(viewpoint_rad)) return;
   if (bins_.empty()) bins_.resize(mode_ == Mode::kMean ? 1 : kBins);
   Bin& bin = bins_[BinOf(viewpoint_rad)];
   if (bin.sum.empty()) bin.sum.assign(vector.size(), 0.f);
@@ -35,7 +35,7 @@ const Gallery::Bin* Gallery::NearestFilled(int bin) const {
 
 std::optional<double> Gallery::Compare(const std::vector<float>& vector,
                                        double viewpoint_rad) const {
-  if (vector.empty() || bins_.empty()) return std::nullopt;
+  if (vector.empty() || bins_.empty() || std::isnan(viewpoint_rad)) return std::nullopt;
   const Bin* bin = NearestFilled(BinOf(viewpoint_rad));
   if (bin == nullptr || bin->sum.size() != vector.size()) return std::nullopt;
   double dot = 0;

@@ -36,6 +36,7 @@ class Limits {
     for (std::size_t f = 0; f < frames.size(); ++f) {
       for (const int number : seen[f]) {
         const Sight sight = SightOf(frames[f], places[number], gravity);
+        if (!std::isfinite(sight.Range() + sight.up_m)) continue;  // NaN cannot be sorted
         ranges.push_back(sight.Range());
         heights.push_back(sight.up_m);
         ++sectors_[SectorOf(sight)];
@@ -57,7 +58,7 @@ class Limits {
  private:
   static int SectorOf(const Sight& sight) {
     const double turns = sight.Bearing() / (2 * M_PI) + 0.5;
-    return std::clamp(static_cast<int>(turns * kBearings), 0, kBearings - 1);
+    return turns > 0 ? std::min(static_cast<int>(turns * kBearings), kBearings - 1) : 0;
   }
   static double Quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;

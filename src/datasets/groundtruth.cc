@@ -33,6 +33,10 @@ std::optional<Trajectory> GroundtruthOfFrames(const PoseFile& file, const std::s
                                               std::size_t frames_in_file,
                                               std::vector<std::string>& warnings) {
   const Trajectory& truth = file.trajectory;
+  if (truth.poses.empty()) {
+    warnings.push_back(path + ": has no poses; it is not used");
+    return std::nullopt;
+  }
   const bool one_per_frame = truth.size() == frames_in_file;
   if (file.format == PoseFormat::kKitti) {
     if (!one_per_frame)
@@ -40,7 +44,7 @@ std::optional<Trajectory> GroundtruthOfFrames(const PoseFile& file, const std::s
                          std::to_string(frames_in_file) + " frames; row i is taken as frame i");
     return ByRow(truth, frames);
   }
-  if (frames.empty() || truth.stamps.empty() || StampsMeet(truth.stamps, frames)) return truth;
+  if (frames.empty() || StampsMeet(truth.stamps, frames)) return truth;
   const std::string clocks =
       path + ": no stamp (" + Seconds(truth.stamps.front(), truth.stamps.back()) +
       ") is of the time of a frame (" + Seconds(frames.front().stamp, frames.back().stamp) + ")";

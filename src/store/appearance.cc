@@ -8,6 +8,7 @@
 #include "store/bytes.h"
 #include "store/frame_bytes.h"
 #include "store/journal.h"
+#include "store/site.h"
 
 namespace sslcd {
 namespace {
@@ -56,13 +57,14 @@ void ForEachSighting(Database& database, const std::vector<MapObject>& objects,
                      const std::vector<SessionInfo>& sessions,
                      const std::function<void(int, const Detection&)>& take) {
   const LandmarkOfSighting landmarks = ConfirmedSightings(objects);
-  std::map<int, int> offsets;
-  for (const SessionInfo& session : sessions) offsets[session.id] = session.frame_offset;
+  std::map<int, SessionInfo> session;
+  for (const SessionInfo& one : sessions) session[one.id] = one;
   ReadInputs(database, sessions, [&](const StoredInput& input) {
     if (input.kind != InputKind::kFrame) return;
     const Frame frame = FrameOf(input.content);
+    const int number = NumberInMap(frame.index, session[input.session]);
     for (const Detection& detection : frame.detections) {
-      const auto found = landmarks.find({frame.index + offsets[input.session], detection.row});
+      const auto found = landmarks.find({number, detection.row});
       if (found != landmarks.end()) take(found->second, detection);
     }
   });

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -205,9 +206,24 @@ bool Statement::IsNull(int column) const {
 std::int64_t Statement::Integer(int column) const {
   return sqlite3_column_int64(statement_.get(), column);
 }
+int Statement::Int(int column) const {
+  const std::int64_t value = Integer(column);
+  if (value != static_cast<int>(value))
+    Refuse("the number " + std::to_string(value) + " where a smaller one belongs");
+  return static_cast<int>(value);
+}
 double Statement::Real(int column) const {
   return IsNull(column) ? std::numeric_limits<double>::quiet_NaN()
                         : sqlite3_column_double(statement_.get(), column);
+}
+double Statement::Finite(int column) const {
+  const double value = Real(column);
+  if (!std::isfinite(value)) Refuse("a number that is not finite");
+  return value;
+}
+void Statement::Refuse(const std::string& what) const {
+  throw Error(ErrorKind::kBadInput,
+              database_.path() + ": has " + what + ": " + WayOut(SQLITE_CORRUPT));
 }
 std::string Statement::Text(int column) const { return Blob(column); }
 std::string Statement::Blob(int column) const {

@@ -63,13 +63,16 @@ class Statement {
   int columns() const;
   bool IsNull(int column) const;
   std::int64_t Integer(int column) const;
-  int Int(int column) const { return static_cast<int>(Integer(column)); }
-  double Real(int column) const;  ///< NaN for NULL
+  int Int(int column) const;        ///< throws Error(kBadInput) beyond 32 bits
+  double Real(int column) const;    ///< NaN for NULL
+  double Finite(int column) const;  ///< throws Error(kBadInput) for NULL and infinity
   std::string Text(int column) const;
   std::string Blob(int column) const;
   /// The value as bytes that tell types apart, for a checksum: a letter, then 8 bytes, or a length
   /// and the content.
   std::string Canonical(int column) const;
+  /// Throws Error(kBadInput): the file has `what`, and is damaged.
+  [[noreturn]] void Refuse(const std::string& what) const;
 
  private:
   struct Finalise {

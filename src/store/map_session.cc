@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <numeric>
 
 #include "core/sha256.h"
@@ -126,7 +125,7 @@ void MapSession::Impl::RepeatInput(const StoredInput& input) {
     stored_numbers.push_back(frame.index);
     stored_hashes.push_back(Sha256().Add(input.content).Finish());
   }
-  frame.index += session->frame_offset;
+  frame.index = NumberInMap(frame.index, *session);
   const FrameReport report = mapper->AddFrame(frame);
   if (!session->ended) filter += report.filter;
 }
@@ -252,14 +251,12 @@ void MapSession::Impl::Append(InputKind kind, std::string content) {
 FrameReport MapSession::AddFrame(const Frame& given) {
   Impl& m = *impl_;
   Frame frame = given;
-  if (frame.index < 0 || frame.index > std::numeric_limits<int>::max() - m.session().frame_offset)
-    throw Error(ErrorKind::kBadInput,
-                "frame " + std::to_string(frame.index) + ": its number is out of range");
+  const int number = NumberInMap(frame.index, m.session());
   if (m.without_boxes)
     for (Detection& detection : frame.detections) detection.box.reset();
   CheckVectorLengths(m.map.info, m.map.database.path(), frame);
   std::string content = FrameBytes(frame);
-  frame.index += m.session().frame_offset;
+  frame.index = number;
   FrameReport report = m.mapper->AddFrame(frame);
   m.filter += report.filter;
   m.LearnLabels(frame);

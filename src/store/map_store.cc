@@ -27,7 +27,7 @@ OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& s
     if (input.kind != InputKind::kFrame) return;
     const Frame frame = FrameOf(input.content);
     for (const SessionInfo& session : sessions)
-      if (session.id == input.session) poses[frame.index + session.frame_offset] = frame.T_odom_cam;
+      if (session.id == input.session) poses[NumberInMap(frame.index, session)] = frame.T_odom_cam;
   });
   return poses;
 }
@@ -41,6 +41,22 @@ void RefuseDamage(const std::string& path, const std::vector<std::string>& probl
 
 void CheckResults(Database& database) {
   RefuseDamage(database.path(), ChecksumProblems(database, kResultTables));
+}
+
+MapResults ResultsWithOdometry(Database& database) {
+  MapResults results = ReadResults(database);
+  const OdometryPoses odometry = ReadOdometry(database, ReadInfo(database).sessions);
+  for (SessionPath& path : results.paths) {
+    path.odometry.stamps = path.trajectory.stamps;
+    for (const int frame : path.frames) {
+      const auto pose = odometry.find(frame);
+      if (pose == odometry.end())
+        RefuseDamage(database.path(),
+                     {"frame " + std::to_string(frame) + " has a pose and no input"});
+      path.odometry.poses.push_back(pose->second);
+    }
+  }
+  return results;
 }
 
 }  // namespace
@@ -61,16 +77,9 @@ MapInfo MapStore::Describe() const {
 }
 
 MapResults MapStore::Results() const {
-  Database& database = impl_->database;
-  const Transaction one_state(database, Transaction::Kind::kRead);
-  CheckResults(database);
-  MapResults results = ReadResults(database);
-  const OdometryPoses odometry = ReadOdometry(database, ReadInfo(database).sessions);
-  for (SessionPath& path : results.paths) {
-    path.odometry.stamps = path.trajectory.stamps;
-    for (const int frame : path.frames) path.odometry.poses.push_back(odometry.at(frame));
-  }
-  return results;
+  const Transaction one_state(impl_->database, Transaction::Kind::kRead);
+  CheckResults(impl_->database);
+  return ResultsWithOdometry(impl_->database);
 }
 
 std::vector<Frame> MapStore::Frames(const std::string& session) const {
@@ -113,6 +122,12 @@ std::vector<std::string> MapStore::Verify() const {
   if (problems.empty() && database.Integer("SELECT count(*) FROM input") !=
                               database.Integer("SELECT total(inputs) FROM session"))
     problems.push_back("there are inputs that belong to no session");
+  if (!problems.empty()) return problems;
+  try {
+    ResultsWithOdometry(database);
+  } catch (const Error& error) {
+    problems.push_back(error.what());
+  }
   return problems;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/merge_source.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -20,8 +21,9 @@ Answers AnswersOf(const MergeSource& source, const SessionInfo& session) {
   for (const StoredInput& input : source.inputs) {
     if (input.session != session.id || input.kind != InputKind::kRefinement) continue;
     for (const AlignedView& view : RefinementOf(input.content).views)
-      answers[{view.a_frame - session.frame_offset, view.b_frame - session.frame_offset}] =
-          view.T_a_b;
+      if (std::min(view.a_frame, view.b_frame) >= session.frame_offset)
+        answers[{view.a_frame - session.frame_offset, view.b_frame - session.frame_offset}] =
+            view.T_a_b;
   }
   return answers;
 }

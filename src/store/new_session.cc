@@ -2,6 +2,7 @@
 #include "store/new_session.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/utc_time.h"
 #include "sslcd/core/error.h"
@@ -31,6 +32,10 @@ SessionInfo NewSession(const MapInfo& info, const std::string& path,
     if (other.name == request.name)
       throw Error(ErrorKind::kUsage, path + ": has a session '" + request.name +
                                          "' already; give this one another name (--session)");
+    if (other.last_frame == std::numeric_limits<int>::max())
+      throw Error(ErrorKind::kUsage, path + ": session '" + other.name +
+                                         "' has the largest number that a frame can have; begin "
+                                         "another map for this one");
     if (other.last_frame) session.frame_offset = *other.last_frame + 1;
   }
   session.id = info.sessions.empty() ? 1 : info.sessions.back().id + 1;

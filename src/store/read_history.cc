@@ -41,7 +41,7 @@ MapHistory ReadHistory(Database& database) {
     Frame frame = FrameOf(input.content);
     for (std::size_t s = 0; s < info.sessions.size(); ++s) {
       if (info.sessions[s].id != input.session) continue;
-      const int number = frame.index + info.sessions[s].frame_offset;
+      const int number = NumberInMap(frame.index, info.sessions[s]);
       const auto pose = poses.find(number);
       const auto map = maps.upper_bound(number);
       if (pose == poses.end() || map == maps.begin()) continue;  // stored after the results

@@ -27,7 +27,7 @@ void ReadPaths(Database& database, MapResults& results) {
     }
     SessionPath& path = results.paths.back();
     path.frames.push_back(row.Int(0));
-    path.trajectory.stamps.push_back(row.Real(2));
+    path.trajectory.stamps.push_back(row.Finite(2));
     path.trajectory.poses.push_back(PoseAt(row, 3));
     results.graph.vertices.push_back(
         {row.Int(0), path.trajectory.poses.back(), results.graph.vertices.empty()});
@@ -49,7 +49,7 @@ void ReadLandmarks(Database& database, MapResults& results) {
     object.state = Named(row.Text(2), {LandmarkState::kTentative, LandmarkState::kConfirmed,
                                        LandmarkState::kDynamic, LandmarkState::kStale});
     object.T_world_object = PoseAt(row, 3);
-    object.dims = Vec3(row.Real(10), row.Real(11), row.Real(12));
+    object.dims = Vec3(row.Finite(10), row.Finite(11), row.Finite(12));
     object.observations = std::move(seen[object.id.value]);
     results.objects.push_back(std::move(object));
   }
@@ -93,8 +93,8 @@ MapResults ReadResults(Database& database) {
                 "noise_yaw FROM result");
   if (!row.Step()) return results;
   results.inputs = row.Integer(0);
-  results.scale = row.Real(1);
-  results.noise_scale = {row.Real(2), row.Real(3), row.Real(4), row.Real(5)};
+  results.scale = row.Finite(1);
+  results.noise_scale = {row.Finite(2), row.Finite(3), row.Finite(4), row.Finite(5)};
   ReadPaths(database, results);
   Statement part(database, "SELECT first_frame, sequence, joined_with FROM part ORDER BY id");
   while (part.Step()) results.parts.push_back({part.Int(0), part.Int(1), part.Int(2)});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/result_rows.h"
 
+#include <cmath>
+
 #include "store/bytes.h"
 
 namespace sslcd {
@@ -11,7 +13,10 @@ void BindPose(Statement& statement, const Pose& pose) {
 
 Pose PoseAt(const Statement& row, int column) {
   Pose pose;
-  for (int i = 0; i < Pose::kParameters; ++i) pose.data()[i] = row.Real(column + i);
+  for (int i = 0; i < Pose::kParameters; ++i) pose.data()[i] = row.Finite(column + i);
+  const double norm = Eigen::Map<const Eigen::Vector4d>(pose.data()).norm();
+  if (!(std::abs(norm - 1) <= kRotationTolerance))
+    row.Refuse("a quaternion of length " + std::to_string(norm));
   return pose;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "store/site.h"
 
+#include <limits>
 #include <sstream>
 
 #include "sslcd/config/config.h"
@@ -169,6 +170,14 @@ void CheckBelongs(const MapInfo& info, const std::string& path, const MapperCont
     throw Error(ErrorKind::kUsage,
                 path + ": was made with other options: " + Difference(info.config, given) +
                     "; leave the options out to use those of the map, or begin another one");
+}
+
+int NumberInMap(int frame, const SessionInfo& session) {
+  if (frame < 0 || session.frame_offset < 0 ||
+      frame > std::numeric_limits<int>::max() - session.frame_offset)
+    throw Error(ErrorKind::kBadInput,
+                "frame " + std::to_string(frame) + ": its number is out of range");
+  return frame + session.frame_offset;
 }
 
 void CheckVectorLengths(const MapInfo& info, const std::string& path, const Frame& frame) {

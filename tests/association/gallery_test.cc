@@ -20,6 +20,15 @@ TEST(Gallery, MeanIsTheMeanOfAllDotProducts) {  // Eqs. 5 and 6
   EXPECT_NEAR(*gallery.Compare(query, -2.), mean, 1e-6);
 }
 
+TEST(Gallery, ADirectionThatIsNoneIsNotSeen) {
+  Gallery gallery(Gallery::Mode::kByViewpoint);
+  gallery.Add({0, 1}, std::nan(""));
+  EXPECT_FALSE(gallery.Compare({0, 1}, 0.).has_value());
+  gallery.Add({1, 0}, 0.1);
+  EXPECT_NEAR(*gallery.Compare({1, 0}, 0.1), 1., 1e-6);
+  EXPECT_FALSE(gallery.Compare({1, 0}, std::nan("")).has_value());
+}
+
 TEST(Gallery, TheOtherSideDoesNotDiluteThisOne) {
   Gallery gallery(Gallery::Mode::kByViewpoint);
   for (int i = 0; i < 100; ++i) gallery.Add({1, 0}, 0.1);

@@ -55,6 +55,8 @@ TEST(SpatialIndex, NowhereAndFarOff) {
   EXPECT_TRUE(index.FindWithin(std::nan(""), 0, 5).empty());
   index.Put(1, 2, 2);
   EXPECT_EQ(index.FindWithin(0, 0, 5), (std::vector<int>{1, 3}));
+  EXPECT_EQ(index.FindWithin(0, 0, 1e9), (std::vector<int>{1, 3})) << "and not cell by cell";
+  EXPECT_EQ(index.FindWithin(0, 0, HUGE_VAL), (std::vector<int>{1, 2, 3}));
 }
 
 }  // namespace

@@ -44,6 +44,12 @@ TEST_F(GroundtruthOfFramesTest, TakesOnePosePerFrameWithAnotherClockByRow) {
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("row i is taken as frame i")));
 }
 
+TEST_F(GroundtruthOfFramesTest, RefusesAFileWithoutPoses) {
+  EXPECT_FALSE(Of(Truth({})).has_value());
+  EXPECT_FALSE(Of(Truth({}, PoseFormat::kKitti)).has_value());
+  EXPECT_THAT(warnings_, testing::Each(HasSubstr("truth.txt: has no poses")));
+}
+
 TEST_F(GroundtruthOfFramesTest, RefusesAnotherClockAndNumber) {
   EXPECT_FALSE(Of(Truth({0.111, 0.15, 0.189, 0.211})).has_value()) << "11 ms are no frame's time";
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("truth.txt: no stamp (0.111000 to 0.211000 s)")));

@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 
 /// An unsigned number of so many bytes, the first the lowest or the highest.
-std::string Bytes(std::uint32_t value, int count, bool little = true) {
+std::string Bytes(std::uint64_t value, int count, bool little = true) {
   std::string bytes;
   for (int i = 0; i < count; ++i)
     bytes += static_cast<char>(value >> 8 * (little ? i : count - 1 - i));

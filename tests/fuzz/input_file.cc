@@ -18,7 +18,7 @@ constexpr int kMostFiles = 40;
 // Removed when the process ends, unless it crashes.
 class Folder {
  public:
-  Folder() : path_((fs::temp_directory_path() / "sslcd_fuzz_XXXXXX").string()) {
+  Folder() : path_((Parent() / "sslcd_fuzz_XXXXXX").string()) {
     if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
   }
   ~Folder() { fs::remove_all(path_); }
@@ -27,6 +27,12 @@ class Folder {
   const std::string& path() const { return path_; }
 
  private:
+  // In memory where it can be: an SQLite file waits for the disk.
+  static fs::path Parent() {
+    const fs::path memory = "/dev/shm";
+    return ::access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
+  }
+
   std::string path_;
 };
 

@@ -2,16 +2,24 @@
 #include <fstream>
 
 #include "input_file.h"
+#include "sslcd/store/map_session.h"
 #include "sslcd/store/map_store.h"
+#include "store/checksums.h"
+#include "store/journal.h"
+#include "store/site.h"
 #include "targets.h"
 
 namespace sslcd::fuzz {
 namespace {
 
-// Each question by itself: a wrong checksum of the results says nothing of the inputs.
-void ReadMap(const std::string& bytes) {
-  const std::string path = EmptyFolder() + "/map.sslcd";
+std::string MapWith(const std::string& bytes) {
+  std::string path = EmptyFolder() + "/map.sslcd";
   std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+// Each question by itself: a wrong checksum of the results says nothing of the inputs.
+void Ask(const std::string& path) {
   const Target questions[] = {
       [](const std::string& map) { MapStore(map).Describe(); },
       [](const std::string& map) { MapStore(map).Results(); },
@@ -19,13 +27,48 @@ void ReadMap(const std::string& bytes) {
       [](const std::string& map) { MapStore(map).Reference(); },
       [](const std::string& map) { MapStore(map).Verify(); },
       [](const std::string& map) { HasMap(map); },
-      [](const std::string& map) { CompactMap(map); },
   };
   for (const Target& question : questions) Run(question, path);
 }
 
+// The checksums of what is there now, as of a file that was made to deceive.
+void Seal(const std::string& path) {
+  Database database(path, Database::Access::kWrite);
+  database.Execute("PRAGMA synchronous = OFF");
+  Transaction transaction(database, Transaction::Kind::kWrite);
+  for (SessionInfo& session : ReadInfo(database).sessions) {
+    session.inputs = 0;
+    session.checksum = FirstChecksum();
+    ReadInputs(database, {}, [&](const StoredInput& input) {
+      if (input.session != session.id) return;
+      ++session.inputs;
+      session.checksum = NextChecksum(session.checksum, input.kind, input.content);
+    });
+    WriteSession(database, session);
+  }
+  for (const auto* tables : {&kSiteTables, &kResultTables}) UpdateChecksums(database, *tables);
+  transaction.Commit();
+}
+
+void ReadMap(const std::string& bytes) {
+  const std::string path = MapWith(bytes);
+  Ask(path);
+  Run(CompactMap, path);
+}
+
+void ReadSealedMap(const std::string& bytes) {
+  const std::string path = MapWith(bytes);
+  Seal(path);
+  Ask(path);
+  const MapInfo info = MapStore(path).Describe();
+  MapperContext context;
+  context.gravity = GravityFrame::FromUp(info.up_axis);
+  Run([&](const std::string& map) { MapSession::Resume(map, context); }, path);
+  Run([&](const std::string& map) { MapSession::Begin(map, {"fuzz"}, context, {}); }, path);
+}
+
 }  // namespace
 
-Targets Maps() { return {{"map", ReadMap}}; }
+Targets Maps() { return {{"map", ReadMap}, {"sealed_map", ReadSealedMap}}; }
 
 }  // namespace sslcd::fuzz

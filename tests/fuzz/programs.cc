@@ -14,8 +14,8 @@
 namespace sslcd::fuzz {
 namespace {
 
-constexpr int kMostFrames = 60, kMostRefinements = 3;
-constexpr double kSight = 20;  // [m]
+constexpr int kMostFrames = 36, kMostRefinements = 1;
+constexpr double kSight = 16;  // [m]
 
 Pose UprightAt(double x, double z, double heading) {  // y points down
   return Pose(lie::SO3<double>::Exp(Vec3(0, heading, 0)), Vec3(x, 0, z));
@@ -165,7 +165,7 @@ class Calls {
 
   Frame NextFrame() {
     ++frames_;
-    const double step = 1 + script_.Share(), turn = 0.3 * script_.Share();
+    const double step = 2 + 2 * script_.Share(), turn = 0.5 * script_.Share();
     return vehicle_.Next(step, turn, script_);
   }
 
@@ -182,7 +182,7 @@ class Calls {
 
   // A few frames of the same step and turn.
   void Drive(Mapper& mapper) {
-    const double step = 1 + script_.Share(), turn = 0.3 * script_.Share();
+    const double step = 2 + 2 * script_.Share(), turn = 0.5 * script_.Share();
     const unsigned count = script_.Choice(24);
     for (unsigned i = 0; i < count && frames_ < kMostFrames; ++i)
       Try(mapper, vehicle_.Next(step, turn, script_));
@@ -213,7 +213,16 @@ class Calls {
 };
 
 Options OptionsOf(const std::string& bytes) {
-  return DefaultOptions(bytes.empty() || bytes[0] % 8 != 0 ? Mode::kRobust : Mode::kPaper);
+  const unsigned char first = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]);
+  Options options = DefaultOptions(bytes.empty() || first % 8 != 0 ? Mode::kRobust : Mode::kPaper);
+  // Adjusting and learning take most of the time: not in all drives.
+  options.window.enabled = (first & 8) != 0;
+  options.window.keyframes = 4;
+  if ((first & 16) == 0) {
+    options.loop.adjust_keyframes = 0;
+    options.loop.learn_odometry = false;
+  }
+  return options;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "store_drive.h"
 
 namespace sslcd {
@@ -186,6 +188,20 @@ TEST(MapSession, WhatDoesNotBelongToTheMapIsRefused) {
   begin(drive.Context(), Options())();
   ExpectError([&] { BeginSession(path, "three", drive); },
               {"'two' has not been ended", "--resume"});
+}
+
+TEST(MapSession, NoSessionFollowsTheLargestFrameNumber) {
+  const TempFolder folder;
+  const StoreDrive drive = ShortStreet(2);
+  const std::string path = folder.In("site.db");
+  {
+    MapSession session = BeginSession(path, "one", drive);
+    Frame last = drive.frames[0];
+    last.index = std::numeric_limits<int>::max();
+    session.AddFrame(last);
+    session.End();
+  }
+  ExpectError([&] { BeginSession(path, "two", drive); }, {path, "'one'", "largest number"});
 }
 
 TEST(MapSession, VectorsOfAnotherModelAreRefused) {

@@ -14,6 +14,7 @@
 #include "sim/random.h"
 #include "store/bytes.h"
 #include "store/checksums.h"
+#include "store/frame_bytes.h"
 #include "store/schema.h"
 #include "store/writable_map.h"
 #include "store_drive.h"
@@ -83,6 +84,30 @@ TEST(MapStore, AFlippedBitIsNoticed) {
     }
   }
   EXPECT_GT(noticed, kTries / 3) << "the rest is unused space";
+}
+
+// What does not fit together, with checksums that do: no answer, or an Error.
+TEST(MapStore, RowsThatDoNotFitTogetherAreRefused) {
+  const TempFolder folder;
+  const std::string path = MakeMap(folder, ShortStreet(30));
+  const std::string copy = folder.In("copy.db");
+  for (const char* change :
+       {"UPDATE input SET content = CAST(x'ffffff7f' || substr(content, 5) AS BLOB) WHERE id = 9",
+        "UPDATE input SET content = CAST(x'ffffffff' || substr(content, 5) AS BLOB) WHERE id = 9",
+        "DELETE FROM input WHERE id = 9", "UPDATE session SET frame_offset = 2147483647",
+        "UPDATE session SET frame_offset = 4294967297",
+        "UPDATE pose SET frame = 4294967296 + frame WHERE frame = 29",
+        "UPDATE pose SET x = 9e999 WHERE frame = 3", "UPDATE pose SET qw = 5 WHERE frame = 3",
+        "UPDATE landmark SET length = -9e999", "UPDATE result SET scale = 9e999"}) {
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    {
+      Database map(copy, Database::Access::kWrite);
+      map.Execute(std::string("PRAGMA foreign_keys = OFF;") + change);
+      for (const auto* tables : {&kSiteTables, &kResultTables}) UpdateChecksums(map, *tables);
+    }
+    EXPECT_THROW(MapStore(copy).Results(), Error) << change;
+    EXPECT_NE(FirstProblem(copy), "") << change;
+  }
 }
 
 TEST(MapStore, AReaderSeesOneStateBesideAWriter) {
@@ -188,7 +213,10 @@ TEST(MapStore, AFullDiskLosesNothing) {
   const std::int64_t pages = map.database.Integer("PRAGMA page_count");
   map.database.Execute("PRAGMA max_page_count = " + std::to_string(pages + 1));
   SessionInfo session = map.info.sessions.back();
-  const StoredInput input{session.id, InputKind::kFrame, std::string(100000, 'x')};
+  Frame frame;
+  frame.index = 30;
+  frame.detections.resize(1000);
+  const StoredInput input{session.id, InputKind::kFrame, FrameBytes(frame)};
   const std::vector<StoredInput> inputs{input};
   session.checksum = NextChecksum(session.checksum, input.kind, input.content);
   ++session.inputs;
