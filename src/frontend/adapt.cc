@@ -14,9 +14,8 @@ std::vector<std::string> AdaptTo(const ImageSource& source, Options& options,
   }
   if (source.lifted_boxes) {
     options.noise = models.lifted_noise;
-    options.ba.loss_scale = models.lifted_loss_scale;
     options.ba.correlation = models.lifted_correlation;
-    keys.insert(keys.end(), {"noise", "ba.loss_scale", "ba.correlation"});
+    keys.insert(keys.end(), {"noise", "ba.correlation"});
   }
   if (source.stereo_odometry) {
     OdometryNoise noise = StereoOdometryNoise(source.row_error_rad);

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// Each value by its key, e.g. "ba.loss_scale".
+/// Each value by its key, e.g. "ba.correlation".
 std::map<std::string, std::string> ValuesOf(Options options) {
   std::istringstream yaml(
       DumpConfig([&](FieldVisitor& visitor) { DescribeFields(visitor, options); }, false));
@@ -49,13 +49,12 @@ TEST(AdaptTo, NothingFromImagesChangesNothing) {
   EXPECT_THAT(Changed(Options(), options), IsEmpty());
 }
 
-TEST(AdaptTo, LiftedCuboidsBringTheirNoiseAndLoss) {
+TEST(AdaptTo, LiftedCuboidsBringTheirNoise) {
   ImageSource source;
   source.lifted_boxes = true;
   Options options;
-  EXPECT_THAT(AdaptTo(source, options), ElementsAre("noise", "ba.loss_scale", "ba.correlation"));
+  EXPECT_THAT(AdaptTo(source, options), ElementsAre("noise", "ba.correlation"));
   EXPECT_EQ(options.noise.yaw_per_m, LiftNoise().yaw_per_m);
-  EXPECT_EQ(options.ba.loss_scale, 1);
   EXPECT_EQ(options.ba.correlation, 4);
   EXPECT_GT(options.ba.odometry.scale_prior, 0) << "the odometry is another sensor's";
 }
@@ -116,12 +115,10 @@ TEST(AdaptTo, NamesAllThatItChanges) {
 
 TEST(AdaptTo, TakesTheHostsModels) {
   ImageModels models;
-  models.lifted_loss_scale = 2;
   models.lifted_correlation = 3;
   models.shared_scale_prior = 0.01;
   Options options;
   AdaptTo({true, true, true, {}, {}}, options, models);
-  EXPECT_EQ(options.ba.loss_scale, 2);
   EXPECT_EQ(options.ba.correlation, 3);
   EXPECT_EQ(options.loop.odometry.scale_prior, 0.01);
 }

@@ -23,14 +23,11 @@ struct ImageSource {
   std::optional<double> alignment_range_m;
 };
 
-/// Options of a mapper for input from images that differ from the defaults. The three numbers were
+/// Options of a mapper for input from images that differ from the defaults. The numbers were
 /// chosen on rendered HALV-sim, cases 1 to 4 with seeds 1 and 2, the scale prior also with seed 3
 /// (docs/notes, "From images alone").
 struct ImageModels {
   DetectionNoise lifted_noise = LiftNoise();  ///< Options::noise of lifted cuboids
-  /// BaOptions::loss_scale of lifted cuboids [sigmas]: a narrow loss, since some headings are wrong
-  /// by a quarter turn
-  double lifted_loss_scale = 1;
   /// BaOptions::correlation of lifted cuboids (factor on standard deviations): their errors
   /// correlate over a whole pass, which shows one side of an object. 2 and 8 gave equal results.
   double lifted_correlation = 4;
@@ -41,7 +38,7 @@ struct ImageModels {
 
 /// Sets the options that `source` requires and keeps the others. It overwrites, so call it before
 /// setting your own options. The odometry noise comes from StereoOdometryNoise. Returns the keys
-/// that it has set, e.g. {"noise", "ba.loss_scale"}, so that a host can show them.
+/// that it has set, e.g. {"noise", "ba.correlation"}, so that a host can show them.
 std::vector<std::string> AdaptTo(const ImageSource& source, Options& options,
                                  const ImageModels& models = {});
 
