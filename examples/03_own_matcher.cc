@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A matcher of your own in place of sslcd's: here the nearest object of the same class within 3 m,
+// A matcher of your own in place of sslcd's: here the nearest object of the same class within 4 m,
 // which is enough where the odometry drifts by less than that.
 //   03_own_matcher SEQUENCE    a folder as in docs/formats.md, e.g. tests/data/sim_rectangle
 #include <sslcd/sslcd.h>
@@ -15,7 +15,7 @@ std::optional<sslcd::PlaceAnswer> MatchNearest(const sslcd::PlaceQuery& query) {
   std::set<int> taken;
   for (std::size_t i = 0; i < query.local.size(); ++i) {
     int best = -1;
-    double best_m = 3;
+    double best_m = 4;
     for (std::size_t j = 0; j < query.global.size(); ++j) {
       const double m = (query.local[i].position - query.global[j].position).head<2>().norm();
       if (m >= best_m || query.local[i].label != query.global[j].label) continue;

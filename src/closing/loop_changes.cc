@@ -71,7 +71,8 @@ void LoopChanges::TakeOver(const LoopChanges& other, const LoopLedger& ledger, i
   for (auto known = known_.begin(); known != known_.end();) {
     LoopClosure& row = known->second;
     const bool is_lost = there.count(row.id) == 0;
-    if (!is_lost && row.newest_frame < first_new) {
+    // an early one may end before it is told again
+    if (!is_lost && (row.early || row.newest_frame < first_new)) {
       ++known;
       continue;
     }

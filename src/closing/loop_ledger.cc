@@ -55,7 +55,7 @@ void LoopLedger::AddEarly(const FoundLoop& found, int newest_frame) {
   ++revision_;
   LoopAttempt& attempt = early_.emplace_back();
   attempt.found = found;
-  attempt.row().id = IdOf(KeyOf(found.loop, newest_frame));
+  attempt.row().id = IdOf(KeyOf(found.loop, newest_frame, true));
   attempt.row().newest_frame = newest_frame;
   attempt.row().early = true;
 }
@@ -74,23 +74,20 @@ void LoopLedger::DropEarly(const FrameStore& frames, double path_m) {
 }
 
 void LoopLedger::ReserveIds(const LoopLedger& other) {
-  std::set<int> used;
   for (const std::vector<LoopAttempt>* all : {&other.attempts_, &other.early_})
-    for (const LoopAttempt& attempt : *all) {
-      reserved_[KeyOf(attempt.found.loop, attempt.row().newest_frame)] = attempt.row().id;
-      used.insert(attempt.row().id);
-    }
+    for (const LoopAttempt& attempt : *all) reserved_[KeyOf(attempt)] = attempt.row().id;
   next_id_ = std::max(next_id_, other.next_id_);
-  AvoidIds(used, attempts_);
-  AvoidIds(used, early_);
+  AvoidIds(other.next_id_, attempts_);
+  AvoidIds(other.next_id_, early_);
 }
 
-void LoopLedger::AvoidIds(const std::set<int>& used, std::vector<LoopAttempt>& attempts) {
+// Ids before `first_free` may be those of early loops that have ended in the other ledger.
+void LoopLedger::AvoidIds(int first_free, std::vector<LoopAttempt>& attempts) {
   for (LoopAttempt& attempt : attempts) {
-    const auto reserved = reserved_.find(KeyOf(attempt.found.loop, attempt.row().newest_frame));
+    const auto reserved = reserved_.find(KeyOf(attempt));
     if (reserved != reserved_.end())
       attempt.row().id = reserved->second;
-    else if (used.count(attempt.row().id) > 0)
+    else if (attempt.row().id < first_free)
       attempt.row().id = next_id_++;
   }
 }

@@ -104,13 +104,16 @@ class LoopLedger {
   std::vector<LoopClosure> Rows() const;
 
  private:
-  using Key = std::array<int, 3>;  // newest, query and match frame
-  static Key KeyOf(const LoopMeasurement& loop, int newest_frame) {
-    return {newest_frame, loop.query, loop.match};
+  using Key = std::array<int, 4>;  // newest, query and match frame, whether early
+  static Key KeyOf(const LoopMeasurement& loop, int newest_frame, bool early = false) {
+    return {newest_frame, loop.query, loop.match, early};
+  }
+  static Key KeyOf(const LoopAttempt& attempt) {
+    return KeyOf(attempt.found.loop, attempt.row().newest_frame, attempt.row().early);
   }
 
   int IdOf(const Key& key);
-  void AvoidIds(const std::set<int>& used, std::vector<LoopAttempt>& attempts);
+  void AvoidIds(int first_free, std::vector<LoopAttempt>& attempts);
 
   std::vector<LoopAttempt> attempts_, early_;
   std::map<Key, int> reserved_;  // ids

@@ -40,7 +40,7 @@ inline StoreDrive ShortStreet(int frames = 60, std::uint64_t seed = 1) {
 // What a run would write of a mapper's results, so that one comparison holds all bytes.
 inline std::string TextOf(const Mapper& mapper) {
   return TumText(mapper.CameraTrajectory()) + MapJson({mapper.gravity().up, mapper.Objects()}) +
-         G2oText(mapper.Graph()) + LoopsCsv(mapper.LoopClosures());
+         G2oText(mapper.Graph()) + LoopsCsv(WithoutEarly(mapper.LoopClosures()));
 }
 inline std::string TextOf(const MapResults& results, const Vec3& up) {
   std::string text;
