@@ -17,6 +17,7 @@ Sparse Hessian(const BaProblem& problem, const BaOptions& options) {
   BaTerms terms(problem, options);
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;  // fixed order of sums
+  evaluate.apply_loss_function = false;
   evaluate.parameter_blocks = terms.States();
   ceres::CRSMatrix rows;
   terms.ceres().Evaluate(evaluate, nullptr, nullptr, nullptr, &rows);

@@ -41,6 +41,20 @@ BaOptions Exact() {
   return options;
 }
 
+// A narrow loss gives ordinary errors little weight, but they tell as much as before.
+TEST(PathVariances, DoNotDependOnTheLoss) {
+  BaProblem problem = Street(11);
+  for (BaSighting& sighting : problem.sightings)
+    sighting.T_cam_object.translation() += Vec3(0.1, 0, 0.3);
+  BaOptions narrow, none;
+  narrow.loss_scale = 0.1;
+  none.loss_scale = 0;
+  const std::vector<Eigen::Matrix3Xd> last = {Only(10, 11, Vec3::UnitZ())};
+  const auto variances = PathVariances(problem, narrow, last);
+  ASSERT_TRUE(variances.has_value());
+  EXPECT_DOUBLE_EQ(variances->front(), PathVariances(problem, none, last).value().front());
+}
+
 // Variances of the steps add up; without objects nothing else does.
 TEST(PathVariances, OfAnOdometryAloneAreSumsOverItsSteps) {
   BaProblem problem = Street(11);

@@ -53,7 +53,7 @@ TEST_P(SimulatedDrives, LoopsAreFoundAndNoneIsWrong) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drives, SimulatedDrives,
-                         ::testing::Values(Drive{"sim_rectangle", 1.9164, 0.2559, 15, 6},
+                         ::testing::Values(Drive{"sim_rectangle", 1.9164, 0.2241, 15, 6},
                                            Drive{"sim_out_and_back", 1.4441, 0.2953, 8, 8}));
 
 }  // namespace
