@@ -61,8 +61,8 @@ void ForEachSighting(Database& database, const std::vector<MapObject>& objects,
   for (const SessionInfo& one : sessions) session[one.id] = one;
   ReadInputs(database, sessions, [&](const StoredInput& input) {
     if (input.kind != InputKind::kFrame) return;
-    const Frame frame = FrameOf(input.content);
-    const int number = NumberInMap(frame.index, session[input.session]);
+    const Frame frame = FrameIn(input, database.path());
+    const int number = NumberInMap(frame.index, session[input.session], database.path());
     for (const Detection& detection : frame.detections) {
       const auto found = landmarks.find({number, detection.row});
       if (found != landmarks.end()) take(found->second, detection);

@@ -14,6 +14,9 @@
 namespace sslcd {
 namespace {
 
+constexpr const char* kIsDamaged = ": is damaged: ";
+constexpr const char* kRestore = "; restore a copy, or build the map again from its drives";
+
 constexpr int kBusyTimeoutMs = 5000;  // another program's checkpoint or migration
 
 // The name of a file that nobody changes: readable in a folder that cannot be written. URI of
@@ -146,6 +149,17 @@ std::int64_t Database::Integer(const std::string& sql) {
   return statement.Step() ? statement.Integer(0) : 0;
 }
 
+void ThrowDamaged(const std::string& path, const std::string& problem) {
+  throw Error(ErrorKind::kBadInput, path + kIsDamaged + problem + kRestore);
+}
+
+std::string DamageIn(const Error& error, const std::string& path) {
+  std::string text = error.what();
+  const std::string before = path + kIsDamaged;
+  if (text.rfind(before, 0) == 0) text.erase(0, before.size());
+  return text.substr(0, text.rfind(kRestore));
+}
+
 void Statement::Finalise::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
 Statement::Statement(Database& database, const std::string& sql) : database_(database) {
@@ -222,8 +236,7 @@ double Statement::Finite(int column) const {
   return value;
 }
 void Statement::Refuse(const std::string& what) const {
-  throw Error(ErrorKind::kBadInput,
-              database_.path() + ": has " + what + ": " + WayOut(SQLITE_CORRUPT));
+  ThrowDamaged(database_.path(), "it has " + what);
 }
 std::string Statement::Text(int column) const { return Blob(column); }
 std::string Statement::Blob(int column) const {

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "sslcd/core/error.h"
+
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -45,6 +47,11 @@ class Database {
 };
 
 /// A prepared statement. Parameters are bound in order, from the first one after each reset.
+/// Throws Error(kBadInput): the map at `path` is damaged, as `problem` says, with a way out.
+[[noreturn]] void ThrowDamaged(const std::string& path, const std::string& problem);
+/// The problem of an error that ThrowDamaged has thrown for this path; else its text.
+std::string DamageIn(const Error& error, const std::string& path);
+
 class Statement {
  public:
   Statement(Database& database, const std::string& sql);
@@ -71,7 +78,7 @@ class Statement {
   /// The value as bytes that tell types apart, for a checksum: a letter, then 8 bytes, or a length
   /// and the content.
   std::string Canonical(int column) const;
-  /// Throws Error(kBadInput): the file has `what`, and is damaged.
+  /// ThrowDamaged: there is `what`.
   [[noreturn]] void Refuse(const std::string& what) const;
 
  private:

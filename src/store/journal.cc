@@ -4,6 +4,8 @@
 #include <map>
 
 #include "core/sha256.h"
+#include "sslcd/core/error.h"
+#include "store/frame_bytes.h"
 
 namespace sslcd {
 namespace {
@@ -34,6 +36,14 @@ std::string FirstChecksum() { return std::string(kSha256Bytes, '\0'); }
 
 std::string NextChecksum(const std::string& before, InputKind kind, const std::string& content) {
   return Sha256().Add(before).Add(NameOf(kind)).Add(content).Finish();
+}
+
+Frame FrameIn(const StoredInput& input, const std::string& path) {
+  try {
+    return FrameOf(input.content);
+  } catch (const Error& error) {
+    ThrowDamaged(path, error.what());
+  }
 }
 
 void AppendInputs(Database& database, const std::vector<StoredInput>& inputs) {

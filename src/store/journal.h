@@ -23,6 +23,9 @@ struct StoredInput {
 std::string FirstChecksum();
 std::string NextChecksum(const std::string& before, InputKind kind, const std::string& content);
 
+/// The frame of an input of kind kFrame. Throws ThrowDamaged if the content is none.
+Frame FrameIn(const StoredInput& input, const std::string& path);
+
 void AppendInputs(Database& database, const std::vector<StoredInput>& inputs);
 
 /// Hands out all inputs in order. Returns what is wrong with their numbers and checksums, one

@@ -120,12 +120,12 @@ void MapSession::Impl::RepeatInput(const StoredInput& input) {
     }
     case InputKind::kFrame: break;
   }
-  Frame frame = FrameOf(input.content);
+  Frame frame = FrameIn(input, map.database.path());
   if (!session->ended) {
     stored_numbers.push_back(frame.index);
     stored_hashes.push_back(Sha256().Add(input.content).Finish());
   }
-  frame.index = NumberInMap(frame.index, *session);
+  frame.index = NumberInMap(frame.index, *session, map.database.path());
   const FrameReport report = mapper->AddFrame(frame);
   if (!session->ended) filter += report.filter;
 }
@@ -251,7 +251,7 @@ void MapSession::Impl::Append(InputKind kind, std::string content) {
 FrameReport MapSession::AddFrame(const Frame& given) {
   Impl& m = *impl_;
   Frame frame = given;
-  const int number = NumberInMap(frame.index, m.session());
+  const int number = NumberInMap(frame.index, m.session(), m.map.database.path());
   if (m.without_boxes)
     for (Detection& detection : frame.detections) detection.box.reset();
   CheckVectorLengths(m.map.info, m.map.database.path(), frame);

@@ -25,18 +25,16 @@ OdometryPoses ReadOdometry(Database& database, const std::vector<SessionInfo>& s
   OdometryPoses poses;
   ReadInputs(database, sessions, [&](const StoredInput& input) {
     if (input.kind != InputKind::kFrame) return;
-    const Frame frame = FrameOf(input.content);
+    const Frame frame = FrameIn(input, database.path());
     for (const SessionInfo& session : sessions)
-      if (session.id == input.session) poses[NumberInMap(frame.index, session)] = frame.T_odom_cam;
+      if (session.id == input.session)
+        poses[NumberInMap(frame.index, session, database.path())] = frame.T_odom_cam;
   });
   return poses;
 }
 
 void RefuseDamage(const std::string& path, const std::vector<std::string>& problems) {
-  if (!problems.empty())
-    throw Error(ErrorKind::kBadInput,
-                path + ": is damaged: " + problems.front() +
-                    "; restore a copy, or build the map again from its drives");
+  if (!problems.empty()) ThrowDamaged(path, problems.front());
 }
 
 void CheckResults(Database& database) {
@@ -51,8 +49,8 @@ MapResults ResultsWithOdometry(Database& database) {
     for (const int frame : path.frames) {
       const auto pose = odometry.find(frame);
       if (pose == odometry.end())
-        RefuseDamage(database.path(),
-                     {"frame " + std::to_string(frame) + " has a pose and no input"});
+        ThrowDamaged(database.path(),
+                     "frame " + std::to_string(frame) + " has a pose and no input");
       path.odometry.poses.push_back(pose->second);
     }
   }
@@ -91,7 +89,7 @@ std::vector<Frame> MapStore::Frames(const std::string& session) const {
     const std::vector<std::string> problems =
         ReadInputs(database, {one}, [&](const StoredInput& input) {
           if (input.session == one.id && input.kind == InputKind::kFrame)
-            frames.push_back(FrameOf(input.content));
+            frames.push_back(FrameIn(input, database.path()));
         });
     RefuseDamage(database.path(), problems);
     return frames;
@@ -118,15 +116,14 @@ std::vector<std::string> MapStore::Verify() const {
   const Transaction one_state(database, Transaction::Kind::kRead);
   std::vector<std::string> problems = FileProblems(database, true);
   if (!problems.empty()) return problems;
-  problems = ReadInputs(database, ReadInfo(database).sessions, [](const StoredInput&) {});
-  if (problems.empty() && database.Integer("SELECT count(*) FROM input") !=
-                              database.Integer("SELECT total(inputs) FROM session"))
-    problems.push_back("there are inputs that belong to no session");
-  if (!problems.empty()) return problems;
   try {
-    ResultsWithOdometry(database);
+    problems = ReadInputs(database, ReadInfo(database).sessions, [](const StoredInput&) {});
+    if (problems.empty() && database.Integer("SELECT count(*) FROM input") !=
+                                database.Integer("SELECT total(inputs) FROM session"))
+      problems.push_back("there are inputs that belong to no session");
+    if (problems.empty()) ResultsWithOdometry(database);
   } catch (const Error& error) {
-    problems.push_back(error.what());
+    problems.push_back(DamageIn(error, database.path()));
   }
   return problems;
 }

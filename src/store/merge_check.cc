@@ -40,7 +40,7 @@ std::map<int, std::string> FrameChecksums(const MergeSource& map) {
   std::map<int, std::string> checksums;
   for (const StoredInput& input : map.inputs) {
     if (input.kind != InputKind::kFrame) continue;
-    Frame frame = FrameOf(input.content);
+    Frame frame = FrameIn(input, map.path);
     for (Detection& detection : frame.detections) detection.box.reset();
     const auto checksum = checksums.insert({input.session, FirstChecksum()}).first;
     checksum->second = NextChecksum(checksum->second, input.kind, FrameBytes(frame));

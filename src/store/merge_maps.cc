@@ -48,7 +48,7 @@ bool Repeat(const MergeSource& source, const SessionInfo& of, bool refine, MapSe
         if (refine) session.Refine(RefinementOf(input.content).when);
         break;
       case InputKind::kFrame:
-        session.AddFrame(FrameOf(input.content));
+        session.AddFrame(FrameIn(input, source.path));
         if (!counter.Next()) return false;
     }
   }

@@ -38,10 +38,7 @@ MergeSource ReadMergeSource(const std::string& path) {
   if (problems.empty())
     problems = ReadInputs(database, source.info.sessions,
                           [&](const StoredInput& input) { source.inputs.push_back(input); });
-  if (!problems.empty())
-    throw Error(ErrorKind::kBadInput,
-                path + ": is damaged: " + problems.front() +
-                    "; restore a copy, or build the map again from its drives");
+  if (!problems.empty()) ThrowDamaged(path, problems.front());
   return source;
 }
 

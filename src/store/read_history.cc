@@ -38,10 +38,10 @@ MapHistory ReadHistory(Database& database) {
                        static_cast<int>(info.sessions.size()), results.objects});
   ReadInputs(database, info.sessions, [&](const StoredInput& input) {
     if (input.kind != InputKind::kFrame) return;
-    Frame frame = FrameOf(input.content);
+    Frame frame = FrameIn(input, database.path());
     for (std::size_t s = 0; s < info.sessions.size(); ++s) {
       if (info.sessions[s].id != input.session) continue;
-      const int number = NumberInMap(frame.index, info.sessions[s]);
+      const int number = NumberInMap(frame.index, info.sessions[s], database.path());
       const auto pose = poses.find(number);
       const auto map = maps.upper_bound(number);
       if (pose == poses.end() || map == maps.begin()) continue;  // stored after the results

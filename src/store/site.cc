@@ -30,7 +30,7 @@ void ReadSite(Database& database, MapInfo& info) {
                 "SELECT up_x, up_y, up_z, config, created, fx, fy, cx, cy, offset_x, offset_y, "
                 "offset_z, width, height FROM site");
   if (!row.Step()) return;
-  info.up_axis = Vec3(row.Real(0), row.Real(1), row.Real(2));
+  info.up_axis = Vec3(row.Finite(0), row.Finite(1), row.Finite(2));
   info.config = row.Text(3);
   info.created = row.Text(4);
   if (row.IsNull(5)) return;
@@ -172,11 +172,12 @@ void CheckBelongs(const MapInfo& info, const std::string& path, const MapperCont
                     "; leave the options out to use those of the map, or begin another one");
 }
 
-int NumberInMap(int frame, const SessionInfo& session) {
+int NumberInMap(int frame, const SessionInfo& session, const std::string& path) {
   if (frame < 0 || session.frame_offset < 0 ||
       frame > std::numeric_limits<int>::max() - session.frame_offset)
     throw Error(ErrorKind::kBadInput,
-                "frame " + std::to_string(frame) + ": its number is out of range");
+                path + ": frame " + std::to_string(frame) + " of session '" + session.name +
+                    "' has a number out of range: frames count from 0, in all sessions together");
   return frame + session.frame_offset;
 }
 

@@ -27,8 +27,9 @@ Options OptionsOf(const MapInfo& info, const std::string& path);
 void CheckBelongs(const MapInfo& info, const std::string& path, const MapperContext& context,
                   const std::optional<Options>& options);
 bool IsSame(const Camera& a, const Camera& b);
-/// The number in the map of a frame of a session. Throws Error(kBadInput) if it is none.
-int NumberInMap(int frame, const SessionInfo& session);
+/// The number in the map of a frame of a session. Throws Error(kBadInput) if it is none; `path`: of
+/// the map, for the message.
+int NumberInMap(int frame, const SessionInfo& session, const std::string& path);
 /// Throws Error(kBadInput) if a vector of the frame has another length than those of the map.
 void CheckVectorLengths(const MapInfo& info, const std::string& path, const Frame& frame);
 
