@@ -122,7 +122,7 @@ class Mapper(FrameTaker[FrameReport]):
 
     @property
     def loops(self) -> List[LoopClosure]:
-        """All attempts to close a loop in order, also refused ones."""
+        """All attempts to close a loop in order, also refused ones, then the early loops."""
         return self._core.loops()
 
     @property

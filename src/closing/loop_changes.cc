@@ -56,7 +56,7 @@ std::vector<LoopClosure> LoopChanges::TakeEnded(const std::set<int>& there) {
       continue;
     }
     row.decision = LoopDecision::kNone;
-    row.reason = "the camera's own attempt decides";
+    row.reason = "an early loop has ended";
     ended.push_back(std::move(row));
     known = known_.erase(known);
   }

@@ -62,7 +62,6 @@ void LoopLedger::AddEarly(const FoundLoop& found, int newest_frame) {
 
 void LoopLedger::DropEarly(const FrameStore& frames, double path_m) {
   if (early_.empty()) return;
-  ++revision_;
   std::set<int> accepted;  // newest frames of the attempts with early loops
   for (const LoopAttempt& attempt : attempts_)
     if (attempt.accepted() && !attempt.window.second) accepted.insert(attempt.row().newest_frame);
@@ -70,7 +69,9 @@ void LoopLedger::DropEarly(const FrameStore& frames, double path_m) {
     return frames[early.found.loop.query].travelled < path_m ||
            accepted.count(early.row().newest_frame) == 0;
   };
-  early_.erase(std::remove_if(early_.begin(), early_.end(), ends), early_.end());
+  const auto ended = std::remove_if(early_.begin(), early_.end(), ends);
+  if (ended != early_.end()) ++revision_;
+  early_.erase(ended, early_.end());
 }
 
 void LoopLedger::ReserveIds(const LoopLedger& other) {

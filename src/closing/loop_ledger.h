@@ -57,7 +57,7 @@ class LoopLedger {
   void AcceptNewest();
 
   /// Adds a loop of a camera whose own attempt is still to come (LoopClosure::early). It is a row,
-  /// but no attempt, so no correction and no search knows it.
+  /// but no attempt: no correction and no prior of a search has it.
   void AddEarly(const FoundLoop& found, int newest_frame);
   /// Removes the early loops with a query camera before `path_m`, and those that were found with an
   /// attempt that is no longer accepted.

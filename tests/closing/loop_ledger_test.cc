@@ -124,6 +124,45 @@ TEST(LoopLedger, AnEarlyLoopOfAnotherLedgerKeepsItsId) {
   EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{0, 2, 1})) << "attempts first";
 }
 
+TEST(LoopLedger, IdsOfEarlyLoopsThatHaveEndedAreNotUsedAgain) {
+  const FrameStore frames = Line(80);
+  LoopLedger ledger;
+  ledger.Add(Loop(1, 35, kAccepted), {}, 60);
+  ledger.AcceptNewest();
+  LoopLedger copy = ledger;
+  ledger.AddEarly(Loop(6, 40, kAccepted), 60);  // 1
+  ledger.DropEarly(frames, 80);
+  copy.Add(Loop(9, 20, kAccepted), {}, 50);
+  copy.ReserveIds(ledger);
+  EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{0, 2}));
+}
+
+TEST(LoopLedger, AnAttemptHasAnotherIdThanAnEarlyLoopOfTheSameCameras) {
+  LoopLedger ledger, copy;
+  ledger.AddEarly(Loop(6, 40, kAccepted), 60);
+  copy.Add(Loop(6, 40, kAccepted), {}, 60);
+  copy.ReserveIds(ledger);
+  EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{1}));
+}
+
+TEST(LoopLedger, AnEarlyLoopThatEndsBeforeItIsToldAgainIsToldAsEnded) {
+  const FrameStore frames = Line(80);
+  LoopLedger ledger, copy;
+  LoopChanges told, changes;
+  for (LoopLedger* one : {&ledger, &copy}) {
+    one->Add(Loop(1, 35, kAccepted), {}, 60);
+    one->AcceptNewest();
+    one->AddEarly(Loop(6, 40, kAccepted), 60);
+  }
+  told.Take(ledger);
+  copy.ReserveIds(ledger);
+  changes.TakeOver(told, copy, 60);
+  copy.DropEarly(frames, 80);
+  const std::vector<LoopClosure> rows = changes.Take(copy);
+  ASSERT_EQ(IdsOf(rows), (std::vector<int>{0, 1}));
+  EXPECT_EQ(rows[1].decision, LoopDecision::kNone);
+}
+
 TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {
   LoopLedger ledger;
   ledger.Add(Loop(1, 50, kOpen, 7, true), {}, 50);

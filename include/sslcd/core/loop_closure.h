@@ -46,7 +46,8 @@ struct LoopClosure {
       Eigen::Matrix<double, 6, 6, Eigen::DontAlign>::Identity();
   bool by_views = false;  ///< measured by aligned images instead of objects
   /// Of a camera less than `loop.lag_m` behind the newest one, whose own attempt is still to come:
-  /// withdrawn when that is made, which may find the loop again. Never moves the trajectory.
+  /// withdrawn when that is made, which may find the loop again. Never moves the trajectory. Early
+  /// loops of one attempt are measured by the same objects as its own: they are not independent.
   bool early = false;
   double viewpoint_change_rad = 0;  ///< angle between the two headings, in [0, pi]
   std::vector<std::pair<LandmarkId, LandmarkId>> pairs;  ///< local, global

@@ -25,8 +25,9 @@ using FrameSource = std::function<std::optional<Frame>()>;
 /// Functions of the host for an offline run. All are optional and run on the calling thread.
 struct RunHooks {
   std::function<void(int done, int total)> progress;  ///< after each frame
-  /// gets the attempts to close a loop that are new or have changed (MapChanges::loops), after a
-  /// frame and after the refinement at the end
+  /// gets the attempts to close a loop that are new or have changed (MapChanges::loops, with the
+  /// early loops, which RunResult::loops has not), after a frame and after the refinement at the
+  /// end
   std::function<void(const std::vector<LoopClosure>& changed)> loops;
   /// returns true to stop after this frame and keep the results
   std::function<bool()> stop;
