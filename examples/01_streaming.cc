@@ -48,7 +48,7 @@ int main() {
   sslcd::Mapper mapper(sslcd::Options(), context);
   for (const sslcd::Frame& frame : frames) {
     const sslcd::FrameReport report = mapper.AddFrame(frame);
-    for (const sslcd::LoopClosure& loop : report.changes.loops)  // new, changed or withdrawn
+    for (const sslcd::LoopClosure& loop : report.changes.loops)  // early ones come again
       if (loop.decision == sslcd::LoopDecision::kAccepted)
         std::printf("loop %d: %d to %d\n", loop.id, loop.query_frame, loop.match_frame);
   }

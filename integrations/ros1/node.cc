@@ -50,10 +50,12 @@ void Node::Publish() {
   const ros_bridge::BridgeReport report = bridge_.Take();
   frames_ += report.frames;
   path_is_new_ |= report.path_changed;
-  for (const ros_bridge::LoopEdge& loop : report.loops)
+  for (const ros_bridge::LoopEdge& loop : report.loops) {
+    if (loop.early) continue;  // comes again, as a loop of another id
     ROS_INFO("loop %d %s: %.3f s to %.3f s, %.1f m", loop.id,
              loop.accepted ? "closed" : "taken back", ros_bridge::Seconds(loop.query),
              ros_bridge::Seconds(loop.match), loop.measured.T_a_b.translation().norm());
+  }
   PublishCorrection();
   if (path_is_new_ && IsTime(kPathEvery_s, last_path_)) {
     path_.publish(ToRos(bridge_.path(), parameters_.map_frame));

@@ -162,6 +162,7 @@ LoopEdge Bridge::EdgeOf(const LoopClosure& loop) const {
   LoopEdge edge;
   edge.id = loop.id;
   edge.accepted = loop.decision == LoopDecision::kAccepted;
+  edge.early = loop.early;
   edge.match_frame = loop.match_frame;
   edge.query_frame = loop.query_frame;
   edge.match = stamps_.at(loop.match_frame);

@@ -14,6 +14,7 @@ namespace sslcd::ros_bridge {
 struct LoopEdge {
   int id = 0;                            ///< LoopClosure::id
   bool accepted = false;                 ///< false: it is taken back, or was never accepted
+  bool early = false;                    ///< LoopClosure::early
   int match_frame = 0, query_frame = 0;  ///< PathPose::frame
   Stamp match = 0, query = 0;            ///< stamps of these
   RelativePose measured;                 ///< T_match_query of the base, metric

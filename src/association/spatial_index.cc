@@ -46,19 +46,17 @@ std::vector<int> SpatialIndex::FindWithin(double x, double y, double radius_m) c
   const auto take = [&](int id, const Entry& entry) {
     if (std::hypot(entry.x - x, entry.y - y) <= radius_m) found.push_back(id);
   };
-  // of more cells than entries, most are empty; a radius without bound has no end of them
+  // Of more cells than entries, most are empty; a radius without bound has no end of them.
   const double side = 2 * radius_m / cell_m_ + 1;
   if (!(side * side <= 64. + static_cast<double>(place_.size()))) {
     for (const auto& [id, entry] : place_) take(id, entry);
-    std::sort(found.begin(), found.end());
-    return found;
-  }
-  for (std::int64_t column = Index(x - radius_m); column <= Index(x + radius_m); ++column) {
-    for (std::int64_t row = Index(y - radius_m); row <= Index(y + radius_m); ++row) {
-      const auto cell = cells_.find(CellOf(column, row));
-      if (cell == cells_.end()) continue;
-      for (const int id : cell->second) take(id, place_.at(id));
-    }
+  } else {
+    for (std::int64_t column = Index(x - radius_m); column <= Index(x + radius_m); ++column)
+      for (std::int64_t row = Index(y - radius_m); row <= Index(y + radius_m); ++row) {
+        const auto cell = cells_.find(CellOf(column, row));
+        if (cell == cells_.end()) continue;
+        for (const int id : cell->second) take(id, place_.at(id));
+      }
   }
   std::sort(found.begin(), found.end());
   return found;

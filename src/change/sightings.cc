@@ -3,16 +3,9 @@
 
 #include <cmath>
 
+#include "core/finite.h"
+
 namespace sslcd {
-namespace {
-
-// The mapper leaves the others out, too.
-bool IsFinite(const Detection& detection) {
-  return detection.T_cam_object.translation().allFinite() &&
-         detection.T_cam_object.so3().matrix().allFinite() && detection.dims.allFinite();
-}
-
-}  // namespace
 
 void SessionLooks::Merge(const SessionLooks& other, double turn_rad) {
   for (const CueRow& row : kCueRows) views[row.cue].Merge(other.views[row.cue], turn_rad);
@@ -34,7 +27,7 @@ Sightings::Sightings(HistoryWorld world) : world_(std::move(world)) {
 void Sightings::AddFrame(const HistoryFrame& frame) {
   FrameSightings kept{frame.session, frame.map, frame.stamp, frame.T_world_cam, {}, {}};
   for (const Detection& detection : frame.detections) {
-    if (!IsFinite(detection)) continue;
+    if (!HasFiniteGeometry(detection)) continue;  // as in the mapper
     const auto found = landmark_of_.find({frame.number, detection.row});
     if (found == landmark_of_.end()) {
       kept.passing.push_back(SilhouetteOf(detection.T_cam_object, detection.dims));

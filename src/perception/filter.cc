@@ -7,14 +7,14 @@
 #include <numeric>
 #include <utility>
 
+#include "core/finite.h"
+
 namespace sslcd {
 namespace {
 
 bool IsValid(const Detection& detection) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  const double* pose = detection.T_cam_object.data();
-  return detection.score >= 0 && detection.score <= 1 && detection.dims.allFinite() &&
-         std::all_of(pose, pose + Pose::kParameters, is_finite) &&
+  return detection.score >= 0 && detection.score <= 1 && HasFiniteGeometry(detection) &&
          std::all_of(std::begin(kCueRows), std::end(kCueRows), [&](const CueRow& row) {
            const std::vector<float>& vector = detection.appearance[row.cue];
            return std::all_of(vector.begin(), vector.end(), is_finite);
