@@ -4,9 +4,9 @@
 # and prints what was found (docs/trust.md).
 #   scripts/fuzz.sh [--seconds 60] [--runs N] [--list] [TARGET...]     default: all but onnx
 # A target ends after so many seconds or executions. Exit status 1 if an input crashes it, takes
-# longer than a second of CPU time (mapper, async_mapper: 5), or makes it take more than 1 GB. Such
-# inputs are kept in build/fuzz/found, interesting ones in build/fuzz/corpus, from which the next run
-# goes on.
+# longer than a second of CPU time (mapper, async_mapper: 5) or ten seconds of the clock, or makes it
+# take more than 1 GB. Such inputs are kept in build/fuzz/found, interesting ones in
+# build/fuzz/corpus, from which the next run goes on.
 # Needs scripts/install_deps.sh fuzz.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -38,6 +38,13 @@ if ((!${#targets[@]})); then
   done
 fi
 
+# Files of the targets: in memory where they can be, since an SQLite file waits for the disk.
+memory=/dev/shm
+[[ -w $memory ]] || memory=${TMPDIR:-/tmp}
+TMPDIR=$(mktemp -d "$memory/sslcd_fuzz_XXXXXX")
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 stat_of() { sed -n "s/^stat::$1: *//p" "$2"; }
 status=0
@@ -52,11 +59,11 @@ for target in "${targets[@]}"; do
   limit=1
   if [[ $target == mapper || $target == async_mapper ]]; then limit=5; fi
   SSLCD_FUZZ_TARGET=$target SSLCD_FUZZ_SECONDS=$limit "$fuzzer" -max_total_time="$seconds" -runs="$runs" \
-    -timeout=30 -rss_limit_mb=1024 -malloc_limit_mb=1000 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" \
+    -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=1000 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" \
     "tests/data/fuzz/$target" >"$log" 2>&1 || status=1
   if grep -q '^too slow:' "$log"; then
     slow=$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)
-    mv "$slow" "${slow/crash-/timeout-}"
+    if [[ -f $slow && $slow == *crash-* ]]; then mv "$slow" "${slow/crash-/timeout-}"; fi
   fi
   printf '%-18s %12s %8s %8s %6s %8s\n' "$target" "$(stat_of number_of_executed_units "$log")" \
     "$(find "$found" \( -name 'crash-*' -o -name 'leak-*' \) | wc -l)" \

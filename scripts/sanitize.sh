@@ -11,7 +11,7 @@
 # Not run: tests/consumer (compiles outside projects against plain installs; its installs are those
 # of the release build), tests/docs, tests/include_graph, tests/mutate (they run no C++), the Python
 # package (the interpreter is not linked with sanitizers), cli.faults and house.hardening (they
-# judge plain binaries), KeyEffects (a drive for each key of the options, minutes a shard).
+# judge plain binaries; faults has cli.mutated_inputs), KeyEffects (a drive for each key, minutes).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 kind=${1:-}
@@ -23,7 +23,7 @@ case "$kind" in
     only=(-E 'KeyEffects')
     parts="lie core formats datasets config perception association map odometry pose_graph bundle
       loop refine closing change retrieval eval store map_export check report run_export inference
-      detectors stereo ground visual_odometry lifting frontend sim render baselines fuzz cli
+      detectors stereo ground visual_odometry lifting frontend sim render baselines fuzz cli faults
       vins_fusion ros_bridge ros1 examples benchmark pipeline browser" ;;
   tsan)
     sanitizers=thread
@@ -52,7 +52,7 @@ for part in $parts; do
   log=$build/$part.log
   start=$(date +%s)
   case "$part" in
-    cli | check | examples | browser | report) tools="sslcd_run sslcd_sim" ;;
+    cli | faults | check | examples | browser | report) tools="sslcd_run sslcd_sim" ;;
     *) tools= ;;
   esac
   if ! nice -n 5 cmake --build "$build" -j "$jobs" --target $tools tests/"$part"/all >"$log" 2>&1; then

@@ -18,7 +18,7 @@ constexpr int kMostFiles = 40;
 // Removed when the process ends, unless it crashes.
 class Folder {
  public:
-  Folder() : path_((Parent() / "sslcd_fuzz_XXXXXX").string()) {
+  Folder() : path_((fs::temp_directory_path() / "sslcd_fuzz_XXXXXX").string()) {
     if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
   }
   ~Folder() { fs::remove_all(path_); }
@@ -27,12 +27,6 @@ class Folder {
   const std::string& path() const { return path_; }
 
  private:
-  // In memory where it can be: an SQLite file waits for the disk.
-  static fs::path Parent() {
-    const fs::path memory = "/dev/shm";
-    return ::access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
-  }
-
   std::string path_;
 };
 
@@ -73,7 +67,9 @@ std::string FolderWith(const std::string& text) {
       std::error_code ignored;  // a file may stand where a folder should
       fs::create_directories(path.parent_path(), ignored);
       const std::size_t begin = std::min(line + 1, text.size());
-      std::ofstream(path, std::ios::binary) << text.substr(begin, at - begin);
+      std::ofstream stream(path, std::ios::binary);
+      stream << text.substr(begin, at - begin);
+      if (stream.is_open() && !stream.flush()) throw std::runtime_error("no room for " + name);
     }
     if (at != std::string::npos) ++at;
   }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
 #include <fstream>
+#include <limits>
+#include <stdexcept>
 
 #include "input_file.h"
 #include "sslcd/store/map_session.h"
@@ -14,7 +17,9 @@ namespace {
 
 std::string MapWith(const std::string& bytes) {
   std::string path = EmptyFolder() + "/map.sslcd";
-  std::ofstream(path, std::ios::binary) << bytes;
+  std::ofstream stream(path, std::ios::binary);
+  stream << bytes;
+  if (!stream.flush()) throw std::runtime_error("no room for " + path);
   return path;
 }
 
@@ -50,6 +55,26 @@ void Seal(const std::string& path) {
   transaction.Commit();
 }
 
+// A frame after those that the session has, and its end.
+void DriveOn(MapSession session) {
+  const SessionInfo info = session.info();
+  const Trajectory driven = session.mapper().CameraTrajectory();
+  const std::int64_t next =
+      info.last_frame ? std::int64_t{*info.last_frame} - info.frame_offset + 1 : 0;
+  if (next >= 0 && next <= std::numeric_limits<int>::max()) {
+    Frame frame;
+    frame.index = static_cast<int>(next);
+    frame.stamp = driven.stamps.empty() ? 0 : driven.stamps.back() + 0.1;
+    Detection detection;
+    detection.label = "Car";
+    detection.T_cam_object = Pose(lie::SO3<double>(), Vec3(0, 0, 8));
+    detection.dims = Vec3(4, 1.8, 1.5);
+    frame.detections.push_back(detection);
+    Run([&](const std::string&) { session.AddFrame(frame); }, "");
+  }
+  session.End();
+}
+
 void ReadMap(const std::string& bytes) {
   const std::string path = MapWith(bytes);
   Ask(path);
@@ -63,8 +88,9 @@ void ReadSealedMap(const std::string& bytes) {
   const MapInfo info = MapStore(path).Describe();
   MapperContext context;
   context.gravity = GravityFrame::FromUp(info.up_axis);
-  Run([&](const std::string& map) { MapSession::Resume(map, context); }, path);
-  Run([&](const std::string& map) { MapSession::Begin(map, {"fuzz"}, context, {}); }, path);
+  Run([&](const std::string& map) { DriveOn(MapSession::Resume(map, context)); }, path);
+  Run([&](const std::string& map) { DriveOn(MapSession::Begin(map, {"fuzz"}, context, {})); },
+      path);
 }
 
 }  // namespace

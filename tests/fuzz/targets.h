@@ -7,8 +7,8 @@
 
 namespace sslcd::fuzz {
 
-/// What takes bytes from outside. It throws nothing but Error, whatever the bytes are, and returns
-/// within a second, with less than 1 GB of memory.
+/// What takes bytes from outside. It throws nothing but Error, whatever the bytes are, and takes
+/// less than a second of CPU time (calls of the mapper: five) and 1 GB of memory.
 using Target = std::function<void(const std::string& bytes)>;
 using Targets = std::map<std::string, Target>;
 
