@@ -34,20 +34,30 @@ Eigen::Matrix3d WithoutHeight(const Eigen::Matrix4d& covariance) {
 
 }  // namespace
 
+// A perturbation [rho, phi] of the world moves the camera by rho + phi x c.
+Eigen::Matrix<double, 3, 6> OdometryPrior::CameraMotion(int frame) const {
+  Eigen::Matrix<double, 3, 6> motion;
+  motion << Eigen::Matrix3d::Identity(),
+      -lie::SO3<double>::hat(state_.frames[frame].T_world_cam.translation());
+  return motion;
+}
+
 // Of the motion of the world at frame `to` against that at `from` [forward, left, up; yaw].
 Eigen::Matrix4d OdometryPrior::Covariance(int from, int to) const {
   const GravityFrame& gravity = state_.gravity();
-  // A perturbation [rho, phi] of the world moves its point c by rho + phi x c.
-  Eigen::Matrix<double, 3, 6> motion;
-  motion << Eigen::Matrix3d::Identity(),
-      -lie::SO3<double>::hat(state_.frames[to].T_world_cam.translation());
   Eigen::Matrix<double, 4, 6> to_layout;
-  to_layout << gravity.Basis().transpose() * motion, Vec3::Zero().transpose(),
+  to_layout << gravity.Basis().transpose() * CameraMotion(to), Vec3::Zero().transpose(),
       gravity.up.transpose();
   Eigen::Matrix4d covariance = to_layout * uncertainty_.Between(from, to) * to_layout.transpose();
   covariance.diagonal().head<3>().array() += kLayoutMetres * kLayoutMetres;
   covariance(3, 3) += kLayoutRad * kLayoutRad;
   return covariance;
+}
+
+// The third diagonal element of Covariance().
+double OdometryPrior::HeightVariance(int from, int to) const {
+  return uncertainty_.Variance(from, to, CameraMotion(to).transpose() * state_.gravity().up) +
+         kLayoutMetres * kLayoutMetres;
 }
 
 // The camera's place in the layout.
@@ -94,8 +104,7 @@ double OdometryPrior::OfHeight(const LoopMeasurement& loop) const {
 }
 
 double OdometryPrior::OfRise(int from, int to, double rise_m) const {
-  const double variance = Covariance(from, to)(2, 2);
-  return LogStudent(rise_m * rise_m / variance, 1) - LogStudent(0, 1);
+  return LogStudent(rise_m * rise_m / HeightVariance(from, to), 1) - LogStudent(0, 1);
 }
 
 double OdometryPrior::Rank(const YawShift& pose) const {
@@ -107,7 +116,7 @@ double OdometryPrior::LargestRise() const {
   constexpr int kTried = 6;  // frames along the path: the variance changes slowly
   double variance = 0;
   for (int i = 0; i < kTried; ++i)
-    variance = std::max(variance, Covariance(here_ * i / kTried, here_)(2, 2));
+    variance = std::max(variance, HeightVariance(here_ * i / kTried, here_));
   return kOutlier * std::sqrt(variance);
 }
 

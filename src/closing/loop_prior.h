@@ -41,6 +41,8 @@ class OdometryPrior {
 
  private:
   Eigen::Matrix4d Covariance(int from, int to) const;
+  double HeightVariance(int from, int to) const;
+  Eigen::Matrix<double, 3, 6> CameraMotion(int frame) const;
   Vec3 Camera() const;
   Vec3 LevelError(const YawShift& pose, const Vec3& point) const;
   double OfRise(int from, int to, double rise_m) const;

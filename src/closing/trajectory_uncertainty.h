@@ -19,6 +19,7 @@ namespace sslcd {
 class TrajectoryUncertainty {
  public:
   using Mat6 = RelativeCovariances::Mat6;
+  using Vec6 = RelativeCovariances::Vec6;
 
   TrajectoryUncertainty(const MapState& state, const std::vector<LoopEdge>& loops,
                         const OdometryModel& odometry);
@@ -26,6 +27,11 @@ class TrajectoryUncertainty {
   /// Covariance of the motion [translation, rotation] of the world around the frame `to` relative
   /// to the world around `from`, each at its nearest vertex.
   const Mat6& Between(int from, int to) const;
+
+  /// Variance of the part of this motion along `direction`; less work than Between().
+  double Variance(int from, int to, const Vec6& direction) const {
+    return covariances_->Variance(NearestVertex(from), NearestVertex(to), direction);
+  }
 
   /// Whether odometry that was never lost, and loops, lead from one frame to the other.
   bool Joined(int from, int to) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace sslcd {
 namespace {
@@ -19,11 +20,16 @@ Background LogDensityOf(const LayoutCounts::Headings& map) {
     const auto& counts = map[symmetry == Symmetry::kPi];
     const std::vector<double>& densities = HeadingDensities(symmetry);
     const int bins = static_cast<int>(counts.size());
+    static_assert(std::tuple_size_v<LayoutCounts::Headings::value_type> % kHeadings == 0);
     for (int from = 0; from < bins; ++from) {
       if (counts[from] == 0) continue;
       headings += counts[from];
-      for (int bin = 0; bin < kHeadings; ++bin)
-        background[bin] += counts[from] * densities[(bin * bins / kHeadings - from + bins) % bins];
+      int difference = from == 0 ? 0 : bins - from;
+      for (double& density : background) {
+        density += counts[from] * densities[difference];
+        difference += bins / kHeadings;
+        if (difference >= bins) difference -= bins;
+      }
     }
   }
   for (double& density : background)
@@ -60,24 +66,29 @@ const std::vector<double>& HeadingDensities(Symmetry symmetry) {
 std::vector<double> ChanceHeadings(const std::vector<LayoutObject>& local,
                                    const LayoutCounts::Headings& map) {
   const Background background = LogDensityOf(map);
-  const auto under = [&](const LayoutObject& object, int turn) {
-    const int bin =
-        static_cast<int>(std::floor((WrapAngle(object.yaw) / (2 * M_PI) + 1) * kHeadings + 0.5));
-    return background[(bin + turn) % kHeadings];
-  };
+  std::array<int, kHeadings> count{};  // of local objects by heading
+  std::vector<int> bins;
+  for (const LayoutObject& object : local) {
+    if (!HasHeading(object)) {
+      bins.push_back(-1);
+      continue;
+    }
+    const double turns = WrapAngle(object.yaw) / (2 * M_PI) + 1;
+    bins.push_back(static_cast<int>(std::floor(turns * kHeadings + 0.5)) % kHeadings);
+    ++count[bins.back()];
+  }
   int best = 0;
   double likeliest = -std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < kHeadings; ++turn) {
     double sum = 0;
-    for (const LayoutObject& object : local)
-      if (HasHeading(object)) sum += under(object, turn);
+    for (int bin = 0; bin < kHeadings; ++bin)
+      if (count[bin] > 0) sum += count[bin] * background[(bin + turn) % kHeadings];
     if (sum <= likeliest) continue;
     likeliest = sum;
     best = turn;
   }
   std::vector<double> chance;
-  for (const LayoutObject& object : local)
-    chance.push_back(HasHeading(object) ? under(object, best) : 0.);
+  for (const int bin : bins) chance.push_back(bin < 0 ? 0. : background[(bin + best) % kHeadings]);
   return chance;
 }
 

@@ -72,6 +72,11 @@ class LayoutIndex {
   /// Whether the point is inside the mapped area: there is an object within 10 to 20 m.
   /// Ignores objects whose LayoutObject::since_m is not before `end_m`.
   bool IsMapped(double x, double y, double end_m = std::numeric_limits<double>::infinity()) const;
+  /// A number of the block of a finite point: IsMapped() is the same in all of it.
+  std::uint64_t BlockOf(double x, double y) const {
+    return static_cast<std::uint64_t>(blocks_.Cell(x)) << 32 |
+           static_cast<std::uint64_t>(blocks_.Cell(y));
+  }
 
   /// Pairs by labels and distance; none in large maps.
   const PairIndex& pairs() const { return pairs_; }

@@ -58,6 +58,7 @@ LayoutLikelihood::LayoutLikelihood(const std::vector<LayoutObject>& local, const
 std::vector<LayoutLikelihood::Candidate> LayoutLikelihood::Candidates(const YawShift& pose,
                                                                       bool with_view) const {
   std::vector<Candidate> candidates;
+  candidates.reserve(2 * local_.size());
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
   const double reach2 = index_.reach() * index_.reach();
   for (std::size_t i = 0; i < local_.size(); ++i) {
@@ -104,9 +105,15 @@ int LayoutLikelihood::CountInMappedArea(const YawShift& pose) const {
   return static_cast<int>(
       std::count_if(local_.begin(), local_.end(), [&](const LayoutObject& object) {
         const Vec3& p = object.position;
-        return index_.IsMapped(c * p.x() - s * p.y() + pose.t.x(),
-                               s * p.x() + c * p.y() + pose.t.y(), limits_.end_m);
+        return IsMapped(c * p.x() - s * p.y() + pose.t.x(), s * p.x() + c * p.y() + pose.t.y());
       }));
+}
+
+bool LayoutLikelihood::IsMapped(double x, double y) const {
+  if (!std::isfinite(x) || !std::isfinite(y)) return false;
+  const auto [known, is_new] = mapped_.try_emplace(index_.BlockOf(x, y), false);
+  if (is_new) known->second = index_.IsMapped(x, y, limits_.end_m);
+  return known->second;
 }
 
 // Candidates with sufficient gain, largest gain first. With the horizontal distance d and the
@@ -151,6 +158,7 @@ LayoutFit LayoutLikelihood::Assign(const std::vector<Candidate>& candidates, int
   fit.score = score;
   fit.should_see = static_cast<int>(all);
   std::vector<std::pair<int, int>>& matches = fit.matches;
+  matches.reserve(std::min(candidates.size(), local_.size()));
   std::size_t that_pay = 0;
   for (const auto& [gain, candidate] : RankByGain(candidates, sigma)) {
     const int local = candidate->local, global = candidate->global;
@@ -230,12 +238,13 @@ LayoutLikelihood::RefinedPose LayoutLikelihood::RefineByLikelihood(const YawShif
 }
 
 // Hard matches with a shrinking gate, followed by matches by the likelihood.
-LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds) const {
+LayoutFit LayoutLikelihood::Refine(YawShift& pose, int rounds, double least_score) const {
   std::vector<RefineKey> way;
   std::shared_ptr<const RefinedPose> end;
   double sigma = index_.reach() / kGate;
   for (int round = 0; round < rounds && end == nullptr; ++round) {
     const LayoutFit fit = Assign(Candidates(pose, false), 0, CountInMappedArea(pose), sigma);
+    if (fit.score < least_score) return LayoutFit();
     if (fit.matches.size() < 2) break;
     pose = Align(fit);
     sigma = std::max(kLeastGateSigma, kGateShrinkage * sigma);

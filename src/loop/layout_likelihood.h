@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 #include "loop/layout_index.h"
@@ -56,8 +58,9 @@ class LayoutLikelihood {
 
   /// Moves the pose to where the matches agree best (closed form, a few rounds) and evaluates
   /// there. Remembers the way: a start that leads to a pose where an earlier one has been costs
-  /// little.
-  LayoutFit Refine(YawShift& pose, int rounds) const;
+  /// little. Gives up, with a fit without matches, once hard matches score less than `least_score`.
+  LayoutFit Refine(YawShift& pose, int rounds,
+                   double least_score = -std::numeric_limits<double>::infinity()) const;
 
  private:
   struct Candidate {
@@ -79,6 +82,7 @@ class LayoutLikelihood {
   RefinedPose RefineByLikelihood(const YawShift& pose) const;
   YawShift Align(const LayoutFit& fit) const;
   int CountInMappedArea(const YawShift& pose) const;
+  bool IsMapped(double x, double y) const;
   int CountInView(const YawShift& pose) const;
   bool InView(const Vec3& global, const Vec3& t, double c, double s) const;
   std::vector<Ranked> RankByGain(const std::vector<Candidate>& candidates, double sigma) const;
@@ -93,6 +97,7 @@ class LayoutLikelihood {
   ViewHull view_;
   // log probability that none of n objects is mapped, by n
   std::vector<double> none_mapped_;
+  mutable std::unordered_map<std::uint64_t, bool> mapped_;  // LayoutIndex::IsMapped, by block
   // where a way through a pose has led
   mutable std::map<RefineKey, std::shared_ptr<const RefinedPose>> refine_cache_;
 };

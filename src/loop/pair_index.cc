@@ -77,18 +77,11 @@ PairIndex::PairIndex(const std::vector<LayoutObject>& objects, const std::vector
   for (std::size_t i = 0; i < found.size(); ++i) pairs_[fill[slot[i]]++] = found[i];
 }
 
-std::vector<ObjectPair>::const_iterator PairIndex::Begin(int label_a, int label_b,
-                                                         double from_m) const {
+PairIndex::Range PairIndex::Between(int label_a, int label_b, double from_m, double to_m) const {
   const int a = LabelRank(label_a), b = LabelRank(label_b);
-  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
-  return pairs_.begin() + start_[Slot(a, b, from_m)];
-}
-
-std::vector<ObjectPair>::const_iterator PairIndex::End(int label_a, int label_b,
-                                                       double to_m) const {
-  const int a = LabelRank(label_a), b = LabelRank(label_b);
-  if (a < 0 || b < 0 || pairs_.empty()) return pairs_.end();
-  return pairs_.begin() + start_[Slot(a, b, to_m) + 1];
+  if (a < 0 || b < 0 || pairs_.empty()) return {pairs_.end(), pairs_.end()};
+  return {pairs_.begin() + start_[Slot(a, b, from_m)],
+          pairs_.begin() + start_[Slot(a, b, to_m) + 1]};
 }
 
 int PairIndex::LabelRank(int label) const {

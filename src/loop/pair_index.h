@@ -31,8 +31,13 @@ class PairIndex {
 
   /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset,
   /// by bins; with more than 256 labels, rare ones may share a list.
-  std::vector<ObjectPair>::const_iterator Begin(int label_a, int label_b, double from_m) const;
-  std::vector<ObjectPair>::const_iterator End(int label_a, int label_b, double to_m) const;
+  struct Range {
+    std::vector<ObjectPair>::const_iterator first, last;
+    std::vector<ObjectPair>::const_iterator begin() const { return first; }
+    std::vector<ObjectPair>::const_iterator end() const { return last; }
+    bool empty() const { return first == last; }
+  };
+  Range Between(int label_a, int label_b, double from_m, double to_m) const;
 
  private:
   int LabelRank(int label) const;

@@ -54,6 +54,10 @@ std::vector<YawShift> Starts(const std::vector<LayoutObject>& local, const Vec3&
   return starts;
 }
 
+// Score of the first matches below which a start is given up: an eighth to nearly all of the
+// starts, and the evidence that they would have reached was at most -15 on all sequences. [nats]
+constexpr double kHopeless = -4;
+
 // Refines the poses and keeps the best of equal ones, best first.
 std::vector<PoseHypothesis> RefineAll(const std::vector<YawShift>& starts,
                                       const LayoutLikelihood& likelihood, const Vec3& centre,
@@ -62,7 +66,7 @@ std::vector<PoseHypothesis> RefineAll(const std::vector<YawShift>& starts,
   for (const YawShift& start : starts) {
     PoseHypothesis hypothesis;
     hypothesis.pose = start;
-    hypothesis.fit = likelihood.Refine(hypothesis.pose, kRefineRounds);
+    hypothesis.fit = likelihood.Refine(hypothesis.pose, kRefineRounds, kHopeless);
     if (static_cast<int>(hypothesis.fit.matches.size()) >= options.min_matches)
       found.push_back(std::move(hypothesis));
   }

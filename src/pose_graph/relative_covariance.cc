@@ -33,13 +33,25 @@ RelativeCovariances::RelativeCovariances(int unknowns,
                 "definite, or an unknown is not connected");
 }
 
+template <int Columns>
+Eigen::Matrix<double, Columns, Columns> RelativeCovariances::Project(
+    int a, int b, const Eigen::Matrix<double, 6, Columns>& S) const {
+  using Block = Eigen::Matrix<double, 6, Columns>;
+  if (a == b) return Eigen::Matrix<double, Columns, Columns>::Zero();
+  BlockCholesky::Vector<Columns> difference(unknowns_ - 1, Block::Zero());
+  if (a > 0) difference[a - 1] = -S;
+  if (b > 0) difference[b - 1] = S;
+  const BlockCholesky::Vector<Columns> x = information_.Solve(difference);
+  const Block zero = Block::Zero();
+  return S.transpose() * ((b > 0 ? x[b - 1] : zero) - (a > 0 ? x[a - 1] : zero));
+}
+
 RelativeCovariances::Mat6 RelativeCovariances::Between(int a, int b) const {
-  if (a == b) return Mat6::Zero();
-  BlockCholesky::Vector<6> difference(unknowns_ - 1, Mat6::Zero());
-  if (a > 0) difference[a - 1] = -Mat6::Identity();
-  if (b > 0) difference[b - 1] = Mat6::Identity();
-  const BlockCholesky::Vector<6> x = information_.Solve(difference);
-  return (b > 0 ? x[b - 1] : Mat6(Mat6::Zero())) - (a > 0 ? x[a - 1] : Mat6(Mat6::Zero()));
+  return Project<6>(a, b, Mat6::Identity());
+}
+
+double RelativeCovariances::Variance(int a, int b, const Vec6& w) const {
+  return Project<1>(a, b, w)(0);
 }
 
 }  // namespace sslcd

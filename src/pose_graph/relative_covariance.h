@@ -24,6 +24,7 @@ struct DifferenceMeasurement {
 class RelativeCovariances {
  public:
   using Mat6 = Eigen::Matrix<double, 6, 6>;
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
 
   /// The measurements must connect all `unknowns`, else throws Error(kNoSolution). O(unknowns)
   /// along a chain with few loops.
@@ -31,8 +32,15 @@ class RelativeCovariances {
 
   /// Covariance of x_b - x_a.
   Mat6 Between(int a, int b) const;
+  /// Variance of w^T (x_b - x_a); a sixth of the work.
+  double Variance(int a, int b, const Vec6& w) const;
 
  private:
+  // S^T Cov(x_b - x_a) S
+  template <int Columns>
+  Eigen::Matrix<double, Columns, Columns> Project(int a, int b,
+                                                  const Eigen::Matrix<double, 6, Columns>& S) const;
+
   int unknowns_;
   BlockCholesky information_;
 };

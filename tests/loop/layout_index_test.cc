@@ -44,19 +44,18 @@ TEST(LayoutIndex, FindsAllPairsOfADistance) {
           expected += std::abs(d - distance) < 0.5;
       }
     }
-    const auto end = index.pairs().End(0, 1, distance + 0.5);
-    for (auto pair = index.pairs().Begin(0, 1, distance - 0.5); pair < end; ++pair) {
-      EXPECT_EQ(map[pair->a].label, 0);
-      EXPECT_EQ(map[pair->b].label, 1);
-      const Vec3 step = map[pair->b].position - map[pair->a].position;
-      EXPECT_NEAR(pair->distance * pair->dx, step.x(), 1e-4);
-      EXPECT_NEAR(pair->distance * pair->dy, step.y(), 1e-4);
-      EXPECT_NEAR(pair->dz, step.z(), 1e-5);
-      found += std::abs(pair->distance - distance) < 0.5;
+    for (const ObjectPair& pair : index.pairs().Between(0, 1, distance - 0.5, distance + 0.5)) {
+      EXPECT_EQ(map[pair.a].label, 0);
+      EXPECT_EQ(map[pair.b].label, 1);
+      const Vec3 step = map[pair.b].position - map[pair.a].position;
+      EXPECT_NEAR(pair.distance * pair.dx, step.x(), 1e-4);
+      EXPECT_NEAR(pair.distance * pair.dy, step.y(), 1e-4);
+      EXPECT_NEAR(pair.dz, step.z(), 1e-5);
+      found += std::abs(pair.distance - distance) < 0.5;
     }
     EXPECT_EQ(found, expected) << distance;
   }
-  EXPECT_GE(index.pairs().Begin(7, 8, 1), index.pairs().End(7, 8, 9));
+  EXPECT_TRUE(index.pairs().Between(7, 8, 1, 9).empty());
 }
 
 TEST(LayoutIndex, VisitsABoxOnce) {
@@ -89,6 +88,15 @@ TEST(LayoutIndex, KnowsItsRim) {
   EXPECT_FALSE(index.IsMapped(NAN, 5));
 }
 
+TEST(LayoutIndex, IsMappedAlikeInABlock) {
+  const LayoutIndex index(Strewn(40, 120, 8), 50, 2);
+  std::map<std::uint64_t, bool> blocks;
+  for (double x = -90; x < 90; x += 1.7)
+    for (double y = -90; y < 90; y += 1.3)
+      EXPECT_EQ(blocks.insert({index.BlockOf(x, y), index.IsMapped(x, y)}).first->second,
+                index.IsMapped(x, y));
+}
+
 TEST(LayoutIndex, KnowsTheRimOfThen) {
   LayoutObject late = ObjectAt({5, 5, 0});
   late.since_m = 100;
@@ -103,20 +111,18 @@ TEST(LayoutIndex, ManyLabelsCostNoPair) {
   for (int i = 0; i < 400; ++i) map.push_back(ObjectAt({3. * i, 0, 0}, 7 * i));
   const LayoutIndex index(map, 50, 2);
   for (const int i : {0, 200, 390}) {
-    bool found = false;
-    const auto end = index.pairs().End(7 * i, 7 * (i + 2), 6.1);
-    for (auto pair = index.pairs().Begin(7 * i, 7 * (i + 2), 5.9); pair < end; ++pair)
-      found |= pair->a == i && pair->b == i + 2;
-    EXPECT_TRUE(found) << i;
+    const PairIndex::Range near = index.pairs().Between(7 * i, 7 * (i + 2), 5.9, 6.1);
+    EXPECT_TRUE(std::any_of(near.begin(), near.end(),
+                            [&](const ObjectPair& p) { return p.a == i && p.b == i + 2; }));
   }
 }
 
 TEST(LayoutIndex, LargeMapsHaveTrianglesInsteadOfPairs) {
   const LayoutIndex small(Strewn(300, 200, 6), 50, 2), large(Strewn(3000, 632, 6), 50, 2);
   EXPECT_EQ(small.triangles(), nullptr);
-  EXPECT_LT(small.pairs().Begin(0, 0, 10), small.pairs().End(0, 0, 20));
+  EXPECT_FALSE(small.pairs().Between(0, 0, 10, 20).empty());
   EXPECT_NE(large.triangles(), nullptr);
-  EXPECT_GE(large.pairs().Begin(0, 0, 10), large.pairs().End(0, 0, 20));
+  EXPECT_TRUE(large.pairs().Between(0, 0, 10, 20).empty());
   EXPECT_NEAR(small.density(), large.density(), 0.15 * large.density());
 }
 
@@ -337,8 +343,7 @@ TEST(LayoutIndex, TakesOddMaps) {
   const LayoutIndex far({ObjectAt({0, 0, 0}), ObjectAt({1e7, -1e7, 0})}, 50, 2);
   EXPECT_FALSE(far.FindWithinReach(1e7, -1e7).empty());
   const LayoutIndex heap(std::vector<LayoutObject>(20, ObjectAt({3, 3, 3})), 50, 2);
-  EXPECT_GE(heap.pairs().Begin(0, 0, 0), heap.pairs().End(0, 0, 50))
-      << "no direction between equal points";
+  EXPECT_TRUE(heap.pairs().Between(0, 0, 0, 50).empty());
 }
 
 }  // namespace

@@ -80,9 +80,15 @@ TEST(LayoutLikelihood, AWrongLabelCostsButDoesNotForbid) {
 TEST(LayoutLikelihood, RefinesAPoseNearby) {
   const Case c;
   YawShift pose{2.55, kPose.t + Vec3(0.6, -0.5, 0.2)};
-  LayoutLikelihood(c.local, c.index, {}).Refine(pose, 4);
+  LayoutLikelihood(c.local, c.index, {}).Refine(pose, 4, -4);
   EXPECT_LT(ShiftBetween(pose, kPose, c.local[0].position), 0.3);
   EXPECT_NEAR(pose.yaw, kPose.yaw, 0.02);
+}
+
+TEST(LayoutLikelihood, GivesUpAPoseOfWrongMatches) {
+  const Case c;
+  YawShift wrong{1, kPose.t};
+  EXPECT_TRUE(LayoutLikelihood(c.local, c.index, {}).Refine(wrong, 4, 5).matches.empty());
 }
 
 double NormalDensity(double x, double sigma) {
@@ -332,12 +338,11 @@ TEST(LayoutLikelihood, RefiningAnExactLayoutEndsAtItsPose) {
                                   local = SeenFrom(map, kPose, {0, 0}, 18, 0, 2);
   const LayoutIndex index(map, 50, 2);
   const LayoutLikelihood likelihood(local, index, {});
-  YawShift pose{2.53, kPose.t + Vec3(0.5, -0.3, 0.1)};
+  YawShift pose{2.53, kPose.t + Vec3(0.5, -0.3, 0.1)}, again = pose;
   const LayoutFit fit = likelihood.Refine(pose, 4);
   EXPECT_NEAR(pose.yaw, kPose.yaw, 1e-9);
   EXPECT_LT((pose.t - kPose.t).norm(), 1e-9);
   EXPECT_EQ(fit.matches.size(), local.size());
-  YawShift again{2.53, kPose.t + Vec3(0.5, -0.3, 0.1)};
   EXPECT_EQ(likelihood.Refine(again, 4).score, fit.score) << "the way is remembered";
 }
 

@@ -81,6 +81,14 @@ TEST(RelativeCovariances, AreTheSameBothWaysAndZeroForOneUnknown) {
   }
 }
 
+TEST(RelativeCovariances, VarianceIsThatOfTheCovariance) {
+  const RelativeCovariances bridge(4, Wheatstone());
+  const RelativeCovariances::Vec6 w(0.3, -1, 2, 0.5, 0.1, -0.7);
+  for (int a = 0; a < 4; ++a)
+    for (int b = 0; b < 4; ++b)
+      EXPECT_NEAR(bridge.Variance(a, b, w), w.dot(bridge.Between(a, b) * w), 1e-9) << a << " " << b;
+}
+
 TEST(RelativeCovariances, OneMoreMeasurementNeverWidensThem) {
   std::vector<DifferenceMeasurement> more = Wheatstone();
   more.push_back({0, 3, 5 * Correlated(6)});
