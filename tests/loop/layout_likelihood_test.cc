@@ -80,7 +80,7 @@ TEST(LayoutLikelihood, AWrongLabelCostsButDoesNotForbid) {
 TEST(LayoutLikelihood, RefinesAPoseNearby) {
   const Case c;
   YawShift pose{2.55, kPose.t + Vec3(0.6, -0.5, 0.2)};
-  LayoutLikelihood(c.local, c.index, {}).Refine(pose, 4, -4);
+  LayoutLikelihood(c.local, c.index, {}).Refine(pose, 4);
   EXPECT_LT(ShiftBetween(pose, kPose, c.local[0].position), 0.3);
   EXPECT_NEAR(pose.yaw, kPose.yaw, 0.02);
 }
