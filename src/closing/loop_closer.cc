@@ -84,6 +84,11 @@ bool LoopCloser::SearchesTwice() const {
   return second_.finder->SupportsSecondSearch() && options_.layout.hindsight_m > 0;
 }
 
+// Whether there is any path before the local map of a second search.
+bool LoopCloser::HasOldMap(int place) const {
+  return SecondWindow(place).GlobalMapEnd(options_.layout.gap_m) > 0;
+}
+
 // The second search from the camera at `place` times the path between attempts.
 SearchWindow LoopCloser::SecondWindow(int place) const {
   const LoopLayoutOptions& o = options_.layout;
@@ -138,7 +143,7 @@ void LoopCloser::LookBackNear(const FrameStore& frames, double path_m) {
   const int last = static_cast<int>((path_m + kNear) / every_m);
   for (int place = std::max(0, static_cast<int>((path_m - kNear) / every_m));
        place <= last && SecondWindow(place).end_m < frames.back().travelled; ++place)
-    if (!IsLostAt(frames, place * every_m)) look_back_.insert(place);
+    if (HasOldMap(place) && !IsLostAt(frames, place * every_m)) look_back_.insert(place);
 }
 
 void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,

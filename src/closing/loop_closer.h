@@ -71,6 +71,7 @@ class LoopCloser {
   void LookBack(MapState& state, double scale, TimingTable& timing);
   void LookBackNear(const FrameStore& frames, double path_m);
   SearchWindow SecondWindow(int place) const;
+  bool HasOldMap(int place) const;
   std::vector<Pose> EndsOfLooks(const FrameStore& frames) const;
   void MoveLooks(const std::vector<Pose>& before, const MapState& state);
 

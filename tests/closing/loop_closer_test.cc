@@ -99,6 +99,43 @@ TEST_F(LoopCloserTest, LooksBackNearALoopWhileFramesCome) {
   }
 }
 
+/// Keeps the windows of all searches.
+class ListeningFinder : public LoopFinder {
+ public:
+  ListeningFinder(std::unique_ptr<LoopFinder> finder, std::vector<SearchWindow>& windows)
+      : finder_(std::move(finder)), windows_(windows) {}
+  std::unique_ptr<LoopFinder> Clone() const override {
+    return std::make_unique<ListeningFinder>(finder_->Clone(), windows_);
+  }
+  std::optional<FoundLoop> Find(const FinderInput& input) override {
+    windows_.push_back(input.window);
+    return finder_->Find(input);
+  }
+  void MoveLocalMap(const YawShift& change) override { finder_->MoveLocalMap(change); }
+  void Reset() override { finder_->Reset(); }
+
+ private:
+  std::unique_ptr<LoopFinder> finder_;
+  std::vector<SearchWindow>& windows_;
+};
+
+TEST_F(LoopCloserTest, DoesNotLookBackToWhereThereIsNoOlderMap) {
+  std::vector<SearchWindow> windows;
+  LoopOptions options = WithoutAdjustment();
+  options.layout.hindsight_m = 230;
+  Start(SmallDrift(), options, {});
+  closer_.emplace(options, WholeMapOptions(), Gallery::Mode::kByViewpoint,
+                  std::make_unique<ListeningFinder>(MakeFinder(options, {}), windows));
+  Drive();
+  int second = 0;
+  for (const SearchWindow& window : windows) {
+    if (!window.second) continue;
+    ++second;
+    EXPECT_GT(window.GlobalMapEnd(options.layout.gap_m), 0);
+  }
+  EXPECT_GT(second, 4);
+}
+
 TEST_F(LoopCloserTest, DoesNotLookBackWithoutASecondSearch) {
   LoopOptions options = WithoutAdjustment();
   options.layout.hindsight_m = 0;
