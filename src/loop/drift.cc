@@ -47,7 +47,7 @@ NormalEquations Linearise(const Problem& problem, const State& state, const Drif
   const Mat3 R = state.R.matrix();
   for (const Match& match : problem.matches) {
     const Mat3 whiten = match.sigma.cwiseInverse().asDiagonal();
-    const Mat3 A = whiten * UprightInverse(match.yaw_global) * R;
+    const Mat3 A = whiten * match.to_global * R;
     Eigen::Matrix<double, 3, 6> J;
     J << A, -A * Rotation::hat(Vec3(match.local - problem.centre));
     equations.Add<3>(J, whiten * PositionError(match, problem, state), problem.loss_scale);

@@ -15,9 +15,11 @@ double Loss(double mean_square, double scale) {
   return scale > 0 ? scale * scale * std::log1p(mean_square / (scale * scale)) : mean_square;
 }
 
-double Cost(const Problem& problem, const State& state) {
+// Stops, with less than the cost, once it is `enough`.
+double Cost(const Problem& problem, const State& state, double enough) {
   double cost = 0;
   for (const Match& match : problem.matches) {
+    if (cost >= enough) break;
     const Vec3 e = PositionError(match, problem, state).cwiseQuotient(match.sigma);
     cost += 3 * Loss(e.squaredNorm() / 3, problem.loss_scale);
     if (match.has_yaw())
@@ -29,12 +31,12 @@ double Cost(const Problem& problem, const State& state) {
 /// The shift for a yaw: the median over the matches, which is robust against a few wrong ones.
 State WithYaw(double yaw, const Problem& problem) {
   State state{Rotation::RotZ(yaw), Vec3(Vec3::Zero())};
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> shifts;
-    for (const Match& match : problem.matches)
-      shifts.push_back((match.global - state.R * Vec3(match.local - problem.centre))[axis]);
-    state.t[axis] = Median(shifts);
+  std::vector<double> shifts[3];
+  for (const Match& match : problem.matches) {
+    const Vec3 shift = match.global - state.R * Vec3(match.local - problem.centre);
+    for (int axis = 0; axis < 3; ++axis) shifts[axis].push_back(shift[axis]);
   }
+  for (int axis = 0; axis < 3; ++axis) state.t[axis] = Median(std::move(shifts[axis]));
   return state;
 }
 
@@ -80,24 +82,20 @@ Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gra
   const Mat3 to_gravity = gravity.Basis().transpose();
   Problem problem{{}, Vec3(Vec3::Zero()), loss_scale};
   for (const DriftPair& pair : pairs) {
-    const Match match{to_gravity * pair.T_world_local.translation(),
-                      to_gravity * pair.T_world_global.translation(),
-                      gravity.YawOf(pair.T_world_local.so3()),
-                      gravity.YawOf(pair.T_world_global.so3()),
-                      YawPeriod(pair.symmetry),
-                      Vec3(pair.sigma_horizontal_m, pair.sigma_horizontal_m, pair.sigma_vertical_m),
-                      pair.sigma_yaw_rad};
-    problem.matches.push_back(match);
+    const double yaw_global = gravity.YawOf(pair.T_world_global.so3());
+    problem.matches.push_back(
+        {to_gravity * pair.T_world_local.translation(),
+         to_gravity * pair.T_world_global.translation(), gravity.YawOf(pair.T_world_local.so3()),
+         yaw_global, YawPeriod(pair.symmetry),
+         Vec3(pair.sigma_horizontal_m, pair.sigma_horizontal_m, pair.sigma_vertical_m),
+         pair.sigma_yaw_rad, Rotation::RotZ(-yaw_global).matrix()});
   }
   problem.centre = WeightedMean(problem.matches, &Match::local);
   return problem;
 }
 
-Mat3 UprightInverse(double yaw) { return Rotation::RotZ(-yaw).matrix(); }
-
 Vec3 PositionError(const Match& match, const Problem& problem, const State& state) {
-  return UprightInverse(match.yaw_global) *
-         (state.R * Vec3(match.local - problem.centre) + state.t - match.global);
+  return match.to_global * (state.R * Vec3(match.local - problem.centre) + state.t - match.global);
 }
 
 Vec3 Heading(const Match& match, const State& state) {
@@ -134,7 +132,7 @@ std::optional<Start> FindStart(const Problem& problem, double max_yaw_sigma_rad,
   double lowest = std::numeric_limits<double>::infinity();
   for (const double yaw : yaws) {
     const State state = WithYaw(yaw, problem);
-    const double cost = Cost(problem, state);
+    const double cost = Cost(problem, state, lowest);
     if (cost < lowest) {
       lowest = cost;
       best = state;

@@ -19,6 +19,7 @@ struct Match {
   double period = 0;  ///< period of the yaw; 0: no yaw
   Vec3 sigma;         ///< standard deviation of the position per axis [m]
   double sigma_yaw = 1;
+  Mat3 to_global;  ///< rotation to the axes of the global object
 
   bool has_yaw() const { return period > 0; }
   double weight() const { return 1 / (sigma.x() * sigma.x()); }
@@ -42,9 +43,6 @@ std::string Check(const std::vector<DriftPair>& pairs);
 
 Problem MakeProblem(const std::vector<DriftPair>& pairs, const GravityFrame& gravity,
                     double loss_scale);
-
-/// Rotation to the axes of an object with this yaw.
-Mat3 UprightInverse(double yaw);
 
 /// Translation of E = T_wo_g^-1 D T_wo_l. [m]
 Vec3 PositionError(const Match& match, const Problem& problem, const State& state);

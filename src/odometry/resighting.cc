@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "odometry/resighting.h"
 
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 
@@ -30,38 +29,53 @@ class LogProduct {
   double product_ = 1, sum_ = 0;
 };
 
-// Sum of the logs of Student-t densities, up to a constant.
-template <int kSize>
+// Sum of the logs of Student-t densities of `size` dimensions, up to a constant.
 class StudentLogs {
  public:
-  void Add(const Eigen::Matrix<double, kSize, 1>& error,
-           const Eigen::Matrix<double, kSize, kSize>& covariance) {
-    determinants_.Multiply(covariance.determinant());
-    distances_.Multiply(1 + error.dot(covariance.inverse() * error) / kFreedom);
+  explicit StudentLogs(int size) : size_(size) {}
+
+  // Determinant of the covariance, squared Mahalanobis distance.
+  void Add(double determinant, double distance2) {
+    determinants_.Multiply(determinant);
+    distances_.Multiply(1 + distance2 / kFreedom);
   }
   double Sum() const {
-    return -0.5 * determinants_.Log() - 0.5 * (kFreedom + kSize) * distances_.Log();
+    return -0.5 * determinants_.Log() - 0.5 * (kFreedom + size_) * distances_.Log();
   }
 
  private:
+  int size_;
   LogProduct determinants_, distances_;
+};
+
+// The horizontal part of a resighting; covariances by their elements (0, 0), (0, 1) and (1, 1).
+struct Level {
+  explicit Level(const Resighting& both)
+      : moved(both.moved.head<2>()),
+        detection(Elements(both.detection.topLeftCorner<2, 2>())),
+        translation(Elements(both.translation.topLeftCorner<2, 2>())),
+        rotation(Elements(both.rotation.topLeftCorner<2, 2>())),
+        fixed(Elements(both.fixed)) {}
+  static Eigen::Vector3d Elements(const Eigen::Matrix2d& m) { return {m(0, 0), m(0, 1), m(1, 1)}; }
+
+  Eigen::Vector2d moved;
+  Eigen::Vector3d detection, translation, rotation, fixed;
 };
 
 // The priors of the logs of all factors are standard normal, set by hand; `log_factors` are those
 // of the standard deviations of the detector, of positions and of headings.
-double HorizontalPosterior(const std::vector<Resighting>& all,
+double HorizontalPosterior(const std::vector<Level>& all,
                            const std::array<double, 3>& log_factors) {
   const auto [detector, position, heading] = log_factors;
   const double mean = 0.5 * (position + heading), ratio = (position - heading) / kRatioSigma;
   const double of_detector = std::exp(2 * detector), of_position = std::exp(2 * position),
                of_heading = std::exp(2 * heading);
-  StudentLogs<2> likelihood;
-  for (const Resighting& each : all) {
-    const Eigen::Matrix2d covariance = of_detector * each.detection.topLeftCorner<2, 2>() +
-                                       of_position * each.translation.topLeftCorner<2, 2>() +
-                                       of_heading * each.rotation.topLeftCorner<2, 2>() +
-                                       each.fixed;
-    likelihood.Add(each.moved.head<2>(), covariance);
+  StudentLogs likelihood(2);
+  for (const Level& each : all) {
+    const Eigen::Vector3d c = of_detector * each.detection + of_position * each.translation +
+                              of_heading * each.rotation + each.fixed;
+    const double x = each.moved.x(), y = each.moved.y(), determinant = c[0] * c[2] - c[1] * c[1];
+    likelihood.Add(determinant, (c[2] * x * x - 2 * c[1] * x * y + c[0] * y * y) / determinant);
   }
   return likelihood.Sum() - 0.5 * (detector * detector + mean * mean + ratio * ratio);
 }
@@ -71,11 +85,11 @@ double VerticalPosterior(const std::vector<Resighting>& all,
                          const std::array<double, 2>& log_factors) {
   const auto [detector, odometry] = log_factors;
   const double of_detector = std::exp(2 * detector), of_odometry = std::exp(2 * odometry);
-  StudentLogs<1> likelihood;
+  StudentLogs likelihood(1);
   for (const Resighting& each : all) {
     const double variance =
         of_detector * each.detection(2, 2) + of_odometry * each.odometry()(2, 2);
-    likelihood.Add(each.moved.tail<1>(), Eigen::Matrix<double, 1, 1>(variance));
+    likelihood.Add(variance, each.moved.z() * each.moved.z() / variance);
   }
   return likelihood.Sum() - 0.5 * (detector * detector + odometry * odometry);
 }
@@ -83,13 +97,14 @@ double VerticalPosterior(const std::vector<Resighting>& all,
 }  // namespace
 
 OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings) {
+  const std::vector<Level> level(resightings.begin(), resightings.end());
   const auto apart = MaximiseOverLogs<3>([&](const std::array<double, 3>& log_factors) {
-    return HorizontalPosterior(resightings, log_factors);
+    return HorizontalPosterior(level, log_factors);
   });
   double position = apart[1], heading = apart[2];
   if (position > heading) {
     const auto one = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
-      return HorizontalPosterior(resightings, {log_factors[0], log_factors[1], log_factors[1]});
+      return HorizontalPosterior(level, {log_factors[0], log_factors[1], log_factors[1]});
     });
     position = heading = one[1];
   }
