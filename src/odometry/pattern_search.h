@@ -24,6 +24,7 @@ std::array<double, kCount> MaximiseOverLogs(const Function& value) {
         best = tried;
         best_value = here;
         better = true;
+        break;  // the other way is where this came from
       }
     if (!better) step /= 2;
   }
