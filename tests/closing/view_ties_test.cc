@@ -254,8 +254,8 @@ TEST(ViewAligner, IsNotAskedWithoutLoopsOrWhenSwitchedOff) {
   off = {};
   off.loop.enabled = false;
   RunWith(drives, aligner, off);
-  RunWith(drives, aligner, DefaultOptions(Mode::kPaper));
   EXPECT_EQ(aligner.asked, 0);
+  EXPECT_FALSE(DefaultOptions(Mode::kPaper).loop.views.enabled);
 }
 
 TEST(ViewAligner, RefiningAgainDoesNotAddTies) {
