@@ -63,6 +63,10 @@ class Mutants(unittest.TestCase):
     def test_code_beside_a_message_is_kept(self):
         self.assertEqual(len(edits('if (a < b) reason = "a < b";')), 1)
 
+    def test_subjects_are_sources(self):
+        for source, *_ in [row for subject in mutate.SUBJECTS.values() for row in subject]:
+            self.assertTrue((ROOT / source).is_file(), source)
+
     def test_the_same_seed_picks_the_same_sample(self):
         found = mutate.mutants(SOURCE)
         self.assertEqual(mutate.sample(found, 2, 1), mutate.sample(found, 2, 1))
