@@ -61,7 +61,7 @@ SUBJECTS = {
     "change": [("src/change/persistence.cc", "sslcd_change_tests", "Persistence*"),
                ("src/change/evidence.cc", "sslcd_change_tests", "Evidence*:Explain*"),
                ("src/change/looks.cc", "sslcd_change_tests", "Looks*:Explain*"),
-               ("src/change/places.cc", "sslcd_change_tests", "Explain*:Sightings*"),
+               ("src/change/places.cc", "sslcd_change_tests", "Places*:Explain*"),
                ("src/change/detection_rate.cc", "sslcd_change_tests", "DetectionRate*"),
                ("src/change/views.cc", "sslcd_change_tests", "Explain*"),
                ("src/change/learning.cc", "sslcd_change_tests", "Explain*:Persistence*")],
