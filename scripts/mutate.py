@@ -83,7 +83,7 @@ SUBJECTS = {
                 ("src/closing/mean_place.cc", "sslcd_closing_tests", "Drive*"),
                 ("src/closing/loop_closer.cc", "sslcd_closing_tests", "LoopCloser*:SecondSearch*:Review*:Adjustment*"),
                 ("src/closing/global_layout.cc", "sslcd_closing_tests", "GlobalLayout*"),
-                ("src/closing/loop_changes.cc", "sslcd_closing_tests", "LoopLedger*"),
+                ("src/closing/loop_changes.cc", "sslcd_closing_tests", "LoopChanges*:LoopLedger*"),
                 ("src/closing/parts.cc", "sslcd_closing_tests", "JoinParts*:Place*"),
                 ("src/closing/path_graph.cc", "sslcd_closing_tests", "PathGraph*"),
                 ("src/closing/split_fused.cc", "sslcd_closing_tests", "SplitFused*"),
