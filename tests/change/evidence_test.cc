@@ -64,6 +64,21 @@ TEST(DetectionRate, DependsOnRangeAndBearingAndWhatIsHidden) {
   EXPECT_LT(rate.At({0, 5, 0, 0.1, false}, "Car"), 0.2);
 }
 
+TEST(DetectionRate, IsThatOfRangesWithinATenthOfTheLongest) {
+  Views views;
+  for (int i = 0; i < 200; ++i) {
+    const float range_m = i % 2 == 0 ? 6.f : 50.f;
+    views.push_back({static_cast<double>(i), range_m, 0, 1, range_m < 10});
+  }
+  const DetectionRate rate({Car()}, {{views}});
+  const auto at = [&](float range_m) { return rate.At({0, range_m, 0, 1, false}, "Car"); };
+  EXPECT_GT(at(6), 0.9);
+  EXPECT_EQ(at(9.9f), at(6));
+  EXPECT_EQ(at(5.1f), at(6));
+  EXPECT_NEAR(at(10.1f), 0.5, 0.05) << "of all ranges";
+  EXPECT_NEAR(at(4.9f), 0.5, 0.05);
+}
+
 TEST(Evidence, SightingsSpeakForAndMissesAgainst) {
   EXPECT_GT(LogOdds(MakeViews("s.ssss.s")), 8);
   EXPECT_LT(LogOdds(MakeViews("........")), -2);
