@@ -79,7 +79,7 @@ SUBJECTS = {
                  "TrajectoryUncertainty*"),
                 ("src/closing/resightings.cc", "sslcd_closing_tests",
                  "ResightingsOf*:LargestTiltFactor*:LearnOdometryInSight*"),
-                ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*"),
+                ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*:WithRefinedSteps*"),
                 ("src/closing/mean_place.cc", "sslcd_closing_tests", "Drive*"),
                 ("src/closing/loop_closer.cc", "sslcd_closing_tests", "LoopCloser*:SecondSearch*:Review*:Adjustment*"),
                 ("src/closing/global_layout.cc", "sslcd_closing_tests", "GlobalLayout*"),
