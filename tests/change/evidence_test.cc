@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sslcd {
@@ -77,6 +78,14 @@ TEST(DetectionRate, IsThatOfRangesWithinATenthOfTheLongest) {
   EXPECT_EQ(at(5.1f), at(6));
   EXPECT_NEAR(at(10.1f), 0.5, 0.05) << "of all ranges";
   EXPECT_NEAR(at(4.9f), 0.5, 0.05);
+}
+
+TEST(DetectionRate, AtNoDistanceOrNoneThatIsANumber) {
+  for (const float range_m : {0.f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    const Views views(10, View{0, range_m, range_m, 1, true});
+    const double rate = DetectionRate({Car()}, {{views}}).At(views[0], "Car");
+    EXPECT_GT(rate, 0.5) << range_m;
+  }
 }
 
 TEST(Evidence, SightingsSpeakForAndMissesAgainst) {
