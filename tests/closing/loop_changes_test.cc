@@ -80,6 +80,12 @@ TEST(LoopChanges, OnlyAttemptsFromTheFirstNewFrameOnAreToldAgain) {
   told.Take(ledger);
   changes.TakeOver(told, ledger, 70);
   EXPECT_EQ(IdsOf(changes.Take(ledger)), (std::vector<int>{1, 2}));
+
+  LoopLedger young;  // hardly changed yet
+  young.Add(Loop(1, 25, kOpen), {}, 50);
+  LoopChanges of_young;
+  of_young.TakeOver(LoopChanges(), young, 0);
+  EXPECT_EQ(IdsOf(of_young.Take(young)), (std::vector<int>{0}));
 }
 
 TEST(LoopChanges, AnEarlyLoopThatEndsBeforeItIsToldAgainIsToldAsEnded) {
