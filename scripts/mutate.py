@@ -10,7 +10,8 @@
 A mutant is one edit of one source file: a comparison, an arithmetic or logical operator, a
 constant, a sign, a dropped `!`, min for max, true for false. It is written to a temporary folder,
 compiled there with the build folder's flags but not optimised, and linked before the library into a
-copy of the test binary: sources and build folder stay as they are. The headers are compiled once.
+copy of the test binary: sources and build folder stay as they are. The headers are compiled once. If
+the build folder compiles several sources at a time, those beside the mutant are compiled one by one.
 Killed: a test fails, crashes or takes ten times as long. The same seed picks the same sample. Exit
 status 1 if fewer than --min-killed percent of the mutants that compile are killed.
 """
@@ -24,6 +25,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -46,10 +48,27 @@ SUBJECTS = {
     "odometry": [("src/pose_graph/relative_covariance.cc", "sslcd_pose_graph_tests",
                   "RelativeCovariances*"),
                  ("src/odometry/resighting.cc", "sslcd_odometry_tests", "FactorsFromResightings*"),
-                 ("src/odometry/pattern_search.cc", "sslcd_odometry_tests", "MaximiseOverLogs*")],
+                 ("src/odometry/odometry_factors.cc", "sslcd_odometry_tests", "*Factors*"),
+                 ("src/odometry/odometry_noise.cc", "sslcd_odometry_tests", "Odometry*:SigmasOf*")],
     "search": [("src/loop/pose_search.cc", "sslcd_loop_tests", "SearchPoses*")],
     "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],
     "motion": [("src/map/motion_test.cc", "sslcd_map_tests", "MotionTest*")],
+    "map": [("src/map/object_map.cc", "sslcd_map_tests", "*"),
+            ("src/map/map_landmark.cc", "sslcd_map_tests", "*"),
+            ("src/map/noise_learning.cc", "sslcd_map_tests", "LearnNoise*"),
+            ("src/association/associate.cc", "sslcd_association_tests", "Associat*"),
+            ("src/perception/filter.cc", "sslcd_perception_tests", "Filter*")],
+    "change": [("src/change/persistence.cc", "sslcd_change_tests", "Persistence*"),
+               ("src/change/evidence.cc", "sslcd_change_tests", "Evidence*:Explain*"),
+               ("src/change/looks.cc", "sslcd_change_tests", "Looks*:Explain*"),
+               ("src/change/places.cc", "sslcd_change_tests", "Places*:Explain*"),
+               ("src/change/detection_rate.cc", "sslcd_change_tests", "DetectionRate*"),
+               ("src/change/views.cc", "sslcd_change_tests", "Views*:Explain*"),
+               ("src/change/learning.cc", "sslcd_change_tests", "LearnChanges*")],
+    "retrieval": [("src/retrieval/site_fit.cc", "sslcd_retrieval_tests", "SiteFit*"),
+                  ("src/retrieval/pose_votes.cc", "sslcd_retrieval_tests", "PoseVotes*"),
+                  ("src/retrieval/constellation_key.cc", "sslcd_retrieval_tests", "Constellation*"),
+                  ("src/retrieval/find_site.cc", "sslcd_retrieval_tests", "*Site*:HighestScores*")],
     "closing": [("src/closing/loop_ledger.cc", "sslcd_closing_tests", "LoopLedger*"),
                 ("src/closing/loop_corrector.cc", "sslcd_closing_tests",
                  "*Loop*:CorrectTrajectory*:FuseMatched*:LayoutChange*"),
@@ -60,14 +79,27 @@ SUBJECTS = {
                  "TrajectoryUncertainty*"),
                 ("src/closing/resightings.cc", "sslcd_closing_tests",
                  "ResightingsOf*:LargestTiltFactor*:LearnOdometryInSight*"),
-                ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*"),
+                ("src/closing/loop_graph.cc", "sslcd_closing_tests", "BuildLoopGraph*:WithRefinedSteps*"),
                 ("src/closing/mean_place.cc", "sslcd_closing_tests", "Drive*"),
                 ("src/closing/loop_closer.cc", "sslcd_closing_tests", "LoopCloser*:SecondSearch*:Review*:Adjustment*"),
                 ("src/closing/global_layout.cc", "sslcd_closing_tests", "GlobalLayout*"),
+                ("src/closing/loop_changes.cc", "sslcd_closing_tests", "LoopChanges*:LoopLedger*"),
+                ("src/closing/parts.cc", "sslcd_closing_tests", "JoinParts*:Place*"),
+                ("src/closing/path_graph.cc", "sslcd_closing_tests", "PathGraph*"),
+                ("src/closing/split_fused.cc", "sslcd_closing_tests", "SplitFused*"),
+                ("src/closing/loop_heights.cc", "sslcd_closing_tests", "HeightsByLoops*"),
+                ("src/closing/view_ties.cc", "sslcd_closing_tests", "TieViews*:ViewAligner*"),
+                ("src/closing/pass_map.cc", "sslcd_closing_tests", "PassMap*"),
                 ("src/closing/remeasure.cc", "sslcd_closing_tests",
                  "ReviewLoops*:ByViews*:LearnOdometry*")],
     "fusion": [("src/refine/fuse.cc", "sslcd_refine_tests", "Fuse*:SeenTogether*:PathSegments*")],
-    "refinement": [("src/refine/refine_map.cc", "sslcd_refine_tests", "RefineMap*")],
+    "refinement": [("src/refine/refine_map.cc", "sslcd_refine_tests", "RefineMap*"),
+                   ("src/refine/improvement.cc", "sslcd_refine_tests", "*Odometry*:Probability*"),
+                   ("src/refine/trajectory_correction.cc", "sslcd_refine_tests",
+                    "Move*:SelectKeyframes*"),
+                   ("src/bundle/path_variance.cc", "sslcd_bundle_tests", "PathVariances*"),
+                   ("src/pipeline/final_trajectory.cc", "sslcd_pipeline_tests", "FinalTrajectory*"),
+                   ("src/pipeline/gravity_aligner.cc", "sslcd_pipeline_tests", "GravityAligner*")],
 }
 
 SWAPS = {  # binary operators; the house format puts a blank on both sides of them and of no others
@@ -162,20 +194,51 @@ def sample(found, count, seed):
     return found if count is None else sorted(sorted(found, key=rank)[:count])
 
 
+class Library:
+    """How the build folder compiles a source file, and what must be linked in place of the rest."""
+    def __init__(self, build, folder):
+        self.build, self.folder, self.objects = build, Path(folder), {}
+        commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+        self.entries = {}  # source -> flags, sources of the same object
+        for entry in commands:
+            file = Path(entry["directory"], entry["file"]).resolve()
+            flags = shlex.split(entry["command"].split(" -o ")[0])  # -o OBJECT -c SOURCE come last
+            sources = [file]
+            if file.parent.name == "Unity":
+                text = file.read_text(encoding="utf-8")
+                sources = [Path(s).resolve() for s in re.findall(r'^#include "(.*)"', text, re.M)]
+            self.entries.update({source: (flags, sources) for source in sources})
+
+    def flags(self, source):
+        if source not in self.entries:
+            sys.exit(f"{self.build} does not compile {source}")
+        return list(self.entries[source][0])
+
+    def neighbours(self, source):
+        """Objects of the sources that the build folder compiles together with this one."""
+        flags, sources = self.entries[source]
+        missing = [s for s in sources if s not in self.objects and s != source]
+        objects = {s: self.folder / f"{len(self.objects) + i}_{s.name}.o"
+                   for i, s in enumerate(missing)}
+
+        def compile_one(other):
+            subprocess.run([*flags, "-O1", "-w", "-o", str(objects[other]), "-c", str(other)],
+                           cwd=self.build, check=True)
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(compile_one, missing))
+        self.objects.update(objects)
+        return [str(self.objects[s]) for s in sources if s != source]
+
+
 class Bench:
     """Builds one source file anew, in a folder of its own, and runs the tests on it."""
-    def __init__(self, root, build, source, target, gtest_filter, folder):
+    def __init__(self, root, library, source, target, gtest_filter, folder):
+        build = library.build
         self.build, self.filter, self.folder = build, gtest_filter, Path(folder)
         self.copy = self.folder / Path(source).name
         self.binary, self.limit_s = self.folder / target, None
-        commands = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
         source = (root / source).resolve()
-        entry = next((c for c in commands if Path(c["directory"], c["file"]).resolve() == source), None)
-        if entry is None:
-            sys.exit(f"{build} does not compile {source} by itself; configure a folder that does, "
-                     "e.g. cmake --preset release -B build/mutate -DCMAKE_UNITY_BUILD=OFF, build it "
-                     "and name it with --build")
-        flags = shlex.split(entry["command"].split(" -o ")[0])  # -o OBJECT -c SOURCE come last
+        flags = library.flags(source)
         flags += ["-O0", "-w", "-iquote", str(source.parent)]
         headers = self.folder / "headers.h"
         headers.write_text("\n".join(re.findall(r"^#include .*", source.read_text("utf-8"), re.M)))
@@ -188,7 +251,8 @@ class Bench:
         link = re.search(r"(?:^: && |^)(\S*(?:\+\+|cc)\S* .*?)(?: && .*)?$", lines[-1]).group(1)
         self.link = shlex.split(link)
         output = self.link.index("-o") + 1
-        self.link[output:output + 1] = [str(self.binary), f"{self.copy}.o"]
+        self.link[output:output + 1] = [str(self.binary), f"{self.copy}.o",
+                                        *library.neighbours(source)]
 
     def verdict(self, text):
         """(killed, survived or did not compile; what the tests or the compiler said)"""
@@ -210,7 +274,7 @@ class Bench:
         return ("survived" if done.returncode == 0 else "killed"), done.stdout
 
 
-def run_subject(root, build, subject, options, rows):
+def run_subject(root, library, subject, options, rows):
     """One source file; appends (verdict, place, kind, before, after) to rows."""
     source, target, gtest_filter = subject
     text = (root / source).read_text(encoding="utf-8")
@@ -218,7 +282,7 @@ def run_subject(root, build, subject, options, rows):
     with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
         bench = None
         if not options.list:
-            bench = Bench(root, build, source, target, gtest_filter, folder)
+            bench = Bench(root, library, source, target, gtest_filter, folder)
             verdict, said = bench.verdict(text)
             if verdict != "survived" or "[  PASSED  ] 0 tests" in said:
                 sys.exit(f"error: {source} as it is: {verdict}, {target} {gtest_filter}\n{said}")
@@ -269,11 +333,13 @@ def main():
     if not options.list:
         subprocess.run(["ninja", "-C", build, *{s[1] for s in chosen}], check=True,
                        stdout=subprocess.DEVNULL)
-    try:
-        for subject in chosen:
-            run_subject(options.root, build, subject, options, rows)
-    except KeyboardInterrupt:
-        print("interrupted")
+    with tempfile.TemporaryDirectory(prefix="mutate-") as folder:
+        library = None if options.list else Library(build, folder)
+        try:
+            for subject in chosen:
+                run_subject(options.root, library, subject, options, rows)
+        except KeyboardInterrupt:
+            print("interrupted")
     if options.list:
         return 0
     lines, percent = summary(rows)

@@ -15,6 +15,11 @@ constexpr double kHalf = 8, kLowest = 0.01, kHighest = 0.99;
 // Visible shares: below the first, between the first and the second, ...
 constexpr float kVisible[] = {0.05f, 0.25f, 0.5f, 0.75f, 0.97f};
 
+// The whole number of a value from 0 to `most`, which values beyond are taken for, and NaN for 0.
+int Step(double value, int most) {
+  return value > 0 ? static_cast<int>(std::min<double>(value, most)) : 0;
+}
+
 }  // namespace
 
 DetectionRate::DetectionRate(const std::vector<Place>& places,
@@ -44,8 +49,8 @@ DetectionRate::DetectionRate(const std::vector<Place>& places,
 std::array<DetectionRate::Cell, DetectionRate::kLevels> DetectionRate::CellsOf(
     const View& view, const std::string& label) const {
   const double turns = view.bearing_rad / (2 * M_PI) + 0.5;
-  const int sector = static_cast<int>(turns * kSectors);
-  const int ring = static_cast<int>(kRings * view.range_m / range_m_);
+  const int sector = Step(turns * kSectors, kSectors);
+  const int ring = Step(kRings * view.range_m / range_m_, kRings);
   const int visible =
       static_cast<int>(std::lower_bound(std::begin(kVisible), std::end(kVisible), view.visible) -
                        std::begin(kVisible));

@@ -84,10 +84,13 @@ std::string SchemaText(Database& database) {
   return text;
 }
 
-std::string PresentSchemaText() {
-  Database database(":memory:", Database::Access::kCreate);
-  Migrate(database, SchemaMigrations());
-  return SchemaText(database);
+const std::string& PresentSchemaText() {
+  static const std::string text = [] {
+    Database database(":memory:", Database::Access::kCreate);
+    Migrate(database, SchemaMigrations());
+    return SchemaText(database);
+  }();
+  return text;
 }
 
 bool IsEmptyMap(const std::string& path) {

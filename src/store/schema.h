@@ -31,7 +31,7 @@ FileKind KindOf(Database& database, int known_version);
 /// The SQL of all tables and indices, in order of their names, as the file holds it.
 std::string SchemaText(Database& database);
 /// The same of a file of the present schema.
-std::string PresentSchemaText();
+const std::string& PresentSchemaText();
 
 /// Whether the file, which must be there, is a map that has no session yet.
 bool IsEmptyMap(const std::string& path);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace sslcd {
@@ -62,6 +63,29 @@ TEST(DetectionRate, DependsOnRangeAndBearingAndWhatIsHidden) {
   EXPECT_LT(rate.At({0, 50, 0, 1, false}, "Car"), 0.2);
   EXPECT_LT(rate.At({0, 5, 1.5, 1, false}, "Car"), 0.2);
   EXPECT_LT(rate.At({0, 5, 0, 0.1, false}, "Car"), 0.2);
+}
+
+TEST(DetectionRate, IsThatOfRangesWithinATenthOfTheLongest) {
+  Views views;
+  for (int i = 0; i < 200; ++i) {
+    const float range_m = i % 2 == 0 ? 6.f : 50.f;
+    views.push_back({static_cast<double>(i), range_m, 0, 1, range_m < 10});
+  }
+  const DetectionRate rate({Car()}, {{views}});
+  const auto at = [&](float range_m) { return rate.At({0, range_m, 0, 1, false}, "Car"); };
+  EXPECT_GT(at(6), 0.9);
+  EXPECT_EQ(at(9.9f), at(6));
+  EXPECT_EQ(at(5.1f), at(6));
+  EXPECT_NEAR(at(10.1f), 0.5, 0.05) << "of all ranges";
+  EXPECT_NEAR(at(4.9f), 0.5, 0.05);
+}
+
+TEST(DetectionRate, AtNoDistanceOrNoneThatIsANumber) {
+  for (const float range_m : {0.f, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    const Views views(10, View{0, range_m, range_m, 1, true});
+    const double rate = DetectionRate({Car()}, {{views}}).At(views[0], "Car");
+    EXPECT_GT(rate, 0.5) << range_m;
+  }
 }
 
 TEST(Evidence, SightingsSpeakForAndMissesAgainst) {

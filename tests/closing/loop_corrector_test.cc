@@ -71,6 +71,30 @@ TEST(AgreesWithNewLoops, AsksNothingOfLoopsThatWereNeverAccepted) {
   EXPECT_TRUE(AgreesWithNewLoops(world.state, ledger));
 }
 
+// A refinement has moved some frames aside, which odometry knows nothing of.
+TEST(CorrectTrajectory, KeepsTheStepsOfARefinementUntilOneOfItsLoopsIsRefused) {
+  for (const bool wrong : {false, true}) {
+    TwoPasses world;
+    LoopLedger ledger;
+    for (const int i : {-25, 0, 25}) Accept(ledger, world, kFirst + i, kSecond + i);
+    if (wrong) Accept(ledger, world, kFirst + 5, kSecond + 12, Pose::Trans(8, 0, 0));
+    FrameStore& frames = world.state.frames;
+    for (int f = kSecond + 8; f <= kSecond + 18; ++f)
+      frames.SetPose(f, frames[f].T_world_cam * Pose::Trans(0.5, 0, 0));
+    frames.MarkRefined();
+    ledger.MarkRefined();
+    ASSERT_TRUE(CorrectTrajectory(world.state, ledger, 1., LoopOptions(), {}, {}));
+    EXPECT_EQ(ledger.RefinedByRefused(), wrong);
+    const int match = kFirst + 13, query = kSecond + 13;
+    const double aside = Apart(frames[match].T_world_cam.inverse() * frames[query].T_world_cam,
+                               world.TrueLoop(match, query));
+    if (wrong)
+      EXPECT_LT(aside, 0.1);
+    else
+      EXPECT_GT(aside, 0.3);
+  }
+}
+
 TEST(CorrectTrajectory, NothingMovesWhereTheGraphCannotBeSolved) {
   for (const bool robust : {true, false}) {
     TwoPasses world(kDrift);

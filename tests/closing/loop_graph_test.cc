@@ -3,19 +3,26 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <utility>
+
 namespace sslcd {
 namespace {
 
-// 40 m straight ahead, a frame every metre; the world is 1.1 times the odometry.
-FrameStore Line() {
-  FrameStore frames;
-  for (int i = 0; i <= 40; ++i) {
+// Straight ahead, a frame every metre; the world is 1.1 times the odometry.
+void DriveOn(FrameStore& frames, int end, std::optional<StepUncertainty> first = {}) {
+  for (int i = frames.size(); i <= end; ++i) {
     FrameRecord record;
     record.frame = 100 + i;
     record.T_odom_cam = Pose::Trans(0, 0, i);
     record.T_world_cam = Pose::Trans(0, 0, 1.1 * i);
-    frames.Append(record);
+    frames.Append(record, std::exchange(first, std::nullopt));
   }
+}
+
+FrameStore Line() {
+  FrameStore frames;
+  DriveOn(frames, 40);
   return frames;
 }
 
@@ -78,6 +85,30 @@ TEST(BuildLoopGraph, OdometryOfALongerStepIsLessCertain) {
   ASSERT_EQ(graph.edges[0].to, 3);
   ASSERT_EQ(graph.edges[1].to, 10);
   EXPECT_GT(graph.edges[0].information(0, 0), graph.edges[1].information(0, 0));
+}
+
+TEST(WithRefinedSteps, OnlyStepsBetweenRefinedFramesOfOnePartAreReplaced) {
+  FrameStore frames;
+  DriveOn(frames, 14);
+  DriveOn(frames, 35, StepUncertainty{true, 0, 0});  // odometry was lost before frame 15
+  frames.MarkRefined();
+  DriveOn(frames, 60);
+  LoopOptions options;
+  options.keyframe_m = 10;
+  const LoopClosure closure = Closure(LoopDecision::kAccepted, 1);
+  const LoopGraph graph = BuildLoopGraph(frames, {{0, 60, &closure}}, 1., kUp, options, {});
+  const PoseGraph refined = WithRefinedSteps(frames, graph);
+  ASSERT_EQ(refined.edges.size(), graph.graph.edges.size());
+  std::vector<int> replaced;
+  for (std::size_t k = 0; k < refined.edges.size(); ++k) {
+    const PoseGraph::Edge &before = graph.graph.edges[k], &after = refined.edges[k];
+    EXPECT_EQ(before.information, after.information);
+    if (before.T_from_to.matrix() == after.T_from_to.matrix()) continue;
+    replaced.push_back(after.to);
+    EXPECT_NEAR(after.T_from_to.translation().z(), 1.1 * (after.to - after.from), 1e-9);
+  }
+  EXPECT_EQ(graph.keyframes, (std::vector<int>{0, 10, 14, 15, 25, 35, 45, 55, 60}));
+  EXPECT_EQ(replaced, (std::vector<int>{10, 14, 25, 35}));
 }
 
 }  // namespace

@@ -6,35 +6,10 @@
 #include <vector>
 
 #include "closing/loop_changes.h"
+#include "loops_of_a_line.h"
 
 namespace sslcd {
 namespace {
-
-FrameStore Line(int count) {
-  FrameStore frames;
-  for (int i = 0; i < count; ++i) {
-    FrameRecord record;
-    record.frame = i;
-    record.T_odom_cam = Pose::Trans(0, 0, i);
-    frames.Append(record);
-  }
-  return frames;
-}
-
-FoundLoop Loop(int match, int query, LoopDecision decision, int track = -1,
-               bool confirmed = false) {
-  FoundLoop found;
-  found.loop.match = match;
-  found.loop.query = query;
-  found.loop.row.query_frame = query;
-  found.loop.row.decision = decision;
-  found.loop.row.reason = "as found";
-  found.track = track;
-  found.confirmed = confirmed;
-  return found;
-}
-
-constexpr LoopDecision kOpen = LoopDecision::kAmbiguous, kAccepted = LoopDecision::kAccepted;
 
 TEST(LoopLedger, TwoCamerasAreEnteredOncePerNewestFrame) {
   LoopLedger ledger;
@@ -45,12 +20,6 @@ TEST(LoopLedger, TwoCamerasAreEnteredOncePerNewestFrame) {
   EXPECT_TRUE(ledger.Add(Loop(3, 50, kOpen), {}, 65));
   EXPECT_EQ(ledger.Rows().size(), 4u);
   EXPECT_EQ(ledger.Rows()[3].newest_frame, 65);
-}
-
-std::vector<int> IdsOf(const std::vector<LoopClosure>& rows) {
-  std::vector<int> ids;
-  for (const LoopClosure& row : rows) ids.push_back(row.id);
-  return ids;
 }
 
 // The ledger of a copy that replaces its original.
@@ -143,24 +112,6 @@ TEST(LoopLedger, AnAttemptHasAnotherIdThanAnEarlyLoopOfTheSameCameras) {
   copy.Add(Loop(6, 40, kAccepted), {}, 60);
   copy.ReserveIds(ledger);
   EXPECT_EQ(IdsOf(copy.Rows()), (std::vector<int>{1}));
-}
-
-TEST(LoopLedger, AnEarlyLoopThatEndsBeforeItIsToldAgainIsToldAsEnded) {
-  const FrameStore frames = Line(80);
-  LoopLedger ledger, copy;
-  LoopChanges told, changes;
-  for (LoopLedger* one : {&ledger, &copy}) {
-    one->Add(Loop(1, 35, kAccepted), {}, 60);
-    one->AcceptNewest();
-    one->AddEarly(Loop(6, 40, kAccepted), 60);
-  }
-  told.Take(ledger);
-  copy.ReserveIds(ledger);
-  changes.TakeOver(told, copy, 60);
-  copy.DropEarly(frames, 80);
-  const std::vector<LoopClosure> rows = changes.Take(copy);
-  ASSERT_EQ(IdsOf(rows), (std::vector<int>{0, 1}));
-  EXPECT_EQ(rows[1].decision, LoopDecision::kNone);
 }
 
 TEST(LoopLedger, ATrackIsAcceptedWithItsConfirmedAttempts) {

@@ -94,6 +94,14 @@ TEST(OdometryPrior, FallsWithEveryMetreAndEveryTurn) {
       << "layouts have heights of their own";
 }
 
+TEST(OdometryPrior, ATurnAboutTheCentreShiftsNothing) {
+  const Prior prior;
+  for (const double turn_rad : {-0.02, 0.02})
+    for (const Vec3& way : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, -1, 0)})
+      EXPECT_LT(prior.Level(turn_rad, 10 * way), prior.Level(turn_rad, Vec3::Zero()) - 1)
+          << turn_rad << ", " << way.transpose();
+}
+
 // Next to the centre the log density falls by (nu + 3) / (2 nu) times the squared Mahalanobis
 // distance, far from it by (nu + 3) / 2 times its logarithm.
 TEST(OdometryPrior, IsAStudentTAndHasHeavierTailsThanAGaussian) {

@@ -88,5 +88,18 @@ TEST_F(Drive, AFrontTakenForTheBackIsOutvoted) {
   EXPECT_NEAR(Mean()->pose.yaw, kYaw, 1e-9);
 }
 
+TEST_F(Drive, ItsHeightIsAgainstTheNearestCamera) {
+  FrameStore rising;
+  for (FrameRecord record : state_.frames) {
+    record.T_world_cam.translation().y() = -0.1 * record.frame;
+    record.detections[0].T_cam_object =
+        record.T_world_cam.inverse() * Pose(state_.gravity().Upright(kYaw), kPlace);
+    rising.Append(record);
+  }
+  state_.frames = rising;
+  EXPECT_NEAR(Mean()->height_m, -1.9, 1e-9) << "the last one";
+  EXPECT_NEAR(Mean({0, 5, 1})->height_m, -1.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace sslcd

@@ -289,6 +289,26 @@ TEST(PassMap, ANewAssociationIsWhatMostOfItsSightingsWere) {
   EXPECT_EQ(world.passes.passes()[0].own_id, other);
 }
 
+TEST(PassMap, LooksStayWithHalfOfTheSightings) {
+  for (const int moved : {1, 2, 3}) {
+    TwoVisits world;
+    const LandmarkId one = world.Add({4, 1, 12}), other = world.Add({4, 1, 12});
+    world.See(one, 0, 4);
+    for (FrameRecord& record : world.to_come)
+      for (Detection& detection : record.detections)
+        detection.appearance[Cue::kColour] = {1.f, 0.f};
+    world.Drive();
+    for (int f = 0; f < moved; ++f) world.state.frames.SetMatched(f, {other});
+    world.passes.Rebuild(world.state);
+    const auto views = [&](LandmarkId id) {
+      const int pass = world.passes.PassesOf(id).at(0);
+      return world.passes.passes()[pass].appearance[Cue::kColour].Views().size();
+    };
+    EXPECT_EQ(views(other) > 0, moved >= 2) << moved << " of 4, the first ones";
+    EXPECT_EQ(views(one) > 0, moved < 2) << moved;
+  }
+}
+
 TEST(PassMap, NearestSightingAlongThePath) {
   TwoVisits world;
   const LandmarkId tree = world.Add({4, 1, 12}), other = world.Add({-4, 1, 12});

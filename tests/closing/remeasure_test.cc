@@ -64,6 +64,9 @@ TEST(ReviewLoops, MeasuresTheOthersAgainByTheObjectsThatBothPassesShare) {
   EXPECT_LT(Apart(ledger.Rows()[0].T_match_query, world.TrueLoop(kMatch, kQuery)), 1e-3);
   EXPECT_GT(Apart(ledger.attempts()[0].row().T_match_query, world.TrueLoop(kMatch, kQuery)), 0.4)
       << "what decides about the loop stays as it was measured";
+  LoopLedger of_host = LedgerOf(world, Pose::Trans(0.4, 0, -0.3), 0);  // it names no scatter
+  ReviewLoops(world.state, world.passes, of_host, LoopOptions());
+  EXPECT_FALSE(of_host.attempts()[0].remeasured);
 }
 
 TEST(ReviewLoops, WithoutCommonObjectsTheFirstMeasurementStays) {

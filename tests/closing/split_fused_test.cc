@@ -146,6 +146,17 @@ TEST(SplitFused, GivesTheMapBeforeTheFusion) {
   EXPECT_EQ(world.passes.PassesOf({1}).size(), 2u) << "can be fused again";
 }
 
+TEST(SplitFused, ASingleSightingPlacesItsLandmark) {
+  Visits world;
+  world.Visit(world.objects, kDrift, 5, 6);
+  const Vec3 place = world.At(3).pose.position;
+  ASSERT_EQ(world.At(3).sightings.size(), 1u);
+  world.Fuse({{{1}, {3}}});
+  world.Split();
+  EXPECT_LT((world.At(3).pose.position - place).norm(), 1e-6);
+  EXPECT_GT((world.At(1).pose.position - place).norm(), 1);
+}
+
 TEST(SplitFused, ChangesNothingWhereNothingWasFused) {
   Visits world;
   world.Visit(world.objects, kDrift);

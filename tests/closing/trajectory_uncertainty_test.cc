@@ -145,6 +145,7 @@ TEST(TrajectoryUncertainty, FramesCountAsTheVertexNextToThem) {
   EXPECT_EQ(uncertainty.Between(0, 109), uncertainty.Between(0, 100));
   EXPECT_EQ(uncertainty.Between(0, 111), uncertainty.Between(0, 120));
   EXPECT_EQ(uncertainty.Between(3, 9), Mat6::Zero());
+  EXPECT_EQ(uncertainty.Between(3, 100), uncertainty.Between(0, 100));
   EXPECT_EQ(uncertainty.Between(200, 195), Mat6::Zero());
 }
 

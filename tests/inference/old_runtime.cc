@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stands for a libonnxruntime.so that is too old: it knows no table of functions of the version
 // that is asked for.
+#include <onnxruntime_c_api.h>
+
 #include <cstdint>
 
 namespace {
 
-struct ApiBase {
-  const void* (*get_api)(std::uint32_t version);
-  const char* (*get_version)();
-};
+const OrtApi* ORT_API_CALL NoApi(std::uint32_t) noexcept { return nullptr; }
+const char* ORT_API_CALL Version() noexcept { return "1.4.0"; }
 
 }  // namespace
 
-extern "C" const ApiBase* OrtGetApiBase() {
-  static const ApiBase base{[](std::uint32_t) -> const void* { return nullptr; },
-                            [] { return "1.4.0"; }};
+const OrtApiBase* ORT_API_CALL OrtGetApiBase() noexcept {
+  static const OrtApiBase base{NoApi, Version};
   return &base;
 }

@@ -168,9 +168,8 @@ TEST(LayoutLikelihoodEquation, DistanceDensityAndShares) {
   local.push_back(ObjectAt({5, 3, 0}));  // not mapped
   local[0].position.x() += 0.1;
   const LayoutIndex index(map, 50, 2);
-  const LayoutLikelihood likelihood(local, index, {});
-  const Equation equation{{{0.1, 0, 0}, {}, {}, {}}, 5, 5, 200, {}};
-  ExpectEquation(likelihood.Evaluate({}), equation, index);
+  ExpectEquation(LayoutLikelihood(local, index, {}).Evaluate({}),
+                 {{{0.1, 0, 0}, {}, {}, {}}, 5, 5, 200, {}}, index);
 }
 
 TEST(LayoutLikelihoodEquation, NothingUnmappedAndNothingUnseen) {
@@ -185,6 +184,12 @@ TEST(LayoutLikelihoodEquation, NothingUnmappedAndNothingUnseen) {
   ExpectEquation(LayoutLikelihood(local, index, options).Evaluate({}), equation, index);
 }
 
+TEST(LayoutLikelihoodEquation, OneMatch) {
+  const LayoutIndex index({ObjectAt({0, 0, 0}), ObjectAt({30, 0, 0})}, 50, 2);
+  const std::vector<LayoutObject> local = Square();
+  ExpectEquation(LayoutLikelihood(local, index, {}).Evaluate({}), {{{}}, 4, 1, 0, {}}, index);
+}
+
 TEST(LayoutLikelihoodEquation, Heights) {
   std::vector<LayoutObject> map = Square();
   for (std::size_t i = 0; i < 4; ++i) map[i].position.z() = i % 2 == 0 ? 0.4 : -0.4;
@@ -192,8 +197,8 @@ TEST(LayoutLikelihoodEquation, Heights) {
   local[1].position.z() += 0.3;
   const LayoutIndex index(map, 50, 2);
   EXPECT_GT(index.height_spread(), 0.3);
-  const Equation equation{{{}, {0, 0.3, 0}, {}, {}}, 4, 4, 200, {}};
-  ExpectEquation(LayoutLikelihood(local, index, {}).Evaluate({}), equation, index);
+  ExpectEquation(LayoutLikelihood(local, index, {}).Evaluate({}),
+                 {{{}, {0, 0.3, 0}, {}, {}}, 4, 4, 200, {}}, index);
 }
 
 TEST(LayoutLikelihoodEquation, RareLabelsTellMore) {

@@ -32,22 +32,26 @@ TEST(SemanticEvidence, RareLabelsCountMore) {
 }
 
 TEST(SemanticEvidence, InALargeMapWrongLabelsAreEquallyLikely) {
-  const std::vector<LayoutObject> map = CarParks(20, 1);
-  const LayoutIndex index(map, 50, 2);
-  ASSERT_NE(index.tiles(), nullptr);
-  const std::vector<LayoutObject> local = WithLabels({0, 1});
-  LayoutLikelihoodOptions options;
-  options.wrong_label = 0.1;
-  const SemanticEvidence evidence(local, index, options);
-  const auto of_label = [&](int label) {
-    for (std::size_t i = 0; i < map.size(); ++i)
-      if (map[i].label == label) return static_cast<int>(i);
-    return -1;
-  };
-  // of three labels: .9 for the right one, .05 for each of the others
-  for (const int i : {0, 1})
-    EXPECT_NEAR(evidence.Gain(i, of_label(i), 0) - evidence.Gain(i, of_label(2), 0),
-                std::log(0.9 / 0.05), 1e-9);
+  for (const int labels : {2, 3}) {
+    std::vector<LayoutObject> map = CarParks(20, 1);
+    for (LayoutObject& object : map) object.label %= labels;
+    const LayoutIndex index(map, 50, 2);
+    ASSERT_NE(index.tiles(), nullptr);
+    const std::vector<LayoutObject> local = WithLabels({0, 1});
+    LayoutLikelihoodOptions options;
+    options.wrong_label = 0.1;
+    const SemanticEvidence evidence(local, index, options);
+    const auto of_label = [&](int label) {
+      for (std::size_t i = 0; i < map.size(); ++i)
+        if (map[i].label == label) return static_cast<int>(i);
+      return -1;
+    };
+    // .9 for the right one, .1 for all others
+    for (const int i : {0, 1})
+      EXPECT_NEAR(
+          evidence.Gain(i, of_label(i), 0) - evidence.Gain(i, of_label((i + 1) % labels), 0),
+          std::log(0.9 / (0.1 / (labels - 1))), 1e-9);
+  }
 }
 
 TEST(SemanticEvidence, OneLabelIsNoEvidence) {
@@ -82,6 +86,16 @@ TEST(SemanticEvidence, AppearanceAddsToTheLabel) {
     EXPECT_EQ(evidence.Gain(0, global, 0), gain);
     EXPECT_EQ(evidence.Gain(0, global, 0), gain) << "from the cache";
   }
+}
+
+TEST(LayoutLikelihood, RareLabelsOutweighADistance) {
+  std::vector<LayoutObject> local = WithLabels({1, 2, 3, 4});
+  std::vector<LayoutObject> map = local;
+  for (LayoutObject& object : map) object.position.x() += 1;
+  for (int i = 0; i < 400; ++i)
+    map.push_back(ObjectAt({50. + 8 * (i % 20), 50. + 8 * (i / 20), 0}));
+  const LayoutIndex index(map, 50, 2);
+  EXPECT_EQ(LayoutLikelihood(local, index, {}).Evaluate({}).matches.size(), 4u);
 }
 
 }  // namespace

@@ -25,6 +25,12 @@ TEST(FuseDims, OneWildSizeChangesLittle) {
   EXPECT_LT((FuseDims(sightings) - Vec3(4, 1.6, 1.5)).norm(), 0.05);
 }
 
+TEST(FuseDims, ASizeThatIsOffBy15PercentHasHalfTheWeight) {
+  std::vector<Sighting> sightings(3, Of({4, 1.6, 1.5}, 20));
+  sightings.push_back(Of({4.6, 1.6, 1.5}, 20));
+  EXPECT_NEAR(FuseDims(sightings).x(), (3 * 4 + 0.5 * 4.6) / 3.5, 1e-9);
+}
+
 TEST(FuseDims, NearSightingsCountMore) {
   const Vec3 fused = FuseDims({Of({4.0, 1.6, 1.5}, 5), Of({4.2, 1.6, 1.5}, 60)});
   EXPECT_LT(fused.x(), 4.1);

@@ -50,6 +50,17 @@ TEST_F(ObjectMapTest, ParkedCarsBecomeTheMap) {
   EXPECT_NEAR(map.at({1}).pose.yaw, 1.5, 1e-9);
 }
 
+TEST_F(ObjectMapTest, HeightAndHeadingAreMeansOverTheSightings) {
+  ObjectMap map = Make();
+  const double heights[] = {1, 0.9, 1.1, 1.2}, yaws[] = {1.5, 1.6, 1.45 + M_PI, 1.65};
+  for (int frame = 0; frame < 4; ++frame)
+    map.AddFrame(frame, 0.1 * frame, Camera(frame),
+                 {See(frame, {3, heights[frame], 20}, yaws[frame])}, nullptr);
+  ASSERT_EQ(map.landmarks().size(), 1u);
+  EXPECT_NEAR(map.at({1}).pose.position.y(), 4.2 / 4, 1e-9);
+  EXPECT_NEAR(map.at({1}).pose.yaw, 6.2 / 4, 1e-9) << "a reversed heading counts as its opposite";
+}
+
 TEST_F(ObjectMapTest, ADrivingCarNeverEntersTheMap) {
   for (const double speed : {3., 8., -15.}) {
     ObjectMap map = Make();

@@ -17,20 +17,23 @@ SOURCE = """#include "tiny.h"
 bool Accept(double score, double limit) { return score >= limit; }
 double Unused(double x) { return x + 2.; }
 """
+OTHER = """#include "tiny.h"
+bool AcceptOne(double score) { return Accept(score, 1); }
+"""
 TEST = """#include "tiny.h"
-int main() { return Accept(1, 1) && Accept(2, 1) && !Accept(0, 1) ? 0 : 1; }
+int main() { return AcceptOne(1) && AcceptOne(2) && !AcceptOne(0) ? 0 : 1; }
 """
 NINJA = """rule cc
-  command = c++ -c $in -o $out
+  command = c++ -O2 -I.. -c $in -o $out
 rule archive
   command = ar rcs $out $in
 rule link
   command = : && c++ $in -o $out $library && :
-build tiny.o: cc ../tiny.cc
 build test.o: cc ../test.cc
-build libtiny.a: archive tiny.o
+build libtiny.a: archive %s
 build tiny_tests: link test.o | libtiny.a
   library = libtiny.a
+%s
 """
 
 
@@ -60,6 +63,10 @@ class Mutants(unittest.TestCase):
     def test_code_beside_a_message_is_kept(self):
         self.assertEqual(len(edits('if (a < b) reason = "a < b";')), 1)
 
+    def test_subjects_are_sources(self):
+        for source, *_ in [row for subject in mutate.SUBJECTS.values() for row in subject]:
+            self.assertTrue((ROOT / source).is_file(), source)
+
     def test_the_same_seed_picks_the_same_sample(self):
         found = mutate.mutants(SOURCE)
         self.assertEqual(mutate.sample(found, 2, 1), mutate.sample(found, 2, 1))
@@ -70,16 +77,30 @@ class Mutants(unittest.TestCase):
 
 class Run(unittest.TestCase):
     def test_what_no_test_calls_survives(self):
+        self.check_run(["../tiny.cc", "../other.cc"])
+
+    def test_sources_that_are_compiled_together(self):
+        self.check_run(["Unity/unity_0.cxx"])
+
+    def check_run(self, compiled):
+        """`compiled`: what the build folder compiles for the library, of which a file in Unity
+        includes both of its sources."""
         with tempfile.TemporaryDirectory() as folder:
-            root, build = Path(folder), Path(folder, "build")
-            build.mkdir()
-            header = "bool Accept(double score, double limit);\n"
-            for name, text in {"tiny.h": header, "tiny.cc": SOURCE, "test.cc": TEST,
-                               "build/build.ninja": NINJA}.items():
+            root, build = Path(folder).resolve(), Path(folder).resolve() / "build"
+            (build / "Unity").mkdir(parents=True)
+            objects = [Path(source).stem + ".o" for source in compiled]
+            rules = [f"build {o}: cc {source}" for o, source in zip(objects, compiled)]
+            header = "bool Accept(double score, double limit);\nbool AcceptOne(double score);\n"
+            for name, text in {
+                    "tiny.h": header, "tiny.cc": SOURCE, "other.cc": OTHER, "test.cc": TEST,
+                    "build/build.ninja": NINJA % (" ".join(objects), "\n".join(rules)),
+                    "build/Unity/unity_0.cxx": f'#include "{root}/tiny.cc"\n\n'
+                                               f'#include "{root}/other.cc"\n'}.items():
                 (root / name).write_text(text, encoding="utf-8")
-            entry = {"directory": str(build), "file": "../tiny.cc",
-                     "command": "c++ -o tiny.o -c ../tiny.cc"}
-            (build / "compile_commands.json").write_text(json.dumps([entry]), encoding="utf-8")
+            entries = [{"directory": str(build), "file": source,
+                        "command": f"c++ -O2 -I.. -o {o} -c {source}"}
+                       for o, source in zip(objects, compiled)]
+            (build / "compile_commands.json").write_text(json.dumps(entries), encoding="utf-8")
             table = root / "table.txt"
             command = [sys.executable, "-B", str(ROOT / "scripts/mutate.py"), "--root", str(root),
                        "--build", str(build), "--source", "tiny.cc", "--target", "tiny_tests",

@@ -33,7 +33,10 @@ TEST(FinalTrajectory, IsAPerfectOdometryAsItWasGiven) {
   EXPECT_EQ(result.scale, 1);
   Options always;
   always.refine.least_probability = 0;
-  EXPECT_GT(LargestChange(drives.Run(always).trajectory, result.odometry), 1e-3);
+  const RunResult optimised = drives.Run(always);
+  EXPECT_GT(LargestChange(optimised.trajectory, result.odometry), 1e-3);
+  EXPECT_GT(result.improvement.horizontal, 0);
+  EXPECT_EQ(optimised.improvement.horizontal, 0) << "nobody asks";
 }
 
 TEST(FinalTrajectory, IsTheOptimisedOneWhereOdometryDrifts) {

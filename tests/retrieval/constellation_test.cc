@@ -103,5 +103,35 @@ TEST(ConstellationKey, TheProbesHaveTheCellOfANearOne) {
   EXPECT_LT(searched.Difference(0x5555, own.inside, kMost), kDifferenceSteps);
 }
 
+// Coordinates by their places in cells, of which the first one begins at zero.
+Constellation InCells(const std::array<float, kCoordinates>& at) {
+  Constellation one;
+  for (int i = 0; i < kCoordinates; ++i)
+    one.coordinates[i] = 6 * (std::pow(at[i] / 8 + 1, 2.f) - 1);
+  return one;
+}
+
+TEST(ConstellationKey, ProbesCrossTheBordersThatAreNear) {
+  std::array<float, kCoordinates> middle{};
+  for (int i = 0; i < kCoordinates; ++i) middle[i] = static_cast<float>(i) + 0.5f;
+  std::vector<Probe> probes;
+  SearchedConstellation(InCells(middle)).AppendProbes(4, probes);
+  EXPECT_EQ(probes.size(), 1u) << "all borders are too far";
+  for (int i = 0; i < kCoordinates; ++i)
+    for (const int side : {-1, 1}) {
+      std::array<float, kCoordinates> near = middle, across = middle;
+      near[i] += 0.4f * static_cast<float>(side);  // a tenth of a cell from the border
+      across[i] += 0.6f * static_cast<float>(side);
+      probes.clear();
+      SearchedConstellation(InCells(near)).AppendProbes(4, probes);
+      ASSERT_EQ(probes.size(), 2u) << i;
+      EXPECT_EQ(probes[0].offsets, 0x5555);
+      EXPECT_EQ(probes[1].offsets, 0x5555 + side * (1 << 2 * i)) << i;
+      EXPECT_EQ(probes[1].cell, KeyOf(InCells(across)).cell) << i;
+      const float sigmas = 0.1f / 0.22f;
+      EXPECT_NEAR(probes[1].cost, sigmas * (0.8f + 0.5f * sigmas), 1e-3);
+    }
+}
+
 }  // namespace
 }  // namespace sslcd

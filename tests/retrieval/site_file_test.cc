@@ -86,7 +86,7 @@ TEST(SiteFile, DamageIsToldApart) {
   std::reverse(other.begin() + 12, other.begin() + 16);
   EXPECT_THAT(Problem(other), HasSubstr("order of bytes"));
   EXPECT_THROW(SiteIndex("/no/such/file"), Error);
-  EXPECT_THROW(SiteIndex(testing::TempDir()), Error);
+  EXPECT_THROW(SiteIndex{testing::TempDir()}, Error);
 }
 
 TEST(SiteFile, EveryFlippedBitIsFound) {

@@ -75,6 +75,28 @@ TEST(SiteFit, ScoresElsewhereLess) {
   EXPECT_LT(Fit(other, {0.3f, 75, 75}).score, right / 3);
 }
 
+// Each object that both have counts with the density of a match against that of its label; those
+// that only one of them has count against the site.
+TEST(SiteFit, ScoreAsItsEquation) {
+  std::vector<SitePoint> site;
+  for (int i = 0; i < 6; ++i)  // 6 m apart, each in a cell of its own
+    site.push_back({6.f * static_cast<float>(i), 5.f * static_cast<float>(i % 2), 1, 0});
+  std::vector<SitePoint> stretch(site.begin(), site.end() - 1);
+  const auto score = [&] {
+    return FitSite(stretch, {site.data(), site.data() + site.size()}, {}).score;
+  };
+  const double match = std::log(0.75 / (2 * M_PI * 0.7 * 0.7)), missed = std::log(0.25);
+  const auto chance = [](int count, int cells) {
+    return std::log((count + 0.5) / (4 * 4 * 3 * cells));
+  };
+  EXPECT_NEAR(score(), 5 * (match - chance(6, 6)), 1e-3);
+  stretch.push_back({0, 100, 1, 0});  // far from all of the site
+  EXPECT_NEAR(score(), 5 * (match - chance(6, 6)) + missed, 1e-3);
+  // of another label, amid the stretch, in the cell of its neighbour
+  site.insert(site.end() - 1, {25, 2, 2, 0});
+  EXPECT_NEAR(score(), 5 * (match - chance(6, 6)) + missed - 0.7, 1e-3);
+}
+
 TEST(SiteFit, DegenerateInput) {
   const Case one = MakeCase();
   EXPECT_EQ(FitSite({}, {one.site.data(), one.site.data() + 3}, {}).matches, 0);
