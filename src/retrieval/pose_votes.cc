@@ -66,11 +66,14 @@ bool AreNear(const PoseVote& a, const PoseVote& b) {
 
 }  // namespace
 
-PoseVotes::PoseVotes() { Clear(); }
+PoseVotes::PoseVotes() {
+  for (auto& table : table_) table.resize(std::size_t{1} << kTableBits);
+}
 
 void PoseVotes::Clear() {
+  if (votes_.empty()) return;
   votes_.clear();
-  for (auto& table : table_) table.assign(std::size_t{1} << kTableBits, 0);
+  for (auto& table : table_) std::fill(table.begin(), table.end(), std::uint16_t{0});
 }
 
 void PoseVotes::Add(const PoseVote& vote) {
@@ -85,6 +88,7 @@ void PoseVotes::Add(const PoseVote& vote) {
 }
 
 std::vector<PoseVote> PoseVotes::Best(std::size_t most) const {
+  if (votes_.empty()) return {};  // without a look at the tables
   const int least = Threshold(table_, 2 * most);
   // Sites that share a cell of a table by chance are told apart here.
   std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Mean> means;

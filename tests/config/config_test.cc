@@ -4,8 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
+#include "../support/temp_folder.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -211,8 +210,8 @@ std::string ProblemsOf(const std::vector<FieldProblem>& problems, const std::str
 }
 
 TEST(Config, ProblemsNameWhereTheirKeysAreGiven) {
-  const std::string path = ::testing::TempDir() + "problems.yaml";
-  std::ofstream(path) << "loop:\n  neighbours: 7\n";
+  const TempFolder folder;
+  const std::string path = folder.Write("problems.yaml", "loop:\n  neighbours: 7\n");
   const std::vector<FieldProblem> problems{{{"loop.topology_m", "loop.neighbours"}, "no fit"},
                                            {{"on"}, "must be off"}};
   EXPECT_EQ(ProblemsOf(problems, path, {}), path + ":2:15: no fit\non: must be off");

@@ -64,6 +64,18 @@ TEST(SearchPoses, NoMorePosesThanAreRefined) {
   }
 }
 
+TEST(SearchPoses, AnEvenRowFitsBothWaysRound) {
+  std::vector<LayoutObject> row;
+  for (int i = 0; i < 12; ++i) row.push_back(ObjectAt({6. * i, 0, 0}));
+  int ahead = 0, reversed = 0;
+  for (const PoseHypothesis& one : Search(row, row)) {
+    if ((Apply(one.pose, Vec3(33, 0, 0)) - Vec3(33, 0, 0)).norm() > 1) continue;
+    (std::cos(one.pose.yaw) > 0 ? ahead : reversed) += 1;
+  }
+  EXPECT_EQ(ahead, 1);
+  EXPECT_EQ(reversed, 1);
+}
+
 // 80 equal trees in a row: the local map of 12 of them fits at 69 places, both ways round.
 struct EvenRow {
   static constexpr int kSeen = 12;

@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 
+#include "../support/temp_folder.h"
 #include "random_sites.h"
 #include "retrieval/checksum.h"
 #include "retrieval/site_tables.h"
@@ -25,9 +24,8 @@ std::string GoodBytes() {
 }
 
 std::string Put(const std::string& bytes) {
-  const std::string path = testing::TempDir() + "site_file_test.sites";
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
+  static const TempFolder folder;
+  return folder.Write("test.sites", bytes);
 }
 
 // What opening the bytes says; empty: nothing.

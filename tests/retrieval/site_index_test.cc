@@ -3,11 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <thread>
 
+#include "../support/temp_folder.h"
 #include "random_sites.h"
 #include "sslcd/core/error.h"
 
@@ -23,18 +23,15 @@ class SiteIndexTest : public testing::Test {
     return sites;
   }
 
-  std::string Path(const std::string& name = "all.sites") const { return folder_ + "/" + name; }
+  std::string Path(const std::string& name = "all.sites") const { return folder_.In(name); }
 
   static std::string Bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
  private:
-  std::string folder_ = testing::TempDir() + "site_index_test";
+  TempFolder folder_;
 };
 
 TEST_F(SiteIndexTest, AStretchIsFoundWithItsPose) {
