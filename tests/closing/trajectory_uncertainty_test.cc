@@ -190,5 +190,28 @@ TEST(TrajectoryUncertainty, ALostStepPartsTheTrajectoryUntilALoopJoinsIt) {
   EXPECT_FALSE(beside.Joined(0, 200)) << "loops on either side";
 }
 
+// Found on poles 00 as four sessions: the solver said that they are not connected.
+TEST(TrajectoryUncertainty, OfPartsThatStandFarApart) {
+  MapState state = LostAt(107);
+  constexpr double kFar = 30000;
+  for (int f = 107; f <= 200; ++f)
+    state.frames.SetPose(f, Pose::Trans(kFar, 0, 0) * state.frames[f].T_world_cam);
+  const OdometryModel model = Model({0.1, 0.1, 0.1, 1e-4});
+  const LoopClosure closure = Measured(1e-10);
+  const TrajectoryUncertainty apart(state, {{110, 190, &closure}}, model);
+  EXPECT_FALSE(apart.Joined(0, 200));
+  EXPECT_GT(apart.Between(0, 200)(0, 0), 1e6);
+  // as one part would have it at the place of the second
+  MapState whole = Straight(200);
+  for (int f = 0; f <= 200; ++f)
+    whole.frames.SetPose(f, Pose::Trans(kFar, 0, 0) * whole.frames[f].T_world_cam);
+  const TrajectoryUncertainty alone(whole, {}, model);
+  const Vec3 end(kFar, 0, 128);
+  const Eigen::Matrix3d moves =
+      AtPoint(TrajectoryUncertainty(state, {}, model).Between(108, 128), end);
+  EXPECT_TRUE(moves.isApprox(AtPoint(alone.Between(100, 120), end - Vec3(0, 0, 8)), 1e-3));
+  EXPECT_LT(apart.Between(108, 188).trace(), alone.Between(108, 188).trace());
+}
+
 }  // namespace
 }  // namespace sslcd
