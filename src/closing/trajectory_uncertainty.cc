@@ -29,23 +29,19 @@ Mat6 InWorld(const Mat6& covariance, const Pose& T_world_cam) {
 TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
                                              const std::vector<LoopEdge>& loops,
                                              const OdometryModel& odometry)
-    : frames_(SelectKeyframes(state.frames,
+    : state_(state),
+      odometry_(odometry),
+      frames_(SelectKeyframes(state.frames,
                               std::max(kVertexM, state.frames.back().travelled / kMostVertices),
                               kAnyTurn)) {
   const FrameStore& frames = state.frames;
   for (const FrameRecord& frame : frames) path_of_all_.push_back(frame.travelled);
   for (const int frame : frames_) part_.push_back(frames[frame].failures.lost);
-  const auto walk = [&](int from, int to) -> Mat6 {
-    if (from == to) return Mat6::Zero();
-    const Pose& T_world_to = frames[to].T_world_cam;
-    const OdometrySigmas sigmas = SigmasBetween(frames, from, to, odometry.noise);
-    const Vec3 up = T_world_to.so3().inverse() * state.gravity().up;
-    return InWorld(InformationOf(sigmas, up, odometry.factors).inverse(), T_world_to);
-  };
   std::vector<DifferenceMeasurement> measured;
   for (std::size_t v = 1; v < frames_.size(); ++v)
-    measured.push_back(
-        {static_cast<int>(v - 1), static_cast<int>(v), walk(frames_[v - 1], frames_[v])});
+    if (part_[v - 1] == part_[v])  // a lost step measures nothing
+      measured.push_back(
+          {static_cast<int>(v - 1), static_cast<int>(v), Walk(frames_[v - 1], frames_[v])});
   // Loops between the same two vertices share their objects: the most certain one stands for all.
   std::map<std::pair<int, int>, const LoopEdge*> best;
   const auto variance = [](const LoopEdge& loop) {
@@ -59,12 +55,40 @@ TrajectoryUncertainty::TrajectoryUncertainty(const MapState& state,
   }
   for (const auto& [ends, loop] : best) {
     measured.push_back({ends.first, ends.second,
-                        walk(frames_[ends.first], loop->match) +
+                        Walk(frames_[ends.first], loop->match) +
                             InWorld(loop->closure->covariance, frames[loop->query].T_world_cam) +
-                            walk(loop->query, frames_[ends.second])});
+                            Walk(loop->query, frames_[ends.second])});
     std::replace(part_.begin(), part_.end(), int(part_[ends.second]), int(part_[ends.first]));
   }
+  Solve(std::move(measured));
+}
+
+// Parts stand kilometres apart. A rotation about a point so far away moves an object by so much
+// that nothing would be left of its variance, and a tie between parts that is as weak as a lost
+// step drowns in rounding errors. So each part has a centre of its own, and ties to the first
+// vertex that are never asked for.
+void TrajectoryUncertainty::Solve(std::vector<DifferenceMeasurement> measured) {
+  std::map<int, int> first;  // vertex of each part
+  for (std::size_t v = 0; v < frames_.size(); ++v) first.insert({part_[v], static_cast<int>(v)});
+  for (const auto& [part, vertex] : first)
+    centre_[part] = vertex == 0
+                        ? Pose()
+                        : Pose::Trans(state_.frames[frames_[vertex]].T_world_cam.translation());
+  for (DifferenceMeasurement& each : measured)
+    if (part_[each.to] != part_[0])
+      each.covariance = InWorld(each.covariance, centre_.at(part_[each.to]).inverse());
+  for (const auto& [part, vertex] : first)
+    if (vertex > 0) measured.push_back({0, vertex, Mat6::Identity()});
   covariances_.emplace(static_cast<int>(frames_.size()), measured);
+}
+
+// Of odometry alone.
+Mat6 TrajectoryUncertainty::Walk(int from, int to) const {
+  if (from == to) return Mat6::Zero();
+  const Pose& T_world_to = state_.frames[to].T_world_cam;
+  const OdometrySigmas sigmas = SigmasBetween(state_.frames, from, to, odometry_.noise);
+  const Vec3 up = T_world_to.so3().inverse() * state_.gravity().up;
+  return InWorld(InformationOf(sigmas, up, odometry_.factors).inverse(), T_world_to);
 }
 
 int TrajectoryUncertainty::NearestVertex(int frame) const {
@@ -83,7 +107,18 @@ const Mat6& TrajectoryUncertainty::Between(int from, int to) const {
   const std::pair<int, int> ends{NearestVertex(from), NearestVertex(to)};
   const auto known = known_.find(ends);
   if (known != known_.end()) return known->second;
-  return known_.insert({ends, covariances_->Between(ends.first, ends.second)}).first->second;
+  return known_.insert({ends, BetweenVertices(ends.first, ends.second)}).first->second;
+}
+
+double TrajectoryUncertainty::Variance(int from, int to, const Vec6& direction) const {
+  const int a = NearestVertex(from), b = NearestVertex(to);
+  if (part_[a] != part_[b]) return direction.dot(BetweenVertices(a, b) * direction);
+  return covariances_->Variance(a, b, centre_.at(part_[b]).Adj().transpose() * direction);
+}
+
+Mat6 TrajectoryUncertainty::BetweenVertices(int from, int to) const {
+  if (part_[from] != part_[to]) return Walk(frames_[from], frames_[to]);
+  return InWorld(covariances_->Between(from, to), centre_.at(part_[to]));
 }
 
 }  // namespace sslcd

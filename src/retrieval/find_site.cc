@@ -19,9 +19,11 @@ namespace sslcd {
 namespace {
 
 // All set by hand on generated sites (docs/scale.md).
-constexpr float kMostCost = 4;                     // of a probe [nats]
+// Probes beyond a cost of 2.5 fill kMostProbes before the last constellations of a dense stretch
+// have any.
+constexpr float kMostCost = 2.5f;                  // of a probe [nats]
 constexpr std::size_t kMostProbes = 60000;         // cells that are looked up
-constexpr std::size_t kMostVisits = 650000;        // entries that are read
+constexpr std::size_t kMostVisits = 800000;        // entries that are read
 constexpr std::size_t kMostPoses = 1000;           // poses that are aligned with some objects
 constexpr std::size_t kSomeObjects = 20;           // the nearest ones to the middle
 constexpr std::size_t kMostFits = 60;              // poses that are aligned with all objects

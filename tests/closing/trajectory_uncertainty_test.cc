@@ -55,6 +55,16 @@ LoopClosure Measured(double variance) {
 }
 
 // Each edge of 20 m adds its translation, and its rotation times what is left of the path.
+// The variances along directions are those of the covariance.
+void ExpectVariancesOf(const TrajectoryUncertainty& uncertainty, int from, int to) {
+  for (int i = 0; i < 6; ++i) {
+    const double expected = uncertainty.Between(from, to)(i, i);
+    EXPECT_NEAR(uncertainty.Variance(from, to, TrajectoryUncertainty::Vec6::Unit(i)), expected,
+                1e-6 * expected)
+        << i;
+  }
+}
+
 TEST(TrajectoryUncertainty, GrowsAlongAStraightPathAsTheNoiseSays) {
   const MapState state = Straight(200);
   const OdometryModel model = Model();
@@ -105,6 +115,7 @@ TEST(TrajectoryUncertainty, ALoopIsASecondWayBetweenItsEnds) {
   EXPECT_LT(AtPoint(with.Between(40, 180), query).trace(),
             0.1 * AtPoint(without.Between(40, 180), query).trace());
   EXPECT_LT(with.Between(0, 200).trace(), without.Between(0, 200).trace());
+  ExpectVariancesOf(with, 40, 180);
   EXPECT_TRUE(with.Between(0, 40).isApprox(without.Between(0, 40), 1e-6)) << "before the loop";
 }
 
@@ -189,6 +200,30 @@ TEST(TrajectoryUncertainty, ALostStepPartsTheTrajectoryUntilALoopJoinsIt) {
   EXPECT_LT(joined.Between(40, 180).trace(), 1e4);
   const TrajectoryUncertainty beside(state, {{0, 60, &closure}, {120, 180, &closure}}, Model());
   EXPECT_FALSE(beside.Joined(0, 200)) << "loops on either side";
+}
+
+// Found on poles 00 as four sessions: the solver said that they are not connected.
+TEST(TrajectoryUncertainty, OfPartsThatStandFarApart) {
+  MapState state = LostAt(107);
+  constexpr double kFar = 30000;
+  for (int f = 107; f <= 200; ++f)
+    state.frames.SetPose(f, Pose::Trans(kFar, 0, 0) * state.frames[f].T_world_cam);
+  const OdometryModel model = Model({0.1, 0.1, 0.1, 1e-4});
+  const LoopClosure closure = Measured(1e-10);
+  const TrajectoryUncertainty apart(state, {{110, 190, &closure}}, model);
+  EXPECT_FALSE(apart.Joined(0, 200));
+  EXPECT_GT(apart.Between(0, 200)(0, 0), 1e6);
+  // as one part would have it at the place of the second
+  MapState whole = Straight(200);
+  for (int f = 0; f <= 200; ++f)
+    whole.frames.SetPose(f, Pose::Trans(kFar, 0, 0) * whole.frames[f].T_world_cam);
+  const TrajectoryUncertainty alone(whole, {}, model);
+  const Vec3 end(kFar, 0, 128);
+  const Eigen::Matrix3d moves =
+      AtPoint(TrajectoryUncertainty(state, {}, model).Between(108, 128), end);
+  EXPECT_TRUE(moves.isApprox(AtPoint(alone.Between(100, 120), end - Vec3(0, 0, 8)), 1e-3));
+  EXPECT_LT(apart.Between(108, 188).trace(), alone.Between(108, 188).trace());
+  for (const int from : {0, 108}) ExpectVariancesOf(apart, from, 188);
 }
 
 }  // namespace

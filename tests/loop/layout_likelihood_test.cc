@@ -85,12 +85,6 @@ TEST(LayoutLikelihood, RefinesAPoseNearby) {
   EXPECT_NEAR(pose.yaw, kPose.yaw, 0.02);
 }
 
-TEST(LayoutLikelihood, GivesUpAPoseOfWrongMatches) {
-  const Case c;
-  YawShift wrong{1, kPose.t};
-  EXPECT_TRUE(LayoutLikelihood(c.local, c.index, {}).Refine(wrong, 4, 5).matches.empty());
-}
-
 double NormalDensity(double x, double sigma) {
   return std::exp(-0.5 * x * x / (sigma * sigma)) / (std::sqrt(2 * M_PI) * sigma);
 }

@@ -30,6 +30,16 @@ TEST(SearchPoses, TheTruthComesFirst) {
   }
 }
 
+TEST(SearchPoses, AStartWhoseMatchesSpeakAgainstItIsGivenUp) {
+  const std::vector<LayoutObject> map = Strewn(80, 80, 1),
+                                  local = SeenFrom(map, kPose, {0, 0}, 20, 0.2, 2);
+  const LayoutIndex index(map, 50, 2);
+  const LayoutLikelihood likelihood(local, index, {});
+  YawShift right = kPose, wrong{1, kPose.t};
+  EXPECT_GT(likelihood.Refine(right, kRefineRounds, 5).matches.size(), 10u);
+  EXPECT_TRUE(likelihood.Refine(wrong, kRefineRounds, 5).matches.empty());
+}
+
 TEST(SearchPoses, HypothesesAreDistinctAndSorted) {
   std::vector<LayoutObject> grid;
   for (int i = 0; i < 48; ++i) grid.push_back(ObjectAt({2.5 * (i % 8), 6. * (i / 8), 0}));
