@@ -12,11 +12,9 @@
 namespace sslcd {
 namespace {
 
-// Number of local pairs per object, those with the fewest equal pairs in the map first. Six, and
-// four in layouts of 40 objects, which find no more with six (object pairs, worlds, all sequences).
-int PairsPerObject(std::size_t objects) {
-  return std::clamp(160 / static_cast<int>(std::min<std::size_t>(objects, 160)), 4, 6);
-}
+// Number of local pairs per object, those with the fewest equal pairs in the map first. Layouts of
+// many objects find no more with six (object pairs, all sequences). Set by hand.
+int PairsPerObject(std::size_t objects) { return objects < 32 ? 6 : 5; }
 // Soft score of an object that coincides with one of another label, share of a correct match. Set
 // by hand.
 constexpr float kOtherLabelScore = 0.3f;
