@@ -29,14 +29,14 @@ class PairIndex {
   PairIndex(const std::vector<LayoutObject>& objects, const std::vector<ObjectPair>& found,
             double max_pair_m);
 
-  /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset,
-  /// by bins; with more than 256 labels, rare ones may share a list.
   struct Range {
     std::vector<ObjectPair>::const_iterator first, last;
     std::vector<ObjectPair>::const_iterator begin() const { return first; }
     std::vector<ObjectPair>::const_iterator end() const { return last; }
     bool empty() const { return first == last; }
   };
+  /// Pairs of two labels (label_a <= label_b) whose distance may lie in [from_m, to_m]: a superset,
+  /// by bins; with more than 256 labels, rare ones may share a list.
   Range Between(int label_a, int label_b, double from_m, double to_m) const;
 
  private:
