@@ -68,8 +68,8 @@ class HostFinder : public LoopFinder {
       CheckMatches(answer->matches, local.objects.size(), global.objects().size());
       const CommonObjects common{local, OldLandmarks(answer->matches, global), kSigma,
                                  global_end_m};
-      const LoopMeter meter(input.state, input.passes, options_, input.odometry);
-      auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
+      LoopMeter meter(common, input.state, input.passes, options_, input.odometry);
+      auto loop = meter.Measure(window.end_m - window.lag_m, window.beyond_m);
       if (!loop) return std::nullopt;
       found.loop = std::move(*loop);
       found.sigma_m = kSigma;

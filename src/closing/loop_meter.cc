@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <tuple>
+#include <utility>
 
 #include "closing/local_map_errors.h"
 
@@ -40,54 +41,60 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(
   return pairs;
 }
 
-std::optional<LoopMeasurement> LoopMeter::Measure(const CommonObjects& common, double query_m,
-                                                  double beyond_m) const {
-  const DriftResult drift = SolveDrift(Pairs(common), gravity_, options_.drift);
-  if (!drift.usable) return std::nullopt;
-  const auto [first_m, last_m] = SeenBetween(common);
+LoopMeter::LoopMeter(const CommonObjects& common, const MapState& state, const PassMap& passes,
+                     const LoopOptions& options, const OdometryFactors& factors)
+    : common_(common),
+      frames_(state.frames),
+      gravity_(state.gravity()),
+      passes_(passes),
+      options_(options),
+      factors_(factors) {
+  for (const auto& [local, old] : common.pairs) pairs_.push_back(PairOf(local, old, state));
+  std::tie(first_m_, last_m_) = SeenBetween(common);
+}
+
+DriftPair LoopMeter::PairOf(int local, LandmarkId old, const MapState& state) const {
+  DriftPair pair;
+  pair.T_world_local = ToPose(common_.local.places[local], gravity_);
+  const auto place = PassLayouts(passes_, state)
+                         .PlaceBefore(old, common_.global_end_m, options_.layout.min_sightings);
+  pair.T_world_global = ToPose(place.value(), gravity_);
+  pair.symmetry = common_.local.objects[local].symmetry;
+  pair.sigma_horizontal_m = pair.sigma_vertical_m = common_.sigma_m;
+  pair.sigma_yaw_rad = kYawSigma;
+  return pair;
+}
+
+std::optional<LoopMeasurement> LoopMeter::Measure(double query_m, double beyond_m) {
+  if (!drift_) drift_ = SolveDrift(pairs_, gravity_, options_.drift);
+  if (!drift_->usable) return std::nullopt;
   std::optional<LoopMeasurement> best;
   for (int i = 0; i < kCamerasTried; ++i) {
     const int query = frames_.AtPath(
-        std::clamp(query_m - kFurtherBack * i, first_m - beyond_m, last_m + beyond_m));
-    const int match = NearestOldFrame(drift.T_global_local * frames_[query].T_world_cam, common);
-    auto now = MeasureBetween(query, match, common);
+        std::clamp(query_m - kFurtherBack * i, first_m_ - beyond_m, last_m_ + beyond_m));
+    const int match = NearestOldFrame(drift_->T_global_local * frames_[query].T_world_cam);
+    auto now = MeasureBetween(query, match);
     if (now && (!best || now->heading_sigma < best->heading_sigma)) best = std::move(now);
     if (best && best->heading_sigma < options_.acceptance.max_heading_sigma_rad) break;
   }
   return best;
 }
 
-std::vector<DriftPair> LoopMeter::Pairs(const CommonObjects& common) const {
-  std::vector<DriftPair> pairs;
-  for (const auto& [i, old] : common.pairs) {
-    DriftPair& pair = pairs.emplace_back();
-    pair.T_world_local = ToPose(common.local.places[i], gravity_);
-    const auto place = PassLayouts(passes_, state_)
-                           .PlaceBefore(old, common.global_end_m, options_.layout.min_sightings);
-    pair.T_world_global = ToPose(place.value(), gravity_);
-    pair.symmetry = common.local.objects[i].symmetry;
-    pair.sigma_horizontal_m = pair.sigma_vertical_m = common.sigma_m;
-    pair.sigma_yaw_rad = kYawSigma;
-  }
-  return pairs;
-}
-
-std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
-                                                         const CommonObjects& common) const {
+std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match) const {
   const Pose level_query = LevelFrame(query), level_match = LevelFrame(match);
-  std::vector<DriftPair> pairs = Pairs(common);
+  std::vector<DriftPair> pairs = pairs_;
   const OdometryModel odometry{options_.odometry, factors_};
   LoopMeasurement loop;
   LoopClosure& row = loop.row;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto& [i, old] = common.pairs[k];
+    const auto& [i, old] = common_.pairs[k];
     const double old_seen_m = passes_.NearestPass(frames_, old, frames_[match].travelled);
-    const double bent = std::hypot(OdometrySigma(frames_, query, common.local.seen_m[i], odometry),
+    const double bent = std::hypot(OdometrySigma(frames_, query, common_.local.seen_m[i], odometry),
                                    OdometrySigma(frames_, match, old_seen_m, odometry));
-    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(common.sigma_m, bent);
+    pairs[k].sigma_horizontal_m = pairs[k].sigma_vertical_m = std::hypot(common_.sigma_m, bent);
     pairs[k].T_world_local = level_query * pairs[k].T_world_local;
     pairs[k].T_world_global = level_match * pairs[k].T_world_global;
-    row.pairs.push_back({{common.local.objects[i].id}, old});
+    row.pairs.push_back({{common_.local.objects[i].id}, old});
   }
   const DriftResult drift = SolveDrift(pairs, gravity_, options_.drift);
   if (!drift.usable) return std::nullopt;
@@ -107,28 +114,24 @@ std::optional<LoopMeasurement> LoopMeter::MeasureBetween(int query, int match,
   covariance.diagonal().tail<3>().array() += options_.sigma_rad * options_.sigma_rad;
   const Vec3 up = (level_query * T_world_query).so3().inverse() * gravity_.up;
   loop.heading_sigma = std::sqrt(up.dot(covariance.bottomRightCorner<3, 3>() * up));
-  const auto [first_m, last_m] = SeenBetween(common);
-  covariance += OdometryBeyond(frames_, query, first_m, last_m, up, odometry);
+  covariance += OdometryBeyond(frames_, query, first_m_, last_m_, up, odometry);
   row.covariance = covariance;
   return loop;
 }
 
 // Searches the frames of the passes that saw the matched old objects.
-int LoopMeter::NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const {
-  std::set<int> candidates;
-  for (const auto& pair : common.pairs) {
+int LoopMeter::NearestOldFrame(const Pose& T_world_cam) const {
+  std::pair<double, int> nearest(std::numeric_limits<double>::infinity(), 0);
+  for (const auto& pair : common_.pairs)
     for (const int i : passes_.PassesOf(pair.second)) {
       const PassObject& pass = passes_.passes()[i];
-      if (pass.last_m >= common.global_end_m) continue;
-      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f)
-        candidates.insert(f);
+      if (pass.last_m >= common_.global_end_m) continue;
+      for (int f = pass.sightings.front().first; f <= pass.sightings.back().first; ++f) {
+        const Vec3 apart = frames_[f].T_world_cam.translation() - T_world_cam.translation();
+        nearest = std::min(nearest, {apart.squaredNorm(), f});
+      }
     }
-  }
-  const auto distance = [&](int frame) {
-    return (frames_[frame].T_world_cam.translation() - T_world_cam.translation()).norm();
-  };
-  return *std::min_element(candidates.begin(), candidates.end(),
-                           [&](int a, int b) { return distance(a) < distance(b); });
+  return nearest.second;
 }
 
 // Rotates the world about a camera so that the cameras around it are upright on average.

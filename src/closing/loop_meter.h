@@ -43,38 +43,34 @@ std::vector<std::pair<int, LandmarkId>> OldLandmarks(
 /// maps are aligned with gravity first, since the ground at one place has one slope.
 class LoopMeter {
  public:
-  /// Keeps references to all other arguments; `factors` are on `options.odometry`.
-  LoopMeter(const MapState& state, const PassMap& passes, const LoopOptions& options,
-            const OdometryFactors& factors = {})
-      : state_(state),
-        frames_(state.frames),
-        gravity_(state.gravity()),
-        passes_(passes),
-        options_(options),
-        factors_(factors) {}
+  /// Keeps references to `state`, `passes`, `options` and the local map; `factors` are on
+  /// `options.odometry`.
+  LoopMeter(const CommonObjects& common, const MapState& state, const PassMap& passes,
+            const LoopOptions& options, const OdometryFactors& factors = {});
 
   /// Tries the camera at `query_m` of path and, while the heading is too uncertain, earlier
   /// cameras. Excludes cameras more than `beyond_m` before the first common object or after the
   /// last one. The covariance includes the odometry noise of that path. None: the objects do not
   /// determine a pose.
-  std::optional<LoopMeasurement> Measure(const CommonObjects& common, double query_m,
-                                         double beyond_m) const;
+  std::optional<LoopMeasurement> Measure(double query_m, double beyond_m);
 
   /// Measures the loop between two frames, given by index.
-  std::optional<LoopMeasurement> MeasureBetween(int query, int match,
-                                                const CommonObjects& common) const;
+  std::optional<LoopMeasurement> MeasureBetween(int query, int match) const;
 
  private:
-  std::vector<DriftPair> Pairs(const CommonObjects& common) const;
-  int NearestOldFrame(const Pose& T_world_cam, const CommonObjects& common) const;
+  DriftPair PairOf(int local, LandmarkId old, const MapState& state) const;
+  int NearestOldFrame(const Pose& T_world_cam) const;
   Pose LevelFrame(int frame) const;
 
-  const MapState& state_;
+  const CommonObjects common_;
   const FrameStore& frames_;
   const GravityFrame& gravity_;
   const PassMap& passes_;
   const LoopOptions& options_;
   OdometryFactors factors_;
+  std::vector<DriftPair> pairs_;      // of the common objects, in their order
+  double first_m_, last_m_;           // path lengths of the first and the last of them
+  std::optional<DriftResult> drift_;  // of all of them, once it was asked for
 };
 
 /// Horizontal angle between the viewing directions of two cameras. [rad]

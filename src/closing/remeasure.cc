@@ -31,8 +31,8 @@ std::optional<LoopClosure> MeasureAgain(const MapState& state, const PassMap& pa
       common.pairs.push_back({static_cast<int>(i), id});
   }
   const LoopMeasurement& loop = attempt.found.loop;
-  const LoopMeter meter(state, passes, options, factors);
-  auto now = meter.MeasureBetween(loop.query, loop.match, common);
+  const LoopMeter meter(common, state, passes, options, factors);
+  auto now = meter.MeasureBetween(loop.query, loop.match);
   if (!now || now->heading_sigma >= options.acceptance.max_heading_sigma_rad) return std::nullopt;
   return std::move(now->row);
 }

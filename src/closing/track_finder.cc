@@ -45,8 +45,8 @@ class TrackFinder : public LoopFinder {
     const PoseTrack& best = tracks_.tracks()[0];
     const CommonObjects common{local, OldLandmarks(best.fit.matches, index), best.fit.sigma,
                                global_end_m};
-    const LoopMeter meter(input.state, input.passes, options_, input.odometry);
-    auto loop = meter.Measure(common, window.end_m - window.lag_m, window.beyond_m);
+    LoopMeter meter(common, input.state, input.passes, options_, input.odometry);
+    auto loop = meter.Measure(window.end_m - window.lag_m, window.beyond_m);
     if (!loop) return std::nullopt;
     const auto decide = [&, appearance =
                                 AppearanceOf(best.fit, local, index)](LoopMeasurement measured) {
@@ -55,7 +55,7 @@ class TrackFinder : public LoopFinder {
     FoundLoop found = decide(std::move(*loop));
     if (found.loop.row.decision != LoopDecision::kAccepted) return found;
     for (const double camera_m : input.early_m) {
-      auto later = meter.Measure(common, camera_m, options_.lag_m);
+      auto later = meter.Measure(camera_m, options_.lag_m);
       if (!later) continue;
       FoundLoop early = decide(std::move(*later));
       if (early.loop.row.decision == LoopDecision::kAccepted) found.early.push_back(early);

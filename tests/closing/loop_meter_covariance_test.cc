@@ -19,13 +19,13 @@ TEST(LoopMeter, WhatEveryLoopIsOffByIsPartOfItsCovariance) {
   LoopOptions options;
   options.sigma_m = 0;
   options.sigma_rad = 0;
-  const LoopMeter exact(world.state, world.passes, options);
+  const LoopMeter exact(common.objects(), world.state, world.passes, options);
   LoopOptions with = options;
   with.sigma_m = 0.5;
   with.sigma_rad = 0.1;
-  const auto without = exact.MeasureBetween(TwoPasses::kSecond + 30, 30, common.objects());
-  const auto loop = LoopMeter(world.state, world.passes, with)
-                        .MeasureBetween(TwoPasses::kSecond + 30, 30, common.objects());
+  const auto without = exact.MeasureBetween(TwoPasses::kSecond + 30, 30);
+  const auto loop = LoopMeter(common.objects(), world.state, world.passes, with)
+                        .MeasureBetween(TwoPasses::kSecond + 30, 30);
   ASSERT_TRUE(without && loop);
   const Eigen::Matrix<double, 6, 6> added = loop->row.covariance - without->row.covariance;
   Vec6 expected;
@@ -37,9 +37,9 @@ TEST(LoopMeter, ACameraFarFromTheObjectsIsKnownNoBetterThanOdometry) {
   const TwoPasses world;
   const CommonTrees common(world);
   const LoopOptions options;
-  const LoopMeter meter(world.state, world.passes, options);
-  const auto amidst = meter.Measure(common.objects(), world.end_m() - 30, 0);
-  const auto last = meter.Measure(common.objects(), world.end_m(), 50);
+  LoopMeter meter(common.objects(), world.state, world.passes, options);
+  const auto amidst = meter.Measure(world.end_m() - 30, 0);
+  const auto last = meter.Measure(world.end_m(), 50);
   ASSERT_TRUE(amidst && last);
   EXPECT_GT(last->query, amidst->query + 15);
   EXPECT_GT(last->row.covariance.topLeftCorner(3, 3).trace(),
@@ -77,7 +77,7 @@ TEST(LoopMeter, ObjectsCountByTheOdometryBetweenThemAndTheTwoCameras) {
     certainty +=
         weight * (std::pow(place.x() - centre.x(), 2) + std::pow(place.z() - centre.z(), 2));
   const auto loop =
-      LoopMeter(world.state, world.passes, options).MeasureBetween(query, match, common.objects());
+      LoopMeter(common.objects(), world.state, world.passes, options).MeasureBetween(query, match);
   ASSERT_TRUE(loop);
   EXPECT_NEAR(loop->heading_sigma, 1 / std::sqrt(certainty), 1e-6 * loop->heading_sigma);
 }
@@ -89,9 +89,9 @@ TEST(LoopMeter, OutOfSightOfTheObjectsOdometryLeadsToTheCamera) {
   const auto variance = [&](int back, double vertical_walk) {
     LoopOptions options = ExactOptions();
     options.odometry.vertical_walk = vertical_walk;  // does not tell on the objects
-    const LoopMeter meter(world.state, world.passes, options);
+    const LoopMeter meter(common.objects(), world.state, world.passes, options);
     const int query = TwoPasses::kSecond + 60 - back;
-    return meter.MeasureBetween(query, 60 - back, common.objects()).value().row.covariance(1, 1);
+    return meter.MeasureBetween(query, 60 - back).value().row.covariance(1, 1);
   };
   const double last_m = common.seen().second;
   EXPECT_NEAR(variance(40, 0.5), variance(40, 0), 1e-9);
@@ -105,10 +105,11 @@ TEST(LoopMeter, TwiceTheScatterOfTheObjectsIsFourTimesTheCovariance) {
   CommonTrees common(world);
   LoopOptions options = ExactOptions();
   options.drift.tilt_sigma_rad = 1e-9;
-  const LoopMeter meter(world.state, world.passes, options);
   const auto covariance = [&](double sigma_m) {
     common.sigma_m = sigma_m;
-    return meter.MeasureBetween(TwoPasses::kSecond + 50, 30, common.objects())->row.covariance;
+    return LoopMeter(common.objects(), world.state, world.passes, options)
+        .MeasureBetween(TwoPasses::kSecond + 50, 30)
+        ->row.covariance;
   };
   const auto once = covariance(0.1), twice = covariance(0.2);
   EXPECT_LT((twice - 4 * once).norm(), 1e-9);
@@ -120,7 +121,6 @@ TEST(LoopMeter, TheErrorIsWhatTheCovarianceSays) {
   const TwoPasses world;
   const CommonTrees exact(world);
   const LoopOptions options = ExactOptions();
-  const LoopMeter meter(world.state, world.passes, options);
   std::mt19937 random(3);
   const auto normal = [&] {  // of unit variance, nearly
     double sum = 0;
@@ -134,7 +134,9 @@ TEST(LoopMeter, TheErrorIsWhatTheCovarianceSays) {
     CommonTrees common = exact;
     for (UprightPose& place : common.local.places)
       place.position += common.sigma_m * Vec3(normal(), normal(), normal());
-    const auto loop = meter.MeasureBetween(query, match, common.objects()).value();
+    const auto loop = LoopMeter(common.objects(), world.state, world.passes, options)
+                          .MeasureBetween(query, match)
+                          .value();
     const Vec6 error = (loop.row.T_match_query.inverse() * world.TrueLoop(match, query)).Log();
     const int horizontal[] = {0, 2, 4};  // sideways, forward, heading
     Eigen::Matrix3d covariance;
@@ -154,8 +156,8 @@ TEST(LoopMeter, OneHeadingIsKnownToAFifthOfARadian) {
   const TwoPasses world(Pose(), false, {Vec3(-4, 1, 30)}, Symmetry::kNone);
   const CommonTrees common(world);
   const LoopOptions options = ExactOptions();
-  const auto loop = LoopMeter(world.state, world.passes, options)
-                        .MeasureBetween(TwoPasses::kSecond + 30, 30, common.objects());
+  const auto loop = LoopMeter(common.objects(), world.state, world.passes, options)
+                        .MeasureBetween(TwoPasses::kSecond + 30, 30);
   ASSERT_TRUE(loop);
   EXPECT_NEAR(loop->heading_sigma, 0.2, 1e-9);
 }

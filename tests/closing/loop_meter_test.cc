@@ -21,8 +21,8 @@ TEST_P(LoopMeterDirections, MeasuresTheTrueRelativePoseWhateverTheDrift) {
   const CommonTrees common(world);
   ASSERT_GE(common.pairs.size(), 10u);
   const LoopOptions options;
-  const auto loop = LoopMeter(world.state, world.passes, options)
-                        .Measure(common.objects(), world.end_m() - 30, 0);
+  const auto loop = LoopMeter(common.objects(), world.state, world.passes, options)
+                        .Measure(world.end_m() - 30, 0);
   ASSERT_TRUE(loop);
   const LoopClosure& row = loop->row;
   EXPECT_LT(Apart(row.T_match_query, world.TrueLoop(loop->match, loop->query)), 1e-3);
@@ -44,8 +44,8 @@ TEST(LoopMeter, LevelsBothMapsBeforeItComparesThem) {
   const TwoPasses world(tilt);
   const CommonTrees common(world);
   const LoopOptions options;
-  const auto loop = LoopMeter(world.state, world.passes, options)
-                        .Measure(common.objects(), world.end_m() - 30, 0);
+  const auto loop = LoopMeter(common.objects(), world.state, world.passes, options)
+                        .Measure(world.end_m() - 30, 0);
   ASSERT_TRUE(loop);
   EXPECT_LT(Apart(loop->row.T_match_query, world.TrueLoop(loop->match, loop->query)), 0.02);
 }
@@ -54,11 +54,11 @@ TEST(LoopMeter, NoneWhereObjectsFixNoPose) {
   const TwoPasses world;
   CommonTrees common(world);
   const LoopOptions options;
-  const LoopMeter meter(world.state, world.passes, options);
-  common.pairs.resize(1);
-  EXPECT_FALSE(meter.Measure(common.objects(), world.end_m() - 30, 0)) << "one tree has no heading";
-  common.pairs.clear();
-  EXPECT_FALSE(meter.Measure(common.objects(), world.end_m() - 30, 0));
+  for (const std::size_t trees : {1, 0}) {
+    common.pairs.resize(trees, {});
+    LoopMeter meter(common.objects(), world.state, world.passes, options);
+    EXPECT_FALSE(meter.Measure(world.end_m() - 30, 0)) << "one tree has no heading";
+  }
 }
 
 // Behind the last object the heading is less certain, and the more so the farther away.
@@ -68,8 +68,8 @@ TEST(LoopMeter, TriesCamerasTenAndTwentyMetresBackWhileTheHeadingIsUncertain) {
   LoopOptions options;
   const auto measure = [&](double query_m, double max_heading_sigma_rad) {
     options.acceptance.max_heading_sigma_rad = max_heading_sigma_rad;
-    const LoopMeter meter(world.state, world.passes, options);
-    return meter.Measure(common.objects(), query_m, 50).value();
+    LoopMeter meter(common.objects(), world.state, world.passes, options);
+    return meter.Measure(query_m, 50).value();
   };
   const auto query_m = [&](const LoopMeasurement& loop) {
     return world.state.frames[loop.query].travelled;
@@ -92,10 +92,10 @@ TEST(LoopMeter, TheQueryCameraStandsNearTheCommonObjects) {
   const auto [first_m, last_m] = some.seen();
   LoopOptions options;
   options.acceptance.max_heading_sigma_rad = 10;
-  const LoopMeter meter(world.state, world.passes, options);
+  LoopMeter meter(some.objects(), world.state, world.passes, options);
   for (const double beyond_m : {0., 6.}) {
     const auto query_m = [&](double asked_m) {
-      const auto loop = meter.Measure(some.objects(), asked_m, beyond_m);
+      const auto loop = meter.Measure(asked_m, beyond_m);
       return world.state.frames[loop.value().query].travelled;
     };
     // the first frame from there on: frames are a metre apart
@@ -110,10 +110,10 @@ TEST(LoopMeter, TheMatchIsTheNearestOldCameraThatSawTheObjectsOrStoodBetweenItsV
   const CommonTrees common(world);
   LoopOptions options;
   options.acceptance.max_heading_sigma_rad = 10;
-  const LoopMeter meter(world.state, world.passes, options);
+  LoopMeter meter(common.objects(), world.state, world.passes, options);
   const auto match = [&](int query) {
     const double query_m = world.state.frames[query].travelled;
-    return meter.Measure(common.objects(), query_m, 50).value().match;
+    return meter.Measure(query_m, 50).value().match;
   };
   EXPECT_EQ(match(TwoPasses::kSecond), 0) << "the very first frame";
   EXPECT_EQ(match(TwoPasses::kSecond + 23), 23);
@@ -134,9 +134,9 @@ class LoopMeterLevelling : public testing::Test {
   // The turn between a level camera's up and the measured one. [rad]
   double Tilt(int query, int match) const {
     const LoopOptions options = ExactOptions();
-    const LoopMeter meter(world_.state, world_.passes, options);
     const CommonTrees common(world_);
-    const Pose T = meter.MeasureBetween(query, match, common.objects()).value().row.T_match_query;
+    const LoopMeter meter(common.objects(), world_.state, world_.passes, options);
+    const Pose T = meter.MeasureBetween(query, match).value().row.T_match_query;
     return (T.so3() * Vec3(0, -1, 0)).cross(Vec3(0, -1, 0)).norm();
   }
   TwoPasses world_;
