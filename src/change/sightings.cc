@@ -47,8 +47,7 @@ void Sightings::AddSighting(const HistoryFrame& frame, const Detection& detectio
   const Vec3& place = detection.T_cam_object.translation();
   const Eigen::Matrix3d R = frame.T_world_cam.so3().matrix();
   landmark.information +=
-      R *
-      PositionCovariance(place, SigmasAt(place.norm(), DetectionNoise(), world_.noise)).inverse() *
+      R * PositionInformation(place, SigmasAt(place.norm(), DetectionNoise(), world_.noise)) *
       R.transpose();
   SessionLooks& looks = landmark.sessions[frame.session];
   const Vec3 camera = T_world_object.inverse() * frame.T_world_cam.translation();

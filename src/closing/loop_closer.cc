@@ -198,7 +198,8 @@ void LoopCloser::LearnOdometry(const MapState& state, double scale) {
   const double path_m = state.frames.back().travelled;
   if (path_m < kGrowth * learnt_at_m_) return;
   learnt_at_m_ = path_m;
-  odometry_factors_ = LearnOdometryInSight(state, passes_, options_.odometry, scale);
+  odometry_factors_ =
+      LearnOdometryInSight(state, passes_, options_.odometry, scale, odometry_factors_);
 }
 
 // Returns true if a loop was accepted.

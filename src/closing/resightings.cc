@@ -152,11 +152,13 @@ std::vector<Resighting> ResightingsOf(const MapState& state, const PassMap& pass
 }
 
 OdometryFactors LearnOdometryInSight(const MapState& state, const PassMap& passes,
-                                     const OdometryNoise& noise, double scale) {
+                                     const OdometryNoise& noise, double scale,
+                                     const OdometryFactors& before) {
   const double tilt = std::clamp(
       kCaution * LargestTiltFactor(state.frames, state.gravity().up, noise), kLeastTilt, 1.);
-  OdometryFactors factors =
-      FactorsFromResightings(ResightingsOf(state, passes, noise, scale, tilt));
+  OdometryFactors factors = FactorsFromResightings(
+      ResightingsOf(state, passes, noise, scale, tilt),
+      {before.horizontal / kCaution, before.heading / kCaution, before.vertical / kCaution});
   for (double* factor : {&factors.horizontal, &factors.heading, &factors.vertical})
     *factor = std::max(kLeastFactor, kCaution * *factor);
   factors.tilt = tilt * factors.vertical;

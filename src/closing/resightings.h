@@ -12,9 +12,10 @@ namespace sslcd {
 /// Factors on `noise` for this run's odometry, learnt from the objects in sight (see
 /// FactorsFromResightings) and from the tilts of the cameras. They are cautious: errors that
 /// persist add up to more over a long path than over the path that an object stays in sight.
-/// `scale` is metres per odometry metre.
+/// `scale` is metres per odometry metre. The search begins at the factors of `before`.
 OdometryFactors LearnOdometryInSight(const MapState& state, const PassMap& passes,
-                                     const OdometryNoise& noise, double scale);
+                                     const OdometryNoise& noise, double scale,
+                                     const OdometryFactors& before = {});
 
 /// The resightings of all passes: the first sighting of each against later ones, a few metres of
 /// path apart. `tilt_factor` is the factor on the noise of tilt.

@@ -4,6 +4,15 @@
 #include <Eigen/Geometry>
 
 namespace sslcd {
+namespace {
+
+// In the axes of RayFrame. [m^2]
+Vec3 Variances(const DetectionSigmas& sigmas) {
+  return {sigmas.radial * sigmas.radial, sigmas.lateral * sigmas.lateral,
+          sigmas.vertical * sigmas.vertical};
+}
+
+}  // namespace
 
 void DescribeFields(FieldVisitor& visitor, DetectionNoise& noise) {
   visitor.Everyday("larger: wider gates, and detections move the trajectory less")
@@ -48,9 +57,12 @@ Eigen::Matrix3d RayFrame(const Vec3& point_cam) {
 
 Eigen::Matrix3d PositionCovariance(const Vec3& point_cam, const DetectionSigmas& sigmas) {
   const Eigen::Matrix3d rows = RayFrame(point_cam);
-  const Vec3 variance(sigmas.radial * sigmas.radial, sigmas.lateral * sigmas.lateral,
-                      sigmas.vertical * sigmas.vertical);
-  return rows.transpose() * variance.asDiagonal() * rows;
+  return rows.transpose() * Variances(sigmas).asDiagonal() * rows;
+}
+
+Eigen::Matrix3d PositionInformation(const Vec3& point_cam, const DetectionSigmas& sigmas) {
+  const Eigen::Matrix3d rows = RayFrame(point_cam);
+  return rows.transpose() * Variances(sigmas).cwiseInverse().asDiagonal() * rows;
 }
 
 }  // namespace sslcd

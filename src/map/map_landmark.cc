@@ -55,9 +55,10 @@ Vec3 FuseDims(const std::vector<Sighting>& sightings) {
   return dims;
 }
 
-double VoteHeading(double yaw, const std::vector<double>& yaws) {
-  double agreement = 0;
-  for (const double other : yaws) agreement += std::cos(other - yaw) >= 0 ? 1 : -1;
+double VoteHeading(double yaw, const std::vector<Vec2>& headings) {
+  const Vec2 ahead(std::cos(yaw), std::sin(yaw));
+  int agreement = 0;
+  for (const Vec2& heading : headings) agreement += ahead.dot(heading) >= 0 ? 1 : -1;
   return WrapAngle(agreement >= 0 ? yaw : yaw + M_PI);
 }
 

@@ -58,8 +58,8 @@ inline Vec2 Horizontal(const Vec3& world, const GravityFrame& gravity) {
 Vec3 FuseDims(const std::vector<Sighting>& sightings);
 
 /// Resolves front and back of an object by a vote of its sightings, since a detector may confuse
-/// them and bundle adjustment ignores half turns. `yaws` are the sightings' yaws in the world.
-/// Returns `yaw` or `yaw + pi`, wrapped.
-double VoteHeading(double yaw, const std::vector<double>& yaws);
+/// them and bundle adjustment ignores half turns. `headings` are the sightings' (forward, left) in
+/// the world, of any length. Returns `yaw` or `yaw + pi`, wrapped.
+double VoteHeading(double yaw, const std::vector<Vec2>& headings);
 
 }  // namespace sslcd

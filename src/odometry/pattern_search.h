@@ -2,16 +2,20 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace sslcd {
 
-/// The logs of factors that maximise a function of them, by a pattern search that starts at zero,
-/// with steps from a factor of e to a few per cent.
+/// The logs of factors that maximise a function of them, by a pattern search with steps from a
+/// factor of 1.3 to a few per cent. It begins at `start`, rounded to the first step: the result is
+/// a multiple of the last one and hardly depends on the start, but a near start is quicker.
 template <std::size_t kCount, class Function>
-std::array<double, kCount> MaximiseOverLogs(const Function& value) {
-  constexpr double kFirstStep = 1, kLastStep = 0.02;
+std::array<double, kCount> MaximiseOverLogs(const Function& value,
+                                            const std::array<double, kCount>& start = {}) {
+  constexpr double kFirstStep = 0.25, kLastStep = 0.02;
   std::array<double, kCount> best{};
+  for (std::size_t i = 0; i < kCount; ++i) best[i] = kFirstStep * std::round(start[i] / kFirstStep);
   double best_value = value(best);
   for (double step = kFirstStep; step > kLastStep;) {
     bool better = false;

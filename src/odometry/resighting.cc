@@ -62,14 +62,18 @@ struct Level {
   Eigen::Vector3d detection, translation, rotation, fixed;
 };
 
-// The priors of the logs of all factors are standard normal, set by hand; `log_factors` are those
-// of the standard deviations of the detector, of positions and of headings.
-double HorizontalPosterior(const std::vector<Level>& all,
-                           const std::array<double, 3>& log_factors) {
-  const auto [detector, position, heading] = log_factors;
-  const double mean = 0.5 * (position + heading), ratio = (position - heading) / kRatioSigma;
-  const double of_detector = std::exp(2 * detector), of_position = std::exp(2 * position),
-               of_heading = std::exp(2 * heading);
+// Logs of the factors on the standard deviations of the detector, and of odometry's positions and
+// headings together; log of the ratio of the two. Positions and headings apart would be a ridge,
+// along which a pattern search is slow.
+using HorizontalLogs = std::array<double, 3>;
+double PositionLog(const HorizontalLogs& logs) { return logs[1] + 0.5 * logs[2]; }
+double HeadingLog(const HorizontalLogs& logs) { return logs[1] - 0.5 * logs[2]; }
+
+// The priors of the logs of all factors are standard normal, set by hand.
+double HorizontalPosterior(const std::vector<Level>& all, const HorizontalLogs& logs) {
+  const auto [detector, odometry, ratio] = logs;
+  const double of_detector = std::exp(2 * detector), of_position = std::exp(2 * PositionLog(logs)),
+               of_heading = std::exp(2 * HeadingLog(logs));
   StudentLogs likelihood(2);
   for (const Level& each : all) {
     const Eigen::Vector3d c = of_detector * each.detection + of_position * each.translation +
@@ -77,7 +81,8 @@ double HorizontalPosterior(const std::vector<Level>& all,
     const double x = each.moved.x(), y = each.moved.y(), determinant = c[0] * c[2] - c[1] * c[1];
     likelihood.Add(determinant, (c[2] * x * x - 2 * c[1] * x * y + c[0] * y * y) / determinant);
   }
-  return likelihood.Sum() - 0.5 * (detector * detector + mean * mean + ratio * ratio);
+  return likelihood.Sum() -
+         0.5 * (detector * detector + odometry * odometry + std::pow(ratio / kRatioSigma, 2));
 }
 
 // `log_factors`: on the standard deviations of the detector and of odometry.
@@ -96,24 +101,29 @@ double VerticalPosterior(const std::vector<Resighting>& all,
 
 }  // namespace
 
-OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings) {
+OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings,
+                                       const OdometryFactors& start) {
   const std::vector<Level> level(resightings.begin(), resightings.end());
-  const auto apart = MaximiseOverLogs<3>([&](const std::array<double, 3>& log_factors) {
-    return HorizontalPosterior(level, log_factors);
-  });
-  double position = apart[1], heading = apart[2];
-  if (position > heading) {
-    const auto one = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
-      return HorizontalPosterior(level, {log_factors[0], log_factors[1], log_factors[1]});
-    });
-    position = heading = one[1];
+  const double position = std::log(start.horizontal), heading = std::log(start.heading);
+  HorizontalLogs horizontal = MaximiseOverLogs<3>(
+      [&](const HorizontalLogs& logs) { return HorizontalPosterior(level, logs); },
+      {0, 0.5 * (position + heading), position - heading});
+  if (horizontal[2] > 0) {
+    const auto one = MaximiseOverLogs<2>(
+        [&](const std::array<double, 2>& logs) {
+          return HorizontalPosterior(level, {logs[0], logs[1], 0});
+        },
+        {horizontal[0], horizontal[1]});
+    horizontal = {one[0], one[1], 0};
   }
-  const auto vertical = MaximiseOverLogs<2>([&](const std::array<double, 2>& log_factors) {
-    return VerticalPosterior(resightings, log_factors);
-  });
+  const auto vertical = MaximiseOverLogs<2>(
+      [&](const std::array<double, 2>& log_factors) {
+        return VerticalPosterior(resightings, log_factors);
+      },
+      {horizontal[0], std::log(start.vertical)});
   OdometryFactors factors;
-  factors.horizontal = std::exp(position);
-  factors.heading = std::exp(heading);
+  factors.horizontal = std::exp(PositionLog(horizontal));
+  factors.heading = std::exp(HeadingLog(horizontal));
   factors.vertical = factors.tilt = std::exp(vertical[1]);
   return factors;
 }

@@ -27,7 +27,8 @@ struct Resighting {
 /// an object stays in sight they look similar. They share one if that of position came out larger,
 /// because a biased range of the detector looks like errors of position. Height and tilt always
 /// share one. The likelihood is a Student-t, since some matches are wrong. Log-normal priors keep
-/// factors at one where no resightings tell otherwise.
-OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings);
+/// factors at one where no resightings tell otherwise. The search begins at `start`.
+OdometryFactors FactorsFromResightings(const std::vector<Resighting>& resightings,
+                                       const OdometryFactors& start = {});
 
 }  // namespace sslcd

@@ -67,8 +67,7 @@ class Fusion {
       if (R == rotation_of_frame_.end()) continue;
       const Vec3& seen = sighting.T_cam_object.translation();
       const DetectionSigmas sigmas = SigmasAt(seen.norm(), options_.noise, scale);
-      sum.position +=
-          R->second * PositionCovariance(seen, sigmas).inverse() * R->second.transpose();
+      sum.position += R->second * PositionInformation(seen, sigmas) * R->second.transpose();
       sum.yaw += landmark.symmetry == Symmetry::kFull ? 0. : 1 / (sigmas.yaw * sigmas.yaw);
       ++sum.sightings;
     }

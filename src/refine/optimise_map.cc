@@ -121,10 +121,11 @@ BaSummary OptimiseMap(MapState& state, const std::vector<int>& keyframes, double
   std::map<int, Pose> cameras;
   for (const FrameRecord& record : frames) cameras[record.frame] = record.T_world_cam;
   for (BaObject& object : problem.objects) {
-    std::vector<double> yaws;
+    std::vector<Vec2> headings;
     for (const UprightPose& seen : SeenAt(map.at({object.id}), cameras, map.gravity()))
-      yaws.push_back(seen.yaw);
-    if (object.symmetry == Symmetry::kNone) object.pose.yaw = VoteHeading(object.pose.yaw, yaws);
+      headings.emplace_back(std::cos(seen.yaw), std::sin(seen.yaw));
+    if (object.symmetry == Symmetry::kNone)
+      object.pose.yaw = VoteHeading(object.pose.yaw, headings);
     map.SetPose({object.id}, object.pose);
   }
   log_scale = problem.log_scale;

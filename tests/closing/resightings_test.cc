@@ -226,8 +226,8 @@ TEST(LearnOdometryInSight, IsTwiceAsCarefulAsTheResightings) {
 
   InSight world(Straight(100), Places());
   AddNoise(world.state, 0.2);
-  const OdometryFactors learnt =
-      FactorsFromResightings(ResightingsOf(world.state, world.passes, {}, 1, 0.01));
+  const OdometryFactors learnt = FactorsFromResightings(
+      ResightingsOf(world.state, world.passes, {}, 1, 0.01), {0.5, 0.5, 0.5});
   ASSERT_GT(learnt.horizontal, 0.05);
   factors = LearnOdometryInSight(world.state, world.passes, {}, 1);
   EXPECT_NEAR(factors.horizontal, 2 * learnt.horizontal, 1e-12);

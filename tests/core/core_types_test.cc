@@ -67,9 +67,12 @@ TEST(DetectionNoise, CovarianceFollowsTheRay) {
   EXPECT_LT((rows * rows.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_LT((rows * point - Vec3(point.norm(), 0, 0)).norm(), 1e-12);
   EXPECT_NEAR(rows(1, 1), 0, 1e-12) << "the second axis is horizontal";
-  const Eigen::Matrix3d covariance = PositionCovariance(point, {2., 0.5, 0.25, 1});
+  const DetectionSigmas sigmas{2., 0.5, 0.25, 1};
+  const Eigen::Matrix3d covariance = PositionCovariance(point, sigmas);
   const Vec3 ray = point.normalized();
   EXPECT_NEAR(ray.dot(covariance * ray), 4., 1e-9);
+  EXPECT_LT((PositionInformation(point, sigmas) * covariance - Eigen::Matrix3d::Identity()).norm(),
+            1e-12);
   EXPECT_TRUE(RayFrame(Vec3(0, 5, 0)).allFinite()) << "straight down";
   EXPECT_TRUE(RayFrame(Vec3(0, 0, 0)).allFinite()) << "no range at all";
 }

@@ -38,8 +38,10 @@ TEST(FuseDims, NearSightingsCountMore) {
 }
 
 TEST(VoteHeading, MajorityWins) {
-  EXPECT_NEAR(VoteHeading(0.3, {0.3, 0.35, 0.3 + M_PI}), 0.3, 1e-12);
-  EXPECT_NEAR(VoteHeading(0.3, {0.3, 0.35 - M_PI, 0.3 + M_PI}), 0.3 - M_PI, 1e-12);
+  const auto heading = [](double yaw) { return Vec2(std::cos(yaw), std::sin(yaw)); };
+  const Vec2 ahead = heading(0.3), nearly = heading(0.35), back = -ahead;
+  EXPECT_NEAR(VoteHeading(0.3, {ahead, nearly, back}), 0.3, 1e-12);
+  EXPECT_NEAR(VoteHeading(0.3, {ahead, -nearly, 5 * back}), 0.3 - M_PI, 1e-12);
   EXPECT_NEAR(VoteHeading(0.3, {}), 0.3, 1e-12);
 }
 

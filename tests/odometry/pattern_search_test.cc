@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sslcd {
 namespace {
@@ -20,6 +21,27 @@ TEST(MaximiseOverLogs, FindsTheMaximumOfAQuadratic) {
       EXPECT_NEAR(found_y, y, 0.05);
     }
   }
+}
+
+TEST(MaximiseOverLogs, TheResultDoesNotDependOnTheStart) {
+  const auto value = [](const std::array<double, 2>& at) {
+    return -std::pow(at[0] - 1.3, 2) - std::pow(at[1] + 0.7, 2);
+  };
+  const auto from_zero = MaximiseOverLogs<2>(value);
+  EXPECT_EQ(MaximiseOverLogs<2>(value, {4.17, -3.33}), from_zero);
+  EXPECT_EQ(MaximiseOverLogs<2>(value, from_zero), from_zero);
+}
+
+TEST(MaximiseOverLogs, ANearStartIsQuicker) {
+  int calls = 0;
+  const auto value = [&](const std::array<double, 2>& at) {
+    ++calls;
+    return -std::pow(at[0] - 1.3, 2) - std::pow(at[1] + 0.7, 2);
+  };
+  MaximiseOverLogs<2>(value);
+  const int from_zero = std::exchange(calls, 0);
+  MaximiseOverLogs<2>(value, {1.4, -0.6});
+  EXPECT_LT(calls, from_zero - 10);
 }
 
 TEST(MaximiseOverLogs, StaysAtZeroWhereNothingIsBetter) {

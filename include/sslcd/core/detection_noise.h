@@ -43,5 +43,7 @@ Eigen::Matrix3d RayFrame(const Vec3& point_cam);
 
 /// Covariance of a detection's position in the camera frame. [m^2]
 Eigen::Matrix3d PositionCovariance(const Vec3& point_cam, const DetectionSigmas& sigmas);
+/// Its inverse. [1/m^2]
+Eigen::Matrix3d PositionInformation(const Vec3& point_cam, const DetectionSigmas& sigmas);
 
 }  // namespace sslcd
