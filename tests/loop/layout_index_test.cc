@@ -133,15 +133,21 @@ std::set<int> Ids(const LayoutIndex& index, const std::vector<int>& found) {
   return ids;
 }
 
-std::set<std::pair<std::set<int>, std::array<float, 3>>> Found(const LayoutIndex& index,
-                                                               const ObjectTriangle& triangle) {
+// By their corners' places: of objects on one spot it does not matter which are neighbours.
+using PlacedTriangle = std::pair<std::set<std::pair<float, float>>, std::array<float, 3>>;
+
+std::multiset<PlacedTriangle> Found(const LayoutIndex& index, const ObjectTriangle& triangle) {
   std::vector<ObjectTriangle> found;
   index.triangles()->Find(index, triangle, 1., 100000, found);
-  std::set<std::pair<std::set<int>, std::array<float, 3>>> result;
-  for (const ObjectTriangle& other : found)
-    EXPECT_TRUE(
-        result.insert({Ids(index, {other.vertex.begin(), other.vertex.end()}), other.side}).second);
-  return result;
+  std::multiset<PlacedTriangle> placed;
+  std::set<std::set<int>> ids;
+  for (const ObjectTriangle& other : found) {
+    EXPECT_TRUE(ids.insert(Ids(index, {other.vertex.begin(), other.vertex.end()})).second);
+    PlacedTriangle one{{}, other.side};
+    for (const int i : other.vertex) one.first.insert({index.points()[i].x, index.points()[i].y});
+    placed.insert(std::move(one));
+  }
+  return placed;
 }
 
 void ExpectSameAnswers(const LayoutIndex& kept, const LayoutIndex& fresh, double half_side_m) {
