@@ -50,7 +50,8 @@ class TriangleIndex {
 
   /// Adds to `found` the triangles whose sides differ by less than `radius_m` (Euclidean norm), in
   /// an order that does not depend on earlier changes. Adds none if there are more than `limit`,
-  /// since such a triangle is not distinctive.
+  /// since such a triangle is not distinctive. Of objects that are equally far away, earlier
+  /// changes may decide which are neighbours.
   void Find(const LayoutIndex& index, const ObjectTriangle& triangle, double radius_m,
             std::size_t limit, std::vector<ObjectTriangle>& found) const;
 

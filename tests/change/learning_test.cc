@@ -127,6 +127,12 @@ TEST(LearnChanges, NoPlaces) {
   const Learnt learnt = LearnChanges({}, records);
   EXPECT_TRUE(learnt.rates.empty());
   EXPECT_EQ(learnt.first, 0.5);
+  // the prior: how visits are where an object is, and where none is
+  const VisitKinds kinds{{0.05, 0.05, 0.1, 0.4, 0.4}, {8 / 9.5, 1 / 9.5, 0.5 / 9.5}};
+  for (std::size_t i = 0; i < kinds.there.size(); ++i)
+    EXPECT_NEAR(learnt.kinds.there[i], kinds.there[i], 1e-12) << i;
+  for (std::size_t i = 0; i < kinds.empty.size(); ++i)
+    EXPECT_NEAR(learnt.kinds.empty[i], kinds.empty[i], 1e-12) << i;
 }
 
 }  // namespace

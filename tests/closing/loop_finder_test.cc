@@ -182,6 +182,35 @@ TEST(TrackFinder, TheSecondScoreIsOfTheSecondBestPlace) {
   EXPECT_GT(row.score + row.second_score, -2 * std::log(2)) << "and less likely than both";
 }
 
+// The second pass is a sequence of its own, so no odometry tells where it is.
+std::optional<FoundLoop> FindWithLooks(const TwoPasses& world, bool same) {
+  MapState state{world.state.map, FrameStore(300)};
+  PassMap passes{{}, 30.};
+  for (int i = 0; i < world.state.frames.size(); ++i) {
+    const bool second = i >= TwoPasses::kSecond;
+    const FrameRecord& record = world.state.frames[i];
+    std::vector<Detection> seen = record.detections;
+    for (std::size_t k = 0; k < seen.size(); ++k) {  // ids of a tree are even and odd
+      const int tree = record.matched[k].value / 2;
+      const float angle = static_cast<float>(tree) + (second && !same ? 1.6f : 0.f);
+      seen[k].appearance[Cue::kEmbedding] = {std::cos(angle), std::sin(angle)};
+    }
+    state.frames.Append(record, StepUncertainty{i == TwoPasses::kSecond});
+    passes.AddFrame(state, seen);
+  }
+  return MakeTrackFinder(LoopOptions())
+      ->Find({state, passes, {}, kPoor, {state.frames.back().travelled, 25, 75, 0}});
+}
+
+TEST(TrackFinder, LooksDecideWhereNoOdometryDoes) {
+  const TwoPasses world(Pose::Trans(5, 0, -3));
+  const auto same = FindWithLooks(world, true), other = FindWithLooks(world, false);
+  ASSERT_TRUE(same && other);
+  EXPECT_EQ(same->loop.row.decision, LoopDecision::kAccepted) << same->loop.row.reason;
+  EXPECT_NE(other->loop.row.decision, LoopDecision::kAccepted);
+  EXPECT_EQ(other->loop.row.reason, "the objects look different");
+}
+
 TEST(TrackFinder, ACloneGoesItsOwnWay) {
   const TwoPasses world(Pose::Trans(5, 0, -3));
   const auto finder = MakeTrackFinder(LoopOptions());

@@ -131,6 +131,37 @@ TEST(HeightsByLoops, AreMeasuredInTheWorld) {
   EXPECT_LT(drive.Rms(drive.Correct().rise_m), 1e-6);
 }
 
+// The ends of the drive, before the first and after the last measured frame, have the heights of
+// these, since nothing tells of a drift there.
+TEST(HeightsByLoops, EndsFollowTheNearestMeasurement) {
+  OutAndBack drive(0.1, 0.1);
+  LoopAttempt& loop = drive.loops.attempts().back();
+  loop.found.loop.match = 1;
+  loop.found.loop.query = drive.frames.size() - 2;
+  const std::vector<double> rise_m = drive.Correct().rise_m;
+  EXPECT_GT(std::abs(rise_m[5] - rise_m[1]), 1e-3);
+  EXPECT_NEAR(rise_m[0], rise_m[1], 1e-9);
+  EXPECT_NEAR(rise_m.back(), rise_m[rise_m.size() - 2], 1e-9);
+}
+
+// Between measured frames heights may be off by more than at these, however few there are.
+TEST(HeightsByLoops, MeasurementsThatSayNothingChangeNothing) {
+  OutAndBack drive(0.1, 0.1);
+  std::vector<LoopAttempt>& attempts = drive.loops.attempts();
+  for (std::size_t i = 0; i < attempts.size(); ++i)
+    if (i % 9 != 0) attempts[i].row().decision = LoopDecision::kAmbiguous;
+  const HeightCorrection few = drive.Correct();
+  for (int frame = 5; frame + 10 < drive.frames.size(); frame += 10) {
+    Vec6 variances;
+    variances << Vec3::Constant(1e8), Vec3::Constant(1);
+    drive.ties.push_back({frame, frame + 10, {Pose(), variances.asDiagonal()}});
+  }
+  const HeightCorrection many = drive.Correct();
+  EXPECT_NEAR(few.probability, many.probability, 1e-4) << few.probability;
+  for (std::size_t i = 0; i < few.rise_m.size(); ++i)
+    EXPECT_NEAR(few.rise_m[i], many.rise_m[i], 1e-3) << i;
+}
+
 // The way back is a sequence of its own, whose odometry starts `higher` by some metres.
 void CutWhereItTurns(double higher, OutAndBack& drive) {
   FrameStore frames(100);

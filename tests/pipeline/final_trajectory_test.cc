@@ -39,6 +39,29 @@ TEST(FinalTrajectory, IsAPerfectOdometryAsItWasGiven) {
   EXPECT_EQ(optimised.improvement.horizontal, 0) << "nobody asks";
 }
 
+// Between sequences there is no odometry to keep.
+TEST(FinalTrajectory, IsTheMoreProbableOneWhereLoopsJoinSequences) {
+  const std::vector<sim::PathPiece> side{{25, 0}, {4 * M_PI, 1. / 8}};
+  const sim::Path path({side[0], side[1], side[0], side[1], side[0], side[1], side[0], side[1]},
+                       true);
+  sim::World world = EmptyWorld();
+  Plant(path, path.length(), 0.5, 1, world);
+  Drive(path, 0, path.length() + 90, world);
+  Drives drives(std::move(world), 1);
+  for (std::size_t i = 0; i < drives.frames.size(); ++i)
+    drives.frames[i].T_odom_cam = drives.world.truth.poses[i];
+  const std::size_t cut = drives.frames.size() / 2;
+  drives.frames[cut].step = StepUncertainty{true};
+  const RunResult result = drives.Run();
+  EXPECT_GT(result.improvement.horizontal, 0.5);
+  EXPECT_LT(result.improvement.horizontal, Options().refine.least_probability);
+  const auto way = [&](const Trajectory& trajectory) {  // of the first sequence, level
+    const Vec3 moved = (trajectory.poses[0].inverse() * trajectory.poses[cut - 1]).translation();
+    return std::hypot(moved.x(), moved.z());
+  };
+  EXPECT_GT(std::abs(way(result.trajectory) - way(result.odometry)), 1e-3) << "it is optimised";
+}
+
 TEST(FinalTrajectory, IsTheOptimisedOneWhereOdometryDrifts) {
   const Drives drives = TwoLaps(SecondLap::kSame, 0.5, 1);
   const RunResult result = drives.Run();

@@ -281,6 +281,16 @@ TEST_F(RefineMapTest, RejectsMovableObjectsThatAreSeldomSeen) {
   EXPECT_EQ(StateOf(open), kTentative) << "it is not part of the map anyway";
 }
 
+// It was in sight in four frames, and seen in all of them.
+TEST_F(RefineMapTest, AGapOutOfSightCountsAsTheSightingAfterIt) {
+  options_.refine.min_seen_share = 0.9;
+  AddTrees();
+  const LandmarkId car = AddSeen({3, 1, 30}, 0, 2, "Car");
+  See(car, 30, 32, {3, 1, 30});
+  Refine(1);
+  EXPECT_EQ(StateOf(car), kConfirmed);
+}
+
 TEST_F(RefineMapTest, FramesWithoutADetectionDoNotCount) {
   AddTrees(3);  // the detector runs in every third frame
   const LandmarkId car = Add({3, 1, 30}, "Car");
