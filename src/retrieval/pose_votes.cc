@@ -16,7 +16,6 @@ constexpr int kHeadings = 18;
 constexpr int kTableBits = 20;
 constexpr float kSteps = 16;           // of weights in a nat
 constexpr std::uint16_t kMost = 4095;  // steps of a cell, 256 nats
-constexpr std::size_t kFew = 1 << 17;  // cells; of more, it is quicker to read the whole table
 
 std::uint32_t CellOf(const PoseVote& vote, int grid) {
   const float shift = 0.5f * static_cast<float>(grid);
@@ -33,15 +32,10 @@ std::uint32_t CellOf(const PoseVote& vote, int grid) {
 }
 
 // The weight that about `most` cells have at least.
-int Threshold(const std::vector<std::uint16_t>* tables, const std::vector<std::uint32_t>* occupied,
-              std::size_t most) {
+int Threshold(const std::vector<std::uint16_t>* tables, std::size_t most) {
   std::array<std::size_t, kMost + 1> cells{};
-  for (int grid = 0; grid < 2; ++grid) {
-    if (occupied[grid].size() < kFew)
-      for (const std::uint32_t cell : occupied[grid]) ++cells[tables[grid][cell]];
-    else
-      for (const std::uint16_t weight : tables[grid]) ++cells[weight];
-  }
+  for (int grid = 0; grid < 2; ++grid)
+    for (const std::uint16_t weight : tables[grid]) ++cells[weight];
   int least = kMost;
   for (std::size_t count = cells[kMost]; count < most && least > 1;) count += cells[--least];
   return least;
@@ -79,13 +73,7 @@ PoseVotes::PoseVotes() {
 void PoseVotes::Clear() {
   if (votes_.empty()) return;
   votes_.clear();
-  for (int grid = 0; grid < 2; ++grid) {
-    if (occupied_[grid].size() < kFew)
-      for (const std::uint32_t cell : occupied_[grid]) table_[grid][cell] = 0;
-    else
-      std::fill(table_[grid].begin(), table_[grid].end(), std::uint16_t{0});
-    occupied_[grid].clear();
-  }
+  for (auto& table : table_) std::fill(table.begin(), table.end(), std::uint16_t{0});
 }
 
 void PoseVotes::Add(const PoseVote& vote) {
@@ -94,16 +82,14 @@ void PoseVotes::Add(const PoseVote& vote) {
   for (int grid = 0; grid < 2; ++grid) {
     counted.cell[grid] = CellOf(vote, grid);
     std::uint16_t& sum = table_[grid][counted.cell[grid]];
-    const int before = sum;
     sum = static_cast<std::uint16_t>(
-        std::min<int>(before + static_cast<int>(vote.weight * kSteps), kMost));
-    if (occupied_[grid].size() < kFew && before == 0 && sum > 0)
-      occupied_[grid].push_back(counted.cell[grid]);
+        std::min<int>(sum + static_cast<int>(vote.weight * kSteps), kMost));
   }
 }
 
 std::vector<PoseVote> PoseVotes::Best(std::size_t most) const {
-  const int least = Threshold(table_, occupied_, 2 * most);
+  if (votes_.empty()) return {};  // without a look at the tables
+  const int least = Threshold(table_, 2 * most);
   // Sites that share a cell of a table by chance are told apart here.
   std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Mean> means;
   for (const auto& [vote, cell] : votes_)

@@ -29,7 +29,8 @@ class PoseVotes {
   /// Coordinates below 10^6 m.
   void Add(const PoseVote& vote);
 
-  /// The means of the cells with most weight, distinct poses, best first. O(votes)
+  /// The means of the cells with most weight, distinct poses, best first. O(votes + size of the
+  /// tables)
   std::vector<PoseVote> Best(std::size_t most) const;
 
  private:
@@ -37,8 +38,7 @@ class PoseVotes {
     PoseVote vote;
     std::uint32_t cell[2];  // of each table
   };
-  std::vector<std::uint16_t> table_[2];     // [1/16 nat]
-  std::vector<std::uint32_t> occupied_[2];  // cells with votes, the first ones
+  std::vector<std::uint16_t> table_[2];  // [1/16 nat]
   std::vector<Counted> votes_;
 };
 

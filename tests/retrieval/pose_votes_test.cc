@@ -27,28 +27,6 @@ TEST(PoseVotes, TheBestIsWhereMostAgree) {
   EXPECT_TRUE(votes.Best(5).empty());
 }
 
-// So many that the occupied cells are not kept.
-TEST(PoseVotes, ManyCellsAreForgottenLikeFew) {
-  PoseVotes votes;
-  const auto add = [&](int cells) {
-    for (int i = 0; i < cells; ++i)
-      votes.Add({1, {0, 8.f * static_cast<float>(i % 500), 8.f * static_cast<float>(i / 500)}, 1});
-    for (int i = 0; i < 3; ++i) votes.Add({2, {0, 2, 2}, 20});
-  };
-  add(200000);
-  ASSERT_EQ(votes.Best(1).size(), 1u);
-  EXPECT_EQ(votes.Best(1)[0].site, 2u);
-  for (int round = 0; round < 2; ++round) {
-    votes.Clear();
-    add(10);
-    const std::vector<PoseVote> best = votes.Best(99);
-    ASSERT_EQ(best.size(), 11u);
-    EXPECT_EQ(best[0].site, 2u);
-    EXPECT_EQ(best[0].weight, 60);
-    EXPECT_EQ(best[1].weight, 1);
-  }
-}
-
 TEST(PoseVotes, HeadingsWrapAndSitesDiffer) {
   PoseVotes votes;
   for (const float yaw : {-0.02f, 0.02f, static_cast<float>(2 * M_PI) - 0.01f})
