@@ -115,12 +115,16 @@ bool IsPlainWord(const std::string& text) {
   return !lower.empty() && reserved.count(lower) == 0;
 }
 
-/// A label as a key that every YAML reader takes for this text.
+/// A label as a key that every YAML reader takes for this text, up to its value.
 std::string YamlKey(const std::string& label) {
-  if (IsPlainWord(label)) return label;
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << label;
-  return emitter.c_str();
+  constexpr std::size_t kMostImplicit = 1000;  // 1024 characters in YAML 1.2, 7.4.2
+  std::string key = label;
+  if (!IsPlainWord(label)) {
+    YAML::Emitter emitter;
+    emitter << YAML::DoubleQuoted << label;
+    key = emitter.c_str();
+  }
+  return key.size() <= kMostImplicit ? "  " + key + ": " : "  ? " + key + "\n  : ";
 }
 
 }  // namespace
@@ -138,7 +142,7 @@ std::string SequenceYamlText(const SequenceInfo& info) {
             std::to_string(info.image_height) + "]\n";
   if (!info.labels.entries().empty()) text += "labels:\n";
   for (const auto& [label, of_label] : info.labels.entries())
-    text += "  " + YamlKey(label) + ": {symmetry: " + ToString(of_label.symmetry) + "}\n";
+    text += YamlKey(label) + "{symmetry: " + ToString(of_label.symmetry) + "}\n";
   return text;
 }
 

@@ -55,10 +55,11 @@ TEST(SequenceYaml, ErrorsNameTheirPlace) {
 }
 
 TEST(SequenceYaml, LabelsComeBackAsWritten) {
-  const std::vector<std::string> labels = {
-      "Car",       "light_2", "yes",         "No",          "null", "1", "-",
-      "a: b",      "a #b",    "{x}",         "\"q\"",       "'",    "~", "B\\n",
-      "two words", " x ",     "line\nbreak", "Stra\u00dfe", ""};
+  const std::vector<std::string> labels = {"Car", "light_2", "yes", "No", "null", "1", "-", "a: b",
+                                           "a #b", "{x}", "\"q\"", "'", "~", "B\\n", "two words",
+                                           " x ", "line\nbreak", "Stra\u00dfe", "",
+                                           // longer than an implicit key may be
+                                           std::string(1100, 'x'), std::string(600, '\n') + ": y"};
   SequenceInfo info;
   for (const std::string& label : labels) info.labels.Set(label, {Symmetry::kPi});
   const TempFolder folder;
