@@ -27,6 +27,7 @@ from fault_commands import write_inputs  # noqa: E402
 RUN = 'run data --max-frames 40 --out {}'
 A_RUN, A_MAP = (RUN.format('run'),), (RUN.format('run --map site.db'),)
 CODES = (0, 2, 3, 4, 5, 6)  # docs/formats.md; 1, a result that could not be written, says nothing of the input
+NOT_FOUND = 5
 COLUMNS = ['refused', 'with a warning', 'no difference', 'other results', 'too slow', 'empty folder', 'violations']
 
 
@@ -178,13 +179,14 @@ class Bench:
     def judge(self, trial, before, done):
         """What has happened, and what may not."""
         after, name, code, said = content(self.folder), trial.name, done.returncode, self.said(done)
-        refused = code not in (0, self.code)
+        not_found = self.command.name == 'relocalise' and code == NOT_FOUND  # an answer, which --out gets, too
+        refused = code not in (0, self.code) and not not_found
         if code not in CODES:
             trial.violations.append(f'ends with {code}')
         if re.search('Sanitizer|runtime error:', done.stderr):
             trial.violations.append('a sanitizer reports')
         trial.violations += [f'changes {n}' for n in before if after.get(n) != before[n] and n != self.command.writes]
-        left = [n for n in after if n not in before and (code != 0 or '.tmp' in n)]
+        left = [n for n in after if n not in before and (code != 0 and not not_found or '.tmp' in n)]
         files = [n for n in left if not n.endswith(('.db-wal', '.db-shm', '/'))]
         trial.violations += [f'leaves {n}' for n in files]
         trial.empty_folder = any(n.endswith('/') for n in left)

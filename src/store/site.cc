@@ -153,10 +153,12 @@ void CheckBelongs(const MapInfo& info, const std::string& path, const MapperCont
                   const std::optional<Options>& options) {
   constexpr double kSameAxis = 1e-6;  // rounding
   if ((context.gravity.up - info.up_axis).norm() > kSameAxis)
-    throw Error(ErrorKind::kBadInput,
-                path + ": is the map of another site: up is " + AxisText(info.up_axis) +
-                    " there, and " + AxisText(context.gravity.up) +
-                    " in this drive; name the right map, or begin another one");
+    throw Error(
+        ErrorKind::kBadInput,
+        path + ": is the map of another site: up is " + AxisText(info.up_axis) + " there, and " +
+            AxisText(context.gravity.up) +
+            " in this drive; name the right map, or the right up_axis in sequence.yaml, or begin "
+            "another map");
   for (const auto& [name, label] : context.labels.entries()) {
     const auto known = info.labels.entries().find(name);
     if (known == info.labels.entries().end() || known->second.symmetry == label.symmetry) continue;
