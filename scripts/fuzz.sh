@@ -4,7 +4,7 @@
 # and prints what was found (docs/trust.md).
 #   scripts/fuzz.sh [--seconds 60] [--runs N] [--list] [TARGET...]     default: all but onnx
 # A target ends after so many seconds or executions. Exit status 1 if an input crashes it, takes
-# longer than a second of CPU time (mapper, async_mapper: 5) or a minute of the clock, or makes it
+# longer than a second of CPU time (mapper, async_mapper: 5) or ten seconds of the clock, or makes it
 # take more than 1 GB. Such inputs are kept in build/fuzz/found, interesting ones in
 # build/fuzz/corpus, from which the next run goes on.
 # Needs scripts/install_deps.sh fuzz.
@@ -60,7 +60,7 @@ for target in "${targets[@]}"; do
   if [[ $target == mapper || $target == async_mapper ]]; then limit=5; fi
   # -entropic=0: to choose inputs by how rare their features are costs more than running them.
   SSLCD_FUZZ_TARGET=$target SSLCD_FUZZ_SECONDS=$limit "$fuzzer" -max_total_time="$seconds" -runs="$runs" \
-    -entropic=0 -timeout=60 -rss_limit_mb=1024 -malloc_limit_mb=1000 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" \
+    -entropic=0 -timeout=10 -rss_limit_mb=1024 -malloc_limit_mb=1000 -print_final_stats=1 -artifact_prefix="$found/" "$corpus" \
     "tests/data/fuzz/$target" >"$log" 2>&1 || status=1
   if grep -q '^too slow:' "$log"; then
     slow=$(sed -n 's/.*Test unit written to //p' "$log" | tail -1)

@@ -27,7 +27,6 @@ from fault_commands import write_inputs  # noqa: E402
 RUN = 'run data --max-frames 40 --out {}'
 A_RUN, A_MAP = (RUN.format('run'),), (RUN.format('run --map site.db'),)
 CODES = (0, 2, 3, 4, 5, 6)  # docs/formats.md; 1, a result that could not be written, says nothing of the input
-NOT_FOUND = 5
 COLUMNS = ['refused', 'with a warning', 'no difference', 'other results', 'too slow', 'empty folder', 'violations']
 
 
@@ -38,6 +37,7 @@ class Command:
     inputs: str  # regular expression of the files that are damaged, one at a time
     before: tuple = ()  # commands that make the inputs
     writes: str = ''  # an input that the command may change: a map
+    answers: tuple = (0,)  # exit codes with a result; 5: not found
 
 
 ALL = [
@@ -46,7 +46,8 @@ ALL = [
     Command('run --map', RUN.format('out') + ' --map site.db --session two', r'site\.db', A_MAP, 'site.db'),
     Command('map verify', 'map verify site.db', r'site\.db', A_MAP),
     Command('map export', 'map export site.db --out out', r'site\.db', A_MAP),
-    Command('relocalise', 'relocalise data --map site.db --frames 15 --out out', r'site\.db|data/.*', A_MAP),
+    Command('relocalise', 'relocalise data --map site.db --frames 15 --out out', r'site\.db|data/.*', A_MAP,
+            answers=(0, 5)),
     Command('check', 'check data', r'data/.*'),
     Command('check --fix', 'check wrong --fix out', r'wrong/.*'),
     Command('eval', 'eval run --groundtruth data/groundtruth.txt', r'run/.*|data/groundtruth\.txt', A_RUN),
@@ -179,14 +180,13 @@ class Bench:
     def judge(self, trial, before, done):
         """What has happened, and what may not."""
         after, name, code, said = content(self.folder), trial.name, done.returncode, self.said(done)
-        not_found = self.command.name == 'relocalise' and code == NOT_FOUND  # an answer, which --out gets, too
-        refused = code not in (0, self.code) and not not_found
+        refused = code not in (*self.command.answers, self.code)
         if code not in CODES:
             trial.violations.append(f'ends with {code}')
         if re.search('Sanitizer|runtime error:', done.stderr):
             trial.violations.append('a sanitizer reports')
         trial.violations += [f'changes {n}' for n in before if after.get(n) != before[n] and n != self.command.writes]
-        left = [n for n in after if n not in before and (code != 0 and not not_found or '.tmp' in n)]
+        left = [n for n in after if n not in before and (code not in self.command.answers or '.tmp' in n)]
         files = [n for n in left if not n.endswith(('.db-wal', '.db-shm', '/'))]
         trial.violations += [f'leaves {n}' for n in files]
         trial.empty_folder = any(n.endswith('/') for n in left)
