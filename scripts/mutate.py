@@ -45,7 +45,7 @@ SUBJECTS = {
                ("src/pose_graph/gnc.cc", "sslcd_pose_graph_tests", "Gnc*:Robust*")],
     "odometry": [("src/pose_graph/relative_covariance.cc", "sslcd_pose_graph_tests", "RelativeCovariances*"),
                  ("src/odometry/resighting.cc", "sslcd_odometry_tests", "FactorsFromResightings*"),
-                 ("src/odometry/odometry_factors.cc", "sslcd_odometry_tests", "*Factors*"),
+                 ("src/odometry/odometry_by_loops.cc", "sslcd_odometry_tests", "*Factors*"),
                  ("src/odometry/odometry_noise.cc", "sslcd_odometry_tests", "Odometry*:SigmasOf*")],
     "search": [("src/loop/pose_search.cc", "sslcd_loop_tests", "SearchPoses*")],
     "assignment": [("src/association/assignment.cc", "sslcd_association_tests", "*Assign*")],

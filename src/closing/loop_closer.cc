@@ -151,7 +151,8 @@ void LoopCloser::SearchAndCorrect(MapState& state, const SearchWindow& window, d
   (window.second ? second_ : first_).end_m = window.end_m;
   {
     const ScopedTimer timer(timing, "loop detection");
-    LearnOdometry(state, scale);
+    // again whenever the path has grown by a tenth
+    if (state.frames.back().travelled >= 1.1 * learnt_at_m_) LearnFromSight(state, scale);
     if (!Search(state, window)) return;
   }
   const ScopedTimer timer(timing, "drift correction");
@@ -192,12 +193,8 @@ void LoopCloser::MoveLooks(const std::vector<Pose>& before, const MapState& stat
   second_.finder->MoveLocalMap(LayoutChange(before[1], now[1], state.gravity()));
 }
 
-// Learns again whenever the path has grown by a tenth.
-void LoopCloser::LearnOdometry(const MapState& state, double scale) {
-  constexpr double kGrowth = 1.1;
-  const double path_m = state.frames.back().travelled;
-  if (path_m < kGrowth * learnt_at_m_) return;
-  learnt_at_m_ = path_m;
+void LoopCloser::LearnFromSight(const MapState& state, double scale) {
+  learnt_at_m_ = state.frames.back().travelled;
   odometry_factors_ =
       LearnOdometryInSight(state, passes_, options_.odometry, scale, odometry_factors_);
 }

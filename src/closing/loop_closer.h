@@ -49,6 +49,9 @@ class LoopCloser {
 
   /// Factors on LoopOptions::odometry that the resightings of the run have taught so far.
   const OdometryFactors& odometry_factors() const { return odometry_factors_; }
+  /// Learns them from the objects in sight, as the first search and each one after another tenth of
+  /// the path do; to be called when the odometry has been corrected.
+  void LearnFromSight(const MapState& state, double scale);
 
   LoopLedger& ledger() { return ledger_; }
   const LoopLedger& ledger() const { return ledger_; }
@@ -62,7 +65,6 @@ class LoopCloser {
   void SearchAndCorrect(MapState& state, const SearchWindow& window, double scale,
                         TimingTable& timing);
   bool PlaceJoined(MapState& state) const;
-  void LearnOdometry(const MapState& state, double scale);
   std::vector<double> EarlyPlaces(const FrameStore& frames, const SearchWindow& window) const;
   void AddEarly(const FrameStore& frames, const SearchWindow& window,
                 const std::vector<FoundLoop>& found);

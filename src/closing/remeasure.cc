@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "closing/pass_layout.h"
+#include "closing/resightings.h"
 #include "loop/decision.h"
 #include "odometry/odometry_edge.h"
-#include "odometry/odometry_factors.h"
 
 namespace sslcd {
 namespace {
@@ -98,19 +98,24 @@ void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, dou
   }
 }
 
-OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
-                              const LoopOptions& options, const OdometryFactors& in_sight) {
-  OdometryFactors factors = in_sight;
-  factors.horizontal = factors.heading = 1;
-  if (!options.learn_odometry) return factors;
+OdometryByLoops LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
+                              const LoopOptions& options, double corrected) {
+  if (!options.learn_odometry) return {};
   const Vec3 up = state.gravity().up;
   const LoopGraph graph =
       BuildLoopGraph(state.frames, ledger.AcceptedEdges(), scale, up, options, {});
   std::vector<OdometryFailures> failures;
   for (std::size_t k = 1; k < graph.keyframes.size(); ++k)
     failures.push_back(FailuresBetween(state.frames, graph.keyframes[k - 1], graph.keyframes[k]));
-  const OdometryFactors by_loops = LearnOdometryFactors(graph.graph, up, failures);
-  factors.horizontal = by_loops.horizontal;
+  return LearnOdometryByLoops(graph.graph, up, corrected, failures);
+}
+
+OdometryFactors FactorsOfRefinement(const OdometryByLoops& by_loops,
+                                    const OdometryFactors& in_sight, const LoopOptions& options) {
+  OdometryFactors factors = in_sight;
+  factors.horizontal = factors.heading = 1;
+  if (!options.learn_odometry) return factors;
+  factors.horizontal = std::max(by_loops.horizontal, in_sight.horizontal / kCaution);
   factors.heading = std::max(by_loops.heading, in_sight.heading);
   return factors;
 }

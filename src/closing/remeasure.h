@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "closing/loop_ledger.h"
-#include "odometry/odometry_noise.h"
+#include "odometry/odometry_by_loops.h"
 #include "sslcd/core/pose.h"
 
 namespace sslcd {
@@ -23,11 +23,18 @@ void ReviewLoops(const MapState& state, const PassMap& passes, LoopLedger& ledge
 void MeasureByViews(const MapState& state, const std::vector<ViewTie>& ties, double scale,
                     const OdometryNoise& noise, LoopLedger& ledger);
 
-/// Learns factors on the noise `options.odometry` from the accepted loops (LearnOdometryFactors).
-/// Passes in the same direction share errors of heading, which no loop between them shows, so that
-/// factor is not below the one `in_sight`. Those of height and tilt are always the ones in sight.
-/// Those of horizontal position and heading are one if `options.learn_odometry` is off.
-OdometryFactors LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
-                              const LoopOptions& options, const OdometryFactors& in_sight);
+/// Learns the errors of odometry from the accepted loops (LearnOdometryByLoops): factors on the
+/// noise `options.odometry`, and the turn of the heading, of which `corrected` has been taken out
+/// of FrameRecord::T_odom_cam. Nothing is learnt if `options.learn_odometry` is off.
+OdometryByLoops LearnOdometry(const MapState& state, const LoopLedger& ledger, double scale,
+                              const LoopOptions& options, double corrected);
+
+/// The factors of the refinement, not below those `in_sight`. Passes in the same direction share
+/// errors of heading, which no loop between them shows. Errors of position may be large from frame
+/// to frame and not add up (a camera that is not where it is taken to be): that factor is not below
+/// the one in sight without its caution. Those of height and tilt are always the ones in sight.
+/// Those of position and heading are one if `options.learn_odometry` is off.
+OdometryFactors FactorsOfRefinement(const OdometryByLoops& by_loops,
+                                    const OdometryFactors& in_sight, const LoopOptions& options);
 
 }  // namespace sslcd

@@ -11,10 +11,6 @@ namespace {
 // Least path between the sightings of a pass that are compared, and the most, beyond which wrong
 // matches are common. Set by hand. [m]
 constexpr double kApart = 3, kFarthest = 40;
-// Factor on what is learnt in sight, i.e. over 20 m of path: over 100 to 400 m of path the heading
-// of the odometry of poles 00, 02, 05 and of both forests errs by .2 to 2 times as much, that of
-// Victoria Park and of a constant turn rate by more.
-constexpr double kCaution = 2;
 // Least factors: the tails of what is learnt are not known below. Set by hand.
 constexpr double kLeastFactor = 0.1, kLeastTilt = 0.01;
 

@@ -23,7 +23,7 @@ struct FrameRecord {
   double travelled = 0;
   OdometryFailures failures;          ///< up to this frame
   Pose T_input_cam;                   ///< as odometry gave it
-  Pose T_odom_cam;                    ///< gravity-aligned, see LevelOptions
+  Pose T_odom_cam;                    ///< without systematic errors, see CorrectedOdometry
   Pose T_world_cam;                   ///< the current estimate
   std::optional<Pose> T_refined_cam;  ///< after the last refinement; none: came later
   std::vector<Detection> detections;  ///< after the filter, without appearance vectors
@@ -56,6 +56,8 @@ class FrameStore {
   std::vector<FrameRecord>::const_iterator end() const { return frames_.end(); }
 
   void SetPose(int index, const Pose& T_world_cam);
+  /// Corrects a frame's odometry. Does not change the revision: the estimate stays.
+  void SetOdometry(int index, const Pose& T_odom_cam) { frames_[index].T_odom_cam = T_odom_cam; }
   /// Remembers the current poses as refined ones.
   void MarkRefined();
   /// Sets the landmarks of a frame's detections. Does not change the revision: readers that store

@@ -17,8 +17,8 @@
 #include "pipeline/canonical_input.h"
 #include "pipeline/change_reporter.h"
 #include "pipeline/check_input.h"
+#include "pipeline/corrected_odometry.h"
 #include "pipeline/final_trajectory.h"
-#include "pipeline/gravity_aligner.h"
 #include "pipeline/sliding_window.h"
 #include "refine/refine_map.h"
 #include "sslcd/core/error.h"
@@ -75,7 +75,7 @@ struct SSLCD_HIDDEN Mapper::Impl {
         context(world),
         state{ObjectMap(GravityFrame(), world.labels, all.noise, all.association, all.map),
               FrameStore(PathOfLostStep(all))},
-        aligner(state.gravity(), all.level),
+        odometry(state.gravity(), all.level),
         window(all.window, all.ba, all.noise),
         loops(all.loop, WholeMap(all), GalleryMode(all.association), std::move(finder)) {}
 
@@ -83,14 +83,14 @@ struct SSLCD_HIDDEN Mapper::Impl {
   double scale() const { return std::exp(log_scale); }
   Pose ToHost(const Pose& T_start_any) const { return T_start_odom.inverse() * T_start_any; }
   StepUncertainty BeginSequence(const Frame& frame);
-  void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const;
+  void LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence);
   BaSummary Adjust(WholeMapOptions& whole_map, LoopEvidence& evidence);
 
   Options options;
   MapperContext context;
   Pose T_start_odom;  // from the host's world to that of `state`, see StartOf
   MapState state;
-  GravityAligner aligner;
+  CorrectedOdometry odometry;
   SlidingWindow window;
   LoopCloser loops;
   double log_scale = 0;
@@ -136,7 +136,7 @@ void Mapper::StartSequence() { impl_->starts_sequence = true; }
 StepUncertainty Mapper::Impl::BeginSequence(const Frame& frame) {
   first_stored_stamp = state.frames.back().stamp + TimeBetweenSequences(options.map);
   first_stamp = frame.stamp;
-  aligner = GravityAligner(state.gravity(), options.level);
+  odometry.StartSequence();
   ++sequence;
   return StepUncertainty{true};
 }
@@ -154,7 +154,7 @@ FrameReport Mapper::AddFrame(const Frame& frame) {
   if (frames.empty()) m.first_stamp = frame.stamp;
   FrameRecord record;
   record.T_input_cam = m.T_start_odom * frame.T_odom_cam;
-  const Pose T_odom_cam = m.aligner.Align(record.T_input_cam);
+  const Pose T_odom_cam = m.odometry.Correct(record.T_input_cam);
   const Pose T_world_cam = frames.empty() ? T_odom_cam
                            : begins       ? PlaceBeside(m.state, T_odom_cam)
                                           : PredictPose(frames.back(), T_odom_cam, m.log_scale);
@@ -223,14 +223,18 @@ LoopSearchSummary Mapper::SummariseLoopSearch() const {
   return summary;
 }
 
-// Sets the noise of odometry. Later frames keep the correction of the loops.
-void Mapper::Impl::LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) const {
+// Sets the noise of odometry, and takes its turn out. Later frames keep the correction of the
+// loops.
+void Mapper::Impl::LearnFromLoops(WholeMapOptions& whole_map, LoopEvidence& evidence) {
   whole_map.ba.odometry = options.ba.odometry;
   evidence.odometry_factors = {};
-  if (!loops.ledger().AnyAccepted()) return;
+  if (!loops.ledger().AnyAccepted()) return odometry.SetTurn(0, state.frames);
   whole_map.ba.odometry = options.loop.odometry;
-  evidence.odometry_factors =
-      LearnOdometry(state, loops.ledger(), scale(), options.loop, loops.odometry_factors());
+  const OdometryByLoops learnt =
+      LearnOdometry(state, loops.ledger(), scale(), options.loop, odometry.turn() / scale());
+  odometry.SetTurn(learnt.turn * scale(), state.frames);
+  loops.LearnFromSight(state, scale());
+  evidence.odometry_factors = FactorsOfRefinement(learnt, loops.odometry_factors(), options.loop);
 }
 
 // Adjusts again while loops are withdrawn.

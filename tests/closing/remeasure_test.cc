@@ -113,13 +113,15 @@ TEST_F(ByViews, NorATieFarAlongThePath) {
 TEST(LearnOdometry, WhereItMustNotLearnOrCannotTheWayIsAsConfigured) {
   const TwoPasses world;
   const OdometryFactors in_sight{0.3, 0.8, 0.5, 0.1};
-  LoopOptions options;
-  options.learn_odometry = false;
-  const OdometryFactors off =
-      LearnOdometry(world.state, LedgerOf(world, Pose::Trans(3, 0, 0)), 1, options, in_sight);
-  options.learn_odometry = true;
-  const OdometryFactors none = LearnOdometry(world.state, LoopLedger(), 1, options, in_sight);
-  for (const OdometryFactors& factors : {off, none}) {
+  LoopOptions on, off;
+  off.learn_odometry = false;
+  const OdometryByLoops not_learnt =
+      LearnOdometry(world.state, LedgerOf(world, Pose::Trans(3, 0, 0)), 1, off, 0.1);
+  const OdometryByLoops no_loops = LearnOdometry(world.state, LoopLedger(), 1, on, 0.1);
+  for (const OdometryByLoops& learnt : {not_learnt, no_loops}) EXPECT_EQ(learnt.turn, 0);
+  for (const OdometryFactors& factors : {FactorsOfRefinement(not_learnt, {2, 2, 0.5, 0.1}, off),
+                                         FactorsOfRefinement({0.1, 0.1, 0}, in_sight, off),
+                                         FactorsOfRefinement(no_loops, in_sight, on)}) {
     EXPECT_EQ(factors.horizontal, 1);
     EXPECT_EQ(factors.heading, 1);
     EXPECT_EQ(factors.vertical, 0.5);
@@ -127,15 +129,17 @@ TEST(LearnOdometry, WhereItMustNotLearnOrCannotTheWayIsAsConfigured) {
   }
 }
 
-TEST(LearnOdometry, HeadingIsNotBetterThanInSight) {
+TEST(LearnOdometry, OdometryIsNotBetterThanInSight) {
   const TwoPasses world;
-  const LoopLedger exact = LedgerOf(world, Pose());
-  OdometryFactors in_sight;
-  in_sight.heading = 0.01;
-  const double by_loops = LearnOdometry(world.state, exact, 1, {}, in_sight).heading;
-  in_sight.heading = 3;
-  EXPECT_LT(by_loops, 1);
-  EXPECT_GE(LearnOdometry(world.state, exact, 1, {}, in_sight).heading, 3);
+  const OdometryByLoops learnt = LearnOdometry(world.state, LedgerOf(world, Pose()), 1, {}, 0);
+  EXPECT_LT(learnt.heading, 1);
+  EXPECT_LT(learnt.horizontal, 1);
+  const OdometryFactors by_loops = FactorsOfRefinement(learnt, {0.01, 0.01}, {});
+  EXPECT_EQ(by_loops.heading, learnt.heading);
+  EXPECT_EQ(by_loops.horizontal, learnt.horizontal);
+  const OdometryFactors in_sight = FactorsOfRefinement(learnt, {4, 3}, {});
+  EXPECT_EQ(in_sight.heading, 3);
+  EXPECT_EQ(in_sight.horizontal, 2) << "without its caution";
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ struct LoopOptions {
   /// loops reveal errors over kilometres that the sliding window does not see over metres.
   OdometryNoise odometry = LongPathOdometryNoise();
   /// at the end of a run, learn the errors of odometry from the closed loops
-  /// (LearnOdometryFactors)
+  /// (LearnOdometryByLoops)
   bool learn_odometry = true;
   /// false: the pose graph keeps every accepted loop, as in the paper (Eqs. 20, 21)
   bool robust = true;
