@@ -27,6 +27,22 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+// The name that a key is most like, if it is like one.
+std::optional<std::string> Nearest(const std::string& key, const std::vector<std::string>& names) {
+  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
+  std::optional<std::string> nearest;
+  for (const std::string& name : names) {
+    const std::size_t longer = std::max(key.size(), name.size()),
+                      shorter = std::min(key.size(), name.size());
+    if (longer - shorter >= least) continue;  // so many letters differ at least
+    const std::size_t distance = EditDistance(key, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
 std::string Plain(double value) {
   std::ostringstream stream;
   stream << value;
@@ -212,12 +228,7 @@ class ConfigLoader final : public FieldVisitor {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
       std::string message = "unknown key '" + key + "'" + In();
-      const auto nearest =
-          std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
-            return EditDistance(key, a) < EditDistance(key, b);
-          });
-      if (nearest != known_.end() &&
-          EditDistance(key, *nearest) <= std::max<std::size_t>(2, key.size() / 3))
+      if (const auto nearest = Nearest(key, known_))
         message += " - did you mean '" + *nearest + "'?";
       Problem(entry.first, message);
     }
