@@ -12,26 +12,28 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// H = J^T J over all states that are not constant, cameras first.
-Sparse Hessian(const BaProblem& problem, const BaOptions& options) {
+// H = J^T J over all states that are not constant, cameras first. None: a residual is not finite.
+std::optional<Sparse> Hessian(const BaProblem& problem, const BaOptions& options) {
   BaTerms terms(problem, options);
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.num_threads = 1;  // fixed order of sums
   evaluate.apply_loss_function = false;
   evaluate.parameter_blocks = terms.States();
   ceres::CRSMatrix rows;
-  terms.ceres().Evaluate(evaluate, nullptr, nullptr, nullptr, &rows);
+  if (!terms.ceres().Evaluate(evaluate, nullptr, nullptr, nullptr, &rows)) return std::nullopt;
   const Sparse jacobian = Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
       rows.num_rows, rows.num_cols, static_cast<int>(rows.values.size()), rows.rows.data(),
       rows.cols.data(), rows.values.data());
-  return jacobian.transpose() * jacobian;
+  return Sparse(jacobian.transpose() * jacobian);
 }
 
 }  // namespace
 
 std::optional<std::vector<double>> PathVariances(const BaProblem& problem, const BaOptions& options,
                                                  const std::vector<Eigen::Matrix3Xd>& functions) {
-  const Eigen::SimplicialLDLT<Sparse> hessian(Hessian(problem, options));
+  const std::optional<Sparse> h = Hessian(problem, options);
+  if (!h) return std::nullopt;
+  const Eigen::SimplicialLDLT<Sparse> hessian(*h);
   if (hessian.info() != Eigen::Success) return std::nullopt;
   std::vector<double> variances;
   for (const Eigen::Matrix3Xd& function : functions) {

@@ -12,7 +12,7 @@ namespace sslcd {
 /// problem: var(sum_i d_i . p_i) = d^T H^-1 d, with the Gauss-Newton Hessian H at the current
 /// states. Without the losses: they give ordinary errors a part of their weight, too, which is no
 /// lack of information. Each function is a matrix with the d_i as columns, in the world. None: H is
-/// singular.
+/// singular, or a residual is not finite.
 std::optional<std::vector<double>> PathVariances(const BaProblem& problem, const BaOptions& options,
                                                  const std::vector<Eigen::Matrix3Xd>& functions);
 

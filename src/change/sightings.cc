@@ -27,7 +27,7 @@ Sightings::Sightings(HistoryWorld world) : world_(std::move(world)) {
 void Sightings::AddFrame(const HistoryFrame& frame) {
   FrameSightings kept{frame.session, frame.map, frame.stamp, frame.T_world_cam, {}, {}};
   for (const Detection& detection : frame.detections) {
-    if (!HasFiniteGeometry(detection)) continue;  // as in the mapper
+    if (!HasValidGeometry(detection)) continue;  // as in the mapper
     const auto found = landmark_of_.find({frame.number, detection.row});
     if (found == landmark_of_.end()) {
       kept.passing.push_back(SilhouetteOf(detection.T_cam_object, detection.dims));

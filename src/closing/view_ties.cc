@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/finite.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -35,7 +36,7 @@ int FindOverlappingView(const FrameStore& frames, int i, const PathGraph& path, 
 
 bool IsMeasurement(const RelativePose& pose) {
   constexpr double kLeastVariance = 1e-12;  // a smaller variance is rounding error [m^2, rad^2]
-  if (!pose.T_a_b.Log().allFinite() || !pose.covariance.allFinite()) return false;
+  if (!IsPose(pose.T_a_b) || !pose.covariance.allFinite()) return false;
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(pose.covariance);
   return ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > kLeastVariance;
 }

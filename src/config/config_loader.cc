@@ -27,6 +27,22 @@ std::size_t EditDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+// The name that a key is most like, if it is like one.
+std::optional<std::string> Nearest(const std::string& key, const std::vector<std::string>& names) {
+  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
+  std::optional<std::string> nearest;
+  for (const std::string& name : names) {
+    const std::size_t longer = std::max(key.size(), name.size()),
+                      shorter = std::min(key.size(), name.size());
+    if (longer - shorter >= least) continue;  // so many letters differ at least
+    const std::size_t distance = EditDistance(key, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest;
+}
+
 std::string Plain(double value) {
   std::ostringstream stream;
   stream << value;
@@ -104,10 +120,11 @@ class ConfigLoader final : public FieldVisitor {
 
   void Numbers(const char* key, std::vector<double>& values, double low, double high,
                const char*) override {
-    const YAML::Node node =
+    const std::optional<YAML::Node> node =
         Collection(key, YAML::NodeType::Sequence, "a list of numbers, e.g. [1, 2]");
+    if (!node) return;
     std::vector<double> read;
-    for (const auto& item : node) {
+    for (const auto& item : *node) {
       const std::optional<double> number =
           item.IsScalar() ? ParseNumber(item.Scalar()) : std::nullopt;
       if (!number) return WrongType(item, key, "a list of numbers");
@@ -115,14 +132,15 @@ class ConfigLoader final : public FieldVisitor {
         return OutOfRange(item, key, Plain(low), Plain(high));
       read.push_back(*number);
     }
-    if (apply_ && node.IsSequence()) values = read;
+    if (apply_) values = read;
   }
 
   void Names(const char* key, std::map<int, std::string>& names, const char*) override {
-    const YAML::Node node =
+    const std::optional<YAML::Node> node =
         Collection(key, YAML::NodeType::Map, "names by number, e.g. {2: Car, 7: Truck}");
+    if (!node) return;
     std::map<int, std::string> read;
-    for (const auto& entry : node) {
+    for (const auto& entry : *node) {
       const std::string number = entry.first.IsScalar() ? entry.first.Scalar() : "";
       if (number.empty() || number.size() > 6 ||
           number.find_first_not_of("0123456789") != std::string::npos)
@@ -132,53 +150,54 @@ class ConfigLoader final : public FieldVisitor {
       if (!read.emplace(std::stoi(number), entry.second.Scalar()).second)
         return Problem(entry.first, "duplicate number " + number + " in '" + key + "'");
     }
-    if (apply_ && node.IsMap()) names = read;
+    if (apply_) names = read;
   }
 
   void Section(const char* key, const char*,
                const std::function<void(FieldVisitor&)>& describe) override {
     known_.push_back(key);
-    const YAML::Node child = Find(key);
-    if (!child.IsDefined() || child.IsNull()) return;
-    if (!child.IsMap())
-      return Problem(child, "'" + std::string(key) + "' is a section: expected a map of keys");
+    const std::optional<YAML::Node> child = Find(key);
+    if (!child || child->IsNull()) return;
+    if (!child->IsMap())
+      return Problem(*child, "'" + std::string(key) + "' is a section: expected a map of keys");
     const YAML::Node outer = node_;
-    const std::vector<std::string> outer_known = std::move(known_);
+    std::vector<std::string> outer_known = std::move(known_);
     const std::string outer_path = path_;
-    node_.reset(child);
+    node_.reset(*child);
     known_.clear();
     path_ = key;
     CheckDuplicates();
     describe(*this);
     CheckUnknown();
     node_.reset(outer);
-    known_ = outer_known;
+    known_ = std::move(outer_known);
     path_ = outer_path;
   }
 
  private:
-  YAML::Node Find(const char* key) const {
+  std::optional<YAML::Node> Find(const char* key) const {
     for (const auto& entry : node_)
       if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
-    return YAML::Node(YAML::NodeType::Undefined);
+    return std::nullopt;
   }
 
-  /// The list or map of this key; undefined if the key is missing or has another type.
-  YAML::Node Collection(const char* key, YAML::NodeType::value type, const char* expected) {
+  /// The list or map of this key; none if the key is missing or has another type.
+  std::optional<YAML::Node> Collection(const char* key, YAML::NodeType::value type,
+                                       const char* expected) {
     known_.push_back(key);
-    YAML::Node node = Find(key);
-    if (!node.IsDefined() || node.Type() == type) return node;
-    WrongType(node, key, expected);
-    return YAML::Node(YAML::NodeType::Undefined);
+    std::optional<YAML::Node> node = Find(key);
+    if (!node || node->Type() == type) return node;
+    WrongType(*node, key, expected);
+    return std::nullopt;
   }
 
   template <class Use>
   void Scalar(const char* key, const char* expected, const Use& use) {
     known_.push_back(key);
-    const YAML::Node node = Find(key);
-    if (!node.IsDefined()) return;
-    if (!node.IsScalar()) return WrongType(node, key, expected);
-    use(node);
+    const std::optional<YAML::Node> node = Find(key);
+    if (!node) return;
+    if (!node->IsScalar()) return WrongType(*node, key, expected);
+    use(*node);
   }
 
   void Problem(const YAML::Node& at, const std::string& message) {
@@ -212,12 +231,7 @@ class ConfigLoader final : public FieldVisitor {
       const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
       if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
       std::string message = "unknown key '" + key + "'" + In();
-      const auto nearest =
-          std::min_element(known_.begin(), known_.end(), [&](const auto& a, const auto& b) {
-            return EditDistance(key, a) < EditDistance(key, b);
-          });
-      if (nearest != known_.end() &&
-          EditDistance(key, *nearest) <= std::max<std::size_t>(2, key.size() / 3))
+      if (const auto nearest = Nearest(key, known_))
         message += " - did you mean '" + *nearest + "'?";
       Problem(entry.first, message);
     }

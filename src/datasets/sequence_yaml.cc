@@ -115,15 +115,31 @@ bool IsPlainWord(const std::string& text) {
   return !lower.empty() && reserved.count(lower) == 0;
 }
 
-/// A label as a key that every YAML reader takes for this text, up to its value.
+/// Quoted, with bytes from 0x80 as they are.
+std::string QuotedBytes(const std::string& text) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < ' ' || byte == 0x7f)
+      quoted += std::string("\\x") + kDigits[byte >> 4] + kDigits[byte & 0xf];
+    else
+      quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+std::string Quoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  // The emitter writes U+FFFD for what is not UTF-8: two labels in Latin-1 would become one.
+  return YAML::Load(emitter.c_str()).Scalar() == text ? emitter.c_str() : QuotedBytes(text);
+}
+
+/// A label as a key that every YAML reader takes for this text (if it is UTF-8), up to its value.
 std::string YamlKey(const std::string& label) {
   constexpr std::size_t kMostImplicit = 1000;  // 1024 characters in YAML 1.2, 7.4.2
-  std::string key = label;
-  if (!IsPlainWord(label)) {
-    YAML::Emitter emitter;
-    emitter << YAML::DoubleQuoted << label;
-    key = emitter.c_str();
-  }
+  const std::string key = IsPlainWord(label) ? label : Quoted(label);
   return key.size() <= kMostImplicit ? "  " + key + ": " : "  ? " + key + "\n  : ";
 }
 

@@ -87,9 +87,11 @@ RawImage ReadTiffHeader(RawFile& file) {
   const std::uint32_t strip = directory.Value(kRowsPerStrip, height);
   if (strip == 0 || (height - 1) / strip >= directory.Count(kStripOffsets))
     file.Refuse("is a TIFF that does not say where its pixels are");
-  for (std::uint32_t row = 0; row < height; ++row)
-    image.rows.push_back(directory.Value(kStripOffsets, 0, row / strip) +
-                         image.RowBytes() * (row % strip));
+  std::uint64_t begin = 0;  // of the strip
+  for (std::uint32_t row = 0; row < height; ++row) {
+    if (row % strip == 0) begin = directory.Value(kStripOffsets, 0, row / strip);
+    image.rows.push_back(begin + image.RowBytes() * (row % strip));
+  }
   return image;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 bool IsValid(const Detection& detection) {
   const auto is_finite = [](double value) { return std::isfinite(value); };
-  return detection.score >= 0 && detection.score <= 1 && HasFiniteGeometry(detection) &&
+  return detection.score >= 0 && detection.score <= 1 && HasValidGeometry(detection) &&
          std::all_of(std::begin(kCueRows), std::end(kCueRows), [&](const CueRow& row) {
            const std::vector<float>& vector = detection.appearance[row.cue];
            return std::all_of(vector.begin(), vector.end(), is_finite);

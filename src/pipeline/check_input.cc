@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/finite.h"
 #include "sslcd/core/error.h"
 
 namespace sslcd {
@@ -31,6 +32,8 @@ void CheckFrame(const Frame& frame, const FrameStore& frames, bool starts_sequen
   const std::string name = "frame " + std::to_string(frame.index);
   if (!std::isfinite(frame.T_odom_cam.Log().sum()) || !std::isfinite(frame.stamp))
     Refuse(name + ": its pose or stamp is not finite");
+  if (!IsPose(frame.T_odom_cam))
+    Refuse(name + ": the rotation of its pose is none: the quaternion must have length 1");
   if (frame.T_odom_cam.translation().norm() > kFarthest)
     Refuse(name + ": its position is farther away than the Earth is round");
   if (frame.step && !IsValid(*frame.step))

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <new>
 #include <tuple>
 
 namespace sslcd {
@@ -14,8 +15,10 @@ namespace {
 constexpr float kSide = 8;
 constexpr int kHeadings = 18;
 constexpr int kTableBits = 20;
-constexpr float kSteps = 16;           // of weights in a nat
-constexpr std::uint16_t kMost = 4095;  // steps of a cell, 256 nats
+constexpr std::size_t kCells = std::size_t{1} << kTableBits;
+constexpr std::size_t kMostListed = kCells / 16;  // a table with more is read as a whole
+constexpr float kSteps = 16;                      // of weights in a nat
+constexpr std::uint16_t kMost = 4095;             // steps of a cell, 256 nats
 
 std::uint32_t CellOf(const PoseVote& vote, int grid) {
   const float shift = 0.5f * static_cast<float>(grid);
@@ -31,11 +34,8 @@ std::uint32_t CellOf(const PoseVote& vote, int grid) {
   return static_cast<std::uint32_t>((hash ^ hash >> 29) * 0x94D049BB133111EBu >> (64 - kTableBits));
 }
 
-// The weight that about `most` cells have at least.
-int Threshold(const std::vector<std::uint16_t>* tables, std::size_t most) {
-  std::array<std::size_t, kMost + 1> cells{};
-  for (int grid = 0; grid < 2; ++grid)
-    for (const std::uint16_t weight : tables[grid]) ++cells[weight];
+// The weight that about `most` cells have at least, by their number for each weight.
+int Threshold(const std::array<std::size_t, kMost + 1>& cells, std::size_t most) {
   int least = kMost;
   for (std::size_t count = cells[kMost]; count < most && least > 1;) count += cells[--least];
   return least;
@@ -67,13 +67,27 @@ bool AreNear(const PoseVote& a, const PoseVote& b) {
 }  // namespace
 
 PoseVotes::PoseVotes() {
-  for (auto& table : table_) table.resize(std::size_t{1} << kTableBits);
+  for (auto& table : table_) {
+    // zeros that take no memory before a vote falls there
+    table.reset(static_cast<std::uint16_t*>(std::calloc(kCells, sizeof(std::uint16_t))));
+    if (table == nullptr) throw std::bad_alloc();
+  }
+}
+
+// Maybe for zeros, too.
+template <class Function>
+void PoseVotes::ForUsedCells(const Function& function) const {
+  for (int grid = 0; grid < 2; ++grid)
+    if (used_[grid].size() < kMostListed)
+      for (const std::uint32_t cell : used_[grid]) function(table_[grid][cell]);
+    else
+      for (std::size_t cell = 0; cell < kCells; ++cell) function(table_[grid][cell]);
 }
 
 void PoseVotes::Clear() {
-  if (votes_.empty()) return;
   votes_.clear();
-  for (auto& table : table_) std::fill(table.begin(), table.end(), std::uint16_t{0});
+  ForUsedCells([](std::uint16_t& weight) { weight = 0; });
+  for (auto& cells : used_) cells.clear();
 }
 
 void PoseVotes::Add(const PoseVote& vote) {
@@ -82,14 +96,18 @@ void PoseVotes::Add(const PoseVote& vote) {
   for (int grid = 0; grid < 2; ++grid) {
     counted.cell[grid] = CellOf(vote, grid);
     std::uint16_t& sum = table_[grid][counted.cell[grid]];
+    const bool was_zero = sum == 0;
     sum = static_cast<std::uint16_t>(
         std::min<int>(sum + static_cast<int>(vote.weight * kSteps), kMost));
+    if (was_zero && sum != 0 && used_[grid].size() < kMostListed)
+      used_[grid].push_back(counted.cell[grid]);
   }
 }
 
 std::vector<PoseVote> PoseVotes::Best(std::size_t most) const {
-  if (votes_.empty()) return {};  // without a look at the tables
-  const int least = Threshold(table_, 2 * most);
+  std::array<std::size_t, kMost + 1> cells{};  // of each weight
+  ForUsedCells([&](std::uint16_t weight) { ++cells[weight]; });
+  const int least = Threshold(cells, 2 * most);
   // Sites that share a cell of a table by chance are told apart here.
   std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Mean> means;
   for (const auto& [vote, cell] : votes_)

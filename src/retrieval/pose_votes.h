@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "retrieval/site_point.h"
@@ -30,7 +32,7 @@ class PoseVotes {
   void Add(const PoseVote& vote);
 
   /// The means of the cells with most weight, distinct poses, best first. O(votes + size of the
-  /// tables)
+  /// tables); few votes do without the latter
   std::vector<PoseVote> Best(std::size_t most) const;
 
  private:
@@ -38,7 +40,14 @@ class PoseVotes {
     PoseVote vote;
     std::uint32_t cell[2];  // of each table
   };
-  std::vector<std::uint16_t> table_[2];  // [1/16 nat]
+  struct Free {
+    void operator()(void* memory) const { std::free(memory); }
+  };
+  template <class Function>
+  void ForUsedCells(const Function& function) const;
+
+  std::unique_ptr<std::uint16_t[], Free> table_[2];  // [1/16 nat]
+  std::vector<std::uint32_t> used_[2];               // the cells that are not zero
   std::vector<Counted> votes_;
 };
 

@@ -130,9 +130,7 @@ std::vector<std::string> MapStore::Verify() const {
 
 bool HasMap(const std::string& path) {
   std::error_code none;
-  if (!std::filesystem::exists(path, none) || IsEmptyMap(path)) return false;
-  OpenMap(path, Database::Access::kRead);
-  return true;
+  return std::filesystem::exists(path, none) && HoldsMap(path);
 }
 
 void CompactMap(const std::string& path) {

@@ -93,12 +93,15 @@ const std::string& PresentSchemaText() {
   return text;
 }
 
-bool IsEmptyMap(const std::string& path) {
+bool HoldsMap(const std::string& path) {
   std::error_code none;
   if (fs::is_directory(path, none)) Refuse(path, "is a folder; name a file");
   Database database(path, Database::Access::kRead);
   const FileKind kind = KindOf(database, PresentVersion());
-  return kind == FileKind::kEmpty || (kind == FileKind::kMap && !HasSite(database));
+  if (kind == FileKind::kEmpty || (kind == FileKind::kMap && !HasSite(database))) return false;
+  database.CheckLength();
+  CheckKind(database, Database::Access::kRead);
+  return true;
 }
 
 Database OpenMap(const std::string& path, Database::Access access) {

@@ -33,8 +33,9 @@ std::string SchemaText(Database& database);
 /// The same of a file of the present schema.
 const std::string& PresentSchemaText();
 
-/// Whether the file, which must be there, is a map that has no session yet.
-bool IsEmptyMap(const std::string& path);
+/// Whether the file, which must be there, is a map with a session. Throws Error as OpenMap does,
+/// but not for a map without one.
+bool HoldsMap(const std::string& path);
 
 /// Opens a map and checks what the file is. With Access::kCreate it makes the tables of a new one;
 /// with it and kWrite, those of an older schema are updated. Throws Error as Database does, and

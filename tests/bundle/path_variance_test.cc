@@ -81,6 +81,12 @@ TEST(PathVariances, ObjectsMakeThemSmaller) {
   EXPECT_LT((*PathVariances(with, options, end))[0], (*PathVariances(without, options, end))[0]);
 }
 
+TEST(PathVariances, ThereAreNoneWhereAResidualIsNotFinite) {
+  BaProblem problem = Street(11);
+  problem.objects[1].pose.position.x() = std::nan("");
+  EXPECT_FALSE(PathVariances(problem, {}, {Only(10, 11, Vec3::UnitX())}).has_value());
+}
+
 // Disturbs all measurements by their noise, optimises, and compares the scatter of the last camera.
 TEST(PathVariances, AreTheScatterOfManyRuns) {
   const BaProblem truth = Street(20);

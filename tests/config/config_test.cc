@@ -75,6 +75,10 @@ TEST(Config, UnknownKeysAreSuggestedWithTheirPlace) {
   EXPECT_EQ(ErrorOf("on: true\nloop:\n  topolgy_m: 3\n"),
             "c.yaml:3:3: unknown key 'topolgy_m' in 'loop' - did you mean 'topology_m'?");
   EXPECT_EQ(ErrorOf("quite_else: 3\n"), "c.yaml:1:1: unknown key 'quite_else'");
+  // two letters, or a third of them, may be wrong; the first of two names that are as near
+  EXPECT_EQ(ErrorOf("mo: fast\n"), "c.yaml:1:1: unknown key 'mo' - did you mean 'mode'?");
+  EXPECT_EQ(ErrorOf("nameee: x\n"), "c.yaml:1:1: unknown key 'nameee' - did you mean 'name'?");
+  EXPECT_EQ(ErrorOf("nameeee: x\n"), "c.yaml:1:1: unknown key 'nameeee'");
 }
 
 TEST(Config, AllProblemsAtOnce) {

@@ -59,7 +59,9 @@ TEST(SequenceYaml, LabelsComeBackAsWritten) {
                                            "a #b", "{x}", "\"q\"", "'", "~", "B\\n", "two words",
                                            " x ", "line\nbreak", "Stra\u00dfe", "",
                                            // longer than an implicit key may be
-                                           std::string(1100, 'x'), std::string(600, '\n') + ": y"};
+                                           std::string(1100, 'x'), std::string(600, '\n') + ": y",
+                                           // Latin-1, and no text
+                                           "Stra\337e", "Stra\344e", "\233\234 \"\\\n\177"};
   SequenceInfo info;
   for (const std::string& label : labels) info.labels.Set(label, {Symmetry::kPi});
   const TempFolder folder;

@@ -30,7 +30,7 @@ TEST(FilterDetections, AnObjectLongerThanTheLargestIsDropped) {
 
 TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   std::vector<Detection> detections;
-  for (int row = 0; row < 12; ++row) detections.push_back(Car(row));
+  for (int row = 0; row < 14; ++row) detections.push_back(Car(row));
   detections[1].score = 0.49;
   detections[2].T_cam_object.translation().z() = 71;
   detections[3].dims.x() = 31;
@@ -41,6 +41,8 @@ TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   detections[9].score = 7;  // a logit
   detections[10].appearance[Cue::kEmbedding] = {1, std::nanf("")};
   detections[11].score = -0.1;
+  detections[12].T_cam_object.data()[0] = -4.5e104;  // a quaternion of this length
+  detections[13].T_cam_object.data()[3] = 0;
 
   const FilterReport report = FilterDetections(detections, {});
 
@@ -48,8 +50,8 @@ TEST(FilterDetections, CountsEachReasonAndKeepsTheOrder) {
   EXPECT_EQ(report.low_score, 1);
   EXPECT_EQ(report.too_far, 1);
   EXPECT_EQ(report.wrong_size, 2);
-  EXPECT_EQ(report.invalid, 6);
-  EXPECT_EQ(report.kept + report.dropped(), 12);
+  EXPECT_EQ(report.invalid, 8);
+  EXPECT_EQ(report.kept + report.dropped(), 14);
   ASSERT_EQ(detections.size(), 2u);
   EXPECT_EQ(detections[0].row, 0);
   EXPECT_EQ(detections[1].row, 8);

@@ -42,6 +42,9 @@ TEST(CheckFrame, ABadFrameIsRefusedAndTheMapperStaysAsItWas) {
   ExpectRefused(add(FrameAt(6, kNan, 1)), "not finite");
   ExpectRefused(add(FrameAt(6, 2, kNan)), "not finite");
   ExpectRefused(add(FrameAt(6, 2, 1e200)), "Earth");
+  Frame longer = FrameAt(6, 2, 1);
+  longer.T_odom_cam.data()[3] = 1.1;
+  ExpectRefused(add(longer), "quaternion");
   Frame frame = FrameAt(6, 2, 1);
   frame.step = StepUncertainty{false, -1, 0};
   ExpectRefused(add(frame), "step");

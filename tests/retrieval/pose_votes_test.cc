@@ -27,6 +27,21 @@ TEST(PoseVotes, TheBestIsWhereMostAgree) {
   EXPECT_TRUE(votes.Best(5).empty());
 }
 
+TEST(PoseVotes, ManyVotesAreCountedAndForgotten) {
+  PoseVotes votes;
+  for (std::uint32_t site = 0; site < 200000; ++site) votes.Add({site, {0, 2, 2}, 1});
+  for (int i = 0; i < 9; ++i) votes.Add({3, {1.5f, 101, -41}, 2});
+  const std::vector<PoseVote> best = votes.Best(5);
+  ASSERT_FALSE(best.empty());
+  EXPECT_EQ(best[0].site, 3u);
+  EXPECT_NEAR(best[0].weight, 18, 1e-5);
+  votes.Clear();
+  EXPECT_TRUE(votes.Best(5).empty());
+  votes.Add({7, {0, 2, 2}, 0.5f});  // weighs less than what was there
+  ASSERT_EQ(votes.Best(5).size(), 1u);
+  EXPECT_NEAR(votes.Best(5)[0].weight, 0.5, 1e-6);
+}
+
 TEST(PoseVotes, HeadingsWrapAndSitesDiffer) {
   PoseVotes votes;
   for (const float yaw : {-0.02f, 0.02f, static_cast<float>(2 * M_PI) - 0.01f})

@@ -23,7 +23,8 @@ void DescribeFields(FieldVisitor& visitor, DetectionFilterOptions& options);
 /// Counts of filtered detections. Each detection counts once, for the first reason that applies.
 struct FilterReport {
   int kept = 0;
-  /// NaN or infinity in pose, size, score or appearance, or a score that is no probability
+  /// NaN or infinity in pose, size, score or appearance, a quaternion whose length is not 1, or a
+  /// score that is no probability
   int invalid = 0;
   int low_score = 0;
   int too_far = 0;

@@ -135,8 +135,9 @@ class Mapper {
   /// Adds the next frame in order of time. O(window) for any size of the map, except for attempts
   /// to close a loop. The detections of a frame whose step is lost are not used, since nothing
   /// tells where they are. Throws Error(kBadInput) and keeps its state if the number or the stamp
-  /// does not increase, the pose is not finite or absurdly far away, or a standard deviation of the
-  /// step is negative or not finite. Counts invalid detections (FrameReport::filter).
+  /// does not increase, the pose is not finite, no rotation or absurdly far away, or a standard
+  /// deviation of the step is negative or not finite. Counts invalid detections
+  /// (FrameReport::filter).
   FrameReport AddFrame(const Frame& frame);
 
   /// The next frame begins a new sequence on the same map, e.g. after a restart of the odometry, or
