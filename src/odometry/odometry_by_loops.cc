@@ -203,7 +203,7 @@ OdometryByLoops LearnOdometryByLoops(const PoseGraph& graph, const Vec3& up, dou
   learnt.heading = std::exp(best[1]);
   learnt.turn = learnt.heading * learnt.heading * all.turn_variance *
                 all.turn.dot(CovarianceOf(all, best).solve(all.error));
-  return learnt;
+  return std::isfinite(learnt.turn) ? learnt : OdometryByLoops();
 }
 
 }  // namespace sslcd
