@@ -111,7 +111,7 @@ def solve_site(members: List[Record], out: str, settings: FleetSettings) -> Reco
         name = f"{key}.db"
         path, groups_path = place(out, "sites", name), place(out, "sites", f"{key}.json")
         if os.path.exists(groups_path):
-            told = {**read_json(groups_path), "reused": True}
+            told: Record = {**read_json(groups_path), "reused": True}
         else:
             told = _merge(members, path, groups_path)
         told.update(key=key, map=path if len(told["groups"]) == 1 else "")
